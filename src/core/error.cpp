@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/error.h"
+
+#include <utility>
+
+namespace navvy {
+
+std::string Fault::text() const {
+  std::string out;
+  if (!file.empty()) {
+    out += file;
+    if (line > 0) out += ":" + std::to_string(line);
+    out += ": ";
+  }
+  out += severity == Severity::kError ? "error: " : "warning: ";
+  if (!element.empty()) out += element + ": ";
+  if (!value.empty()) out += "'" + value + "': ";
+  out += rule;
+  if (!remedy.empty()) out += " (" + remedy + ")";
+  return out;
+}
+
+namespace {
+std::string join(const std::vector<Fault>& faults) {
+  std::string out;
+  for (const Fault& fault : faults) {
+    if (!out.empty()) out += "\n";
+    out += fault.text();
+  }
+  return out;
+}
+}  // namespace
+
+InputError::InputError(std::vector<Fault> faults) : Error(join(faults)), faults_(std::move(faults)) {}
+InputError::InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
+
+}  // namespace navvy

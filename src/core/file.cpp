@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace navvy {
+namespace {
+
+[[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
+  throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
+}
+
+void write_bytes(const std::string& path, const char* data, std::size_t size) {
+  const std::string part = partial_name(path);
+  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) fail("create", part, errno);
+  while (size > 0) {
+    const ssize_t n = ::write(fd, data, size);
+    if (n < 0) {
+      if (errno == EINTR) continue;
+      const int code = errno;
+      ::close(fd);
+      ::unlink(part.c_str());
+      fail("write", part, code);
+    }
+    data += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  if (::close(fd) != 0) fail("close", part, errno);
+  commit_file(path);
+}
+
+}  // namespace
+
+std::string partial_name(const std::string& path) { return path + ".part"; }
+
+void commit_file(const std::string& path) {
+  const std::string part = partial_name(path);
+  const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) fail("open", part, errno);
+  const int flushed = ::fsync(fd);
+  const int code = errno;
+  ::close(fd);
+  if (flushed != 0) {
+    ::unlink(part.c_str());
+    fail("flush", part, code);
+  }
+  if (std::rename(part.c_str(), path.c_str()) != 0) {
+    const int cause = errno;
+    ::unlink(part.c_str());
+    fail("rename to", path, cause);
+  }
+}
+
+void write_file_atomically(const std::string& path, const std::string& content) {
+  write_bytes(path, content.data(), content.size());
+}
+void write_file_atomically(const std::string& path, const std::vector<char>& content) {
+  write_bytes(path, content.data(), content.size());
+}
+
+std::vector<char> read_file(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) fail("read", path, errno);
+  std::vector<char> content;
+  char buffer[65536];
+  std::size_t n;
+  while ((n = std::fread(buffer, 1, sizeof buffer, file)) > 0) content.insert(content.end(), buffer, buffer + n);
+  const bool bad = std::ferror(file) != 0;
+  const int code = errno;
+  std::fclose(file);
+  if (bad) fail("read", path, code);
+  return content;
+}
+
+}  // namespace navvy

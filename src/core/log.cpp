@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/log.h"
+
+#include <utility>
+
+namespace navvy {
+namespace {
+LogSink& sink() {
+  static LogSink instance;
+  return instance;
+}
+}  // namespace
+
+void set_log_sink(LogSink replacement) { sink() = std::move(replacement); }
+
+void log(LogLevel level, const std::string& text) {
+  if (sink()) sink()(level, text);
+}
+
+}  // namespace navvy

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors, poses and the few constants everybody shares. SI units, right-handed frames, z up.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace navvy {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Vec2i = Eigen::Vector2i;
+using Vec3i = Eigen::Vector3i;
+using Mat3 = Eigen::Matrix3d;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+/// Rigid pose; `X_WB * p_B` is the point p given in B, expressed in W.
+using Pose = Eigen::Isometry3d;
+
+inline constexpr double kGravity = 9.81;  ///< [m/s^2]
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
+
+/// Mass is counted in integers of this quantum [kg], a power of two so that float holds a particle's mass exactly.
+inline constexpr double kMassQuantum = 1.0 / (1 << 24);
+inline double kilograms(std::int64_t units) { return static_cast<double>(units) * kMassQuantum; }
+inline std::int64_t mass_units(double kg) { return static_cast<std::int64_t>(std::llround(kg / kMassQuantum)); }
+
+/// Pose from x y z [m], roll pitch yaw [rad], fixed-axis order as in SDF and URDF.
+inline Pose make_pose(double x, double y, double z, double roll = 0, double pitch = 0, double yaw = 0) {
+  Pose X = Pose::Identity();
+  X.linear() = (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
+                Eigen::AngleAxisd(roll, Vec3::UnitX()))
+                   .toRotationMatrix();
+  X.translation() = Vec3(x, y, z);
+  return X;
+}
+
+}  // namespace navvy

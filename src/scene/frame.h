@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Frame is everything a renderer or sensor needs of one instant: shapes with poses, the ground, loose particles.
+// It refers to no solver; sim fills it, render draws it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/machine.h"
+#include "scene/world.h"
+
+namespace navvy::scene {
+
+/// A visual placed in the world. `visual` outlives the frame.
+struct FrameShape {
+  const Visual* visual = nullptr;
+  Pose X_WV = Pose::Identity();
+};
+
+/// A hydraulic cylinder to draw between its two pins [m] in W.
+struct FrameCylinder {
+  Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
+  double radius = 0.06;
+  double barrel_length = 0.5;
+};
+
+/// Dense copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5) cell; x fastest.
+struct FrameGround {
+  int nx = 0, ny = 0;
+  double cell = 0.1;             ///< [m]
+  Vec2 origin = Vec2::Zero();    ///< lower-left corner of column (0,0) in W [m]
+  std::vector<float> height;     ///< [m], nx * ny
+  std::vector<float> change;     ///< height - height at the start [m]; the dug and dumped parts
+  std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
+  std::vector<Color> soil_color;
+  std::uint64_t revision = 0;    ///< changes whenever any height changed
+  int dirty_x0 = 0, dirty_y0 = 0, dirty_x1 = 0, dirty_y1 = 0;  ///< half-open rectangle changed since the last frame
+};
+
+struct FrameParticles {
+  std::vector<float> position;     ///< xyz in W [m], relative to `origin`
+  Vec3 origin = Vec3::Zero();
+  std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
+  double radius = 0.04;            ///< [m]
+};
+
+struct Frame {
+  double time = 0;  ///< [s]
+  std::vector<FrameShape> shapes;
+  std::vector<FrameCylinder> cylinders;
+  FrameGround ground;
+  FrameParticles particles;
+  std::vector<Light> lights;
+};
+
+/// A camera resolved for one frame: pose with x right, y up, looking along -z (OpenGL).
+struct FrameCamera {
+  Pose X_WC = Pose::Identity();
+  double fov = radians(50);  ///< horizontal [rad]
+  int width = 1280, height = 720;
+};
+
+}  // namespace navvy::scene

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground of a site: a heightmap file or procedural shapes, in layers of soil.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+
+namespace navvy::scene {
+
+/// One procedural shape added to the flat ground. Heights of `add` shapes are summed in file order, then clipped to the
+/// datum (bedrock).
+struct GroundFeature {
+  enum class Kind {
+    kSlope,      ///< whole site: height grows by tan(angle) along `yaw`, zero at `center`
+    kHills,      ///< whole site: seeded smooth noise, peak-to-valley `height`, wavelength `length`
+    kStockpile,  ///< cone of `height` standing at `angle` (0: the soil's friction angle) on `center`
+    kTrench,     ///< cut `depth`=height, `length` x `width`, sides at `angle` from vertical 0 = vertical
+    kBank,       ///< step of `height` across the line through `center` along `yaw`; rises to its left at `angle` face
+    kBlock       ///< free-standing block `length` x `width` x `height`, vertical faces
+  };
+  Kind kind = Kind::kSlope;
+  Vec2 center = Vec2::Zero();  ///< [m] in W
+  double yaw = 0;              ///< [rad]
+  double length = 1;           ///< along yaw [m]
+  double width = 1;            ///< across yaw [m]
+  double height = 1;           ///< [m]; a trench's depth
+  double angle = 0;            ///< [rad]
+  std::uint64_t seed = 1;      ///< hills
+};
+
+/// A soil layer, listed from the surface down. The last one reaches to the bottom whatever its thickness.
+struct GroundLayer {
+  std::string soil;      ///< name in World::soils
+  double thickness = 0;  ///< [m]
+};
+
+/// A rectangle where the layers differ from the site's.
+struct GroundPatch {
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
+  std::vector<GroundLayer> layers;
+};
+
+/// What to do with a heightmap's slopes that exceed the soil's repose.
+enum class SteepGround { kHold, kSettle };
+
+struct Ground {
+  std::string file;           ///< GeoTIFF or ESRI ASCII; empty: procedural
+  bool has_at = false;        ///< centre of the crop was given
+  bool at_is_local = false;   ///< `at` counts from the file's lower-left corner, not in its own coordinates
+  Vec2 at = Vec2::Zero();     ///< [m]
+  Vec2 size = Vec2(20, 20);   ///< extent of the site [m]; W's origin is the site's centre unless `origin` says otherwise
+  Vec2 origin = Vec2(-10, -10);  ///< W coordinates of the site's lower-left corner [m]
+  bool has_origin = false;       ///< false: origin = -size / 2
+  double surface = 0;            ///< height of the flat ground of a procedural site [m]
+  double depth = 4;              ///< soil below the lowest point of the surface; bedrock under it [m]
+  SteepGround steep = SteepGround::kHold;
+  std::vector<GroundFeature> features;
+  std::vector<GroundLayer> layers;  ///< at least one
+  std::vector<GroundPatch> patches;
+};
+
+}  // namespace navvy::scene

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/world.h"
+
+namespace navvy::scene {
+
+int World::soil_index(const std::string& name_of_soil) const {
+  for (std::size_t i = 0; i < soils.size(); ++i)
+    if (soils[i].name == name_of_soil) return static_cast<int>(i);
+  return -1;
+}
+
+int World::machine_index(const std::string& name_of_machine) const {
+  for (std::size_t i = 0; i < machines.size(); ++i)
+    if (machines[i].name == name_of_machine) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace navvy::scene

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The particle soil: MLS-MPM on OpenCL where soil moves, columns where it rests.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/math.h"
+#include "core/state_io.h"
+#include "heightfield/ground.h"
+#include "scene/machine.h"
+#include "scene/world.h"
+#include "soil/particle.h"
+
+namespace navvy::device {
+class Device;
+}
+
+namespace navvy::soil {
+
+/// How a tool moves during the coming step. T is the link frame its shell is given in.
+struct ToolMotion {
+  int tool = -1;               ///< from add_tool
+  Pose X_WT = Pose::Identity();
+  Vec3 v_WT = Vec3::Zero();    ///< velocity of T's origin before soil acts [m/s]
+  Vec3 w_WT = Vec3::Zero();    ///< angular velocity [rad/s]
+  /// Inverse of the link's effective (articulated) mass at T's origin, order (angular, linear), axes of W: the change of
+  /// (w, v) per unit of (angular impulse about T's origin, impulse). Zero: scripted, the tool does not yield.
+  Mat6 inverse_mass = Mat6::Zero();
+};
+
+/// What soil did to a tool during one step.
+struct ToolImpulse {
+  Vec3 J_W = Vec3::Zero();  ///< impulse on the tool [N s]
+  Vec3 L_W = Vec3::Zero();  ///< angular impulse about p_W [N m s]
+  Vec3 p_W = Vec3::Zero();  ///< T's origin [m]
+  double normal = 0;        ///< sum of |normal impulses| [N s]
+  double friction = 0;      ///< sum of |tangential impulses| [N s]
+  // Momentum proof of the nodal solve, summed in double: J_W + sum of nodal momentum changes, and its scale.
+  Vec3 residual = Vec3::Zero(), residual_moment = Vec3::Zero();
+  double scale = 0, scale_moment = 0;
+};
+
+/// Counts of the ledger, in kMassQuantum per soil, recounted from the arrays at call time.
+struct Ledger {
+  std::vector<std::int64_t> columns;    ///< change of the ground against its start
+  std::vector<std::int64_t> particles;  ///< sum of particle masses; a particle with a NaN counts as lost (not counted)
+  std::vector<std::int64_t> left_site;  ///< went over the edge
+  std::int64_t error() const;           ///< sum over soils of |columns + particles + left_site|; 0 = closed
+};
+
+struct SolverStats {
+  std::uint64_t steps = 0;
+  std::uint64_t particle_steps = 0;
+  int particles = 0, particles_peak = 0;
+  int blocks = 0;
+  std::uint64_t rebins = 0, wakes = 0, deposits = 0;
+  std::uint64_t shell_crossings = 0;  ///< particles found on the wrong side of a shell, summed over steps
+  double max_speed = 0;               ///< fastest particle at the last re-bin check [m/s]
+};
+
+/// Soil of one world.
+///
+/// Owns the particles; changes the Ground it was given (wake takes columns up, deposit books them back). `step` blocks
+/// until the impulses are on the host. Bit-repeatable on one device and driver.
+class Solver {
+ public:
+  /// @throws InputError for absurd soil, device::DeviceError with the build log.
+  Solver(device::Device& device, const scene::World& world, heightfield::Ground& ground);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// Registers a shell; returns its tool index.
+  int add_tool(const scene::Shell& shell);
+
+  /// Largest stable step at the given fastest speed of tools [s].
+  double step_limit(double tool_speed) const;
+
+  /// Advances soil by dt. `impulses` has one entry per motion.
+  /// @throws SimulationError with step and cause when a value is not finite or the ledger opens.
+  void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+
+  /// Turns every column of the rectangle, from W height z_bottom up, into particles now (tests, rigs, first pictures).
+  void wake(const heightfield::CellRect& rect, double z_bottom);
+  /// Adds free particles (tests and rigs); their mass is booked as new in the ledger.
+  void insert(const std::vector<Particle>& particles);
+
+  /// Host copy in a repeatable order (by id).
+  std::vector<Particle> particles() const;
+  /// Mass [kg] of particles inside the tool's convex hull extended to its mouth: the payload.
+  double payload(int tool, const Pose& X_WT) const;
+
+  Ledger ledger() const;
+  const SolverStats& stats() const;
+  /// Seconds of wall time by stage name ("p2g", "grid", "exchange", ...).
+  std::vector<std::pair<std::string, double>> stage_times() const;
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace navvy::soil

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// One engine interface for machines: Bullet (dynamics) and kinematic (positions as commanded) implement it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/math.h"
+#include "core/state_io.h"
+#include "scene/machine.h"
+
+namespace navvy::vehicle {
+
+enum class JointMode { kFree, kPosition, kVelocity, kEffort };
+
+/// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
+/// cylinder acts on the joint, by its pressure x area x lever arm and pump flow at the present position.
+struct JointInput {
+  JointMode mode = JointMode::kPosition;
+  double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
+};
+
+/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering.
+struct DriveInput {
+  double speed = 0;  ///< forward [m/s]
+  double steer = 0;  ///< bicycle angle at the middle of the front axle, positive to the left [rad]
+  bool brake = true;  ///< hold the place
+};
+
+struct JointState {
+  double position = 0, velocity = 0, effort = 0;  ///< effort as applied by the servo in the last step
+  double effort_limit = 0, velocity_limit = 0;    ///< at this position
+  double cylinder_force = 0;                      ///< [N], 0 where no cylinder acts; positive pushes
+  double cylinder_length = 0;                     ///< [m]
+  bool stalled = false;                           ///< at the effort limit and not moving as told
+};
+
+struct LinkState {
+  Pose X_WL = Pose::Identity();
+  Vec3 v_WL = Vec3::Zero();  ///< of L's origin [m/s]
+  Vec3 w_WL = Vec3::Zero();  ///< [rad/s]
+};
+
+struct WheelState {
+  Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre
+  Vec3 v_W = Vec3::Zero();           ///< of the centre [m/s]
+  double spin = 0;                   ///< [rad/s], positive rolls forward (+x)
+  double steer = 0;                  ///< [rad]
+  Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step [N]
+  double slip = 0;                   ///< longitudinal [-]
+  double sinkage = 0;                ///< [m]
+};
+
+/// What is under a wheel or body, answered by whoever owns the ground (coupling: the heightfield; tests: a plane).
+class GroundQuery {
+ public:
+  virtual ~GroundQuery() = default;
+  virtual double height(double x, double y) const = 0;  ///< [m]
+  virtual Vec3 normal(double x, double y) const = 0;
+  /// Friction coefficient tyre-ground there [-]; negative: use the tyre's own.
+  virtual double friction(double x, double y) const {
+    (void)x, (void)y;
+    return -1;
+  }
+};
+
+/// Machines of one world, stepped together.
+///
+/// Machine, link, joint and wheel indices are those of scene::Machine. Not thread-safe.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// @throws InputError for what this engine cannot build.
+  virtual int add_machine(const scene::Machine& machine, const Pose& X_WM) = 0;
+  virtual int machine_count() const = 0;
+
+  virtual void set_joint(int machine, int joint, const JointInput& input) = 0;
+  virtual void set_drive(int machine, const DriveInput& input) = 0;
+
+  /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
+  /// articulated inertia. Counted in `external_impulse`.
+  virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) = 0;
+  /// Force [N] at p_W during the next step only.
+  virtual void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) = 0;
+
+  /// Advances by dt [s]: joints, hydraulics, tyre forces from `ground`, contacts of collision shapes with ground and
+  /// with each other.
+  virtual void step(double dt, const GroundQuery& ground) = 0;
+  /// Heights for contacts of rigid bodies (not wheels): a dense patch, x fastest, node (0,0) at `corner` [m]. Called
+  /// again whenever ground changed or the machine nears the patch's edge.
+  virtual void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner, const std::vector<float>& height) = 0;
+
+  virtual JointState joint(int machine, int joint) const = 0;
+  virtual LinkState link(int machine, int link) const = 0;
+  virtual WheelState wheel(int machine, int wheel) const = 0;
+  /// Inverse articulated mass at the link's origin, order (angular, linear), axes of W.
+  virtual Mat6 inverse_mass(int machine, int link) const = 0;
+  /// Total momentum of a machine [N s], and mechanical work done by its joints and drive since the start [J].
+  virtual Vec3 momentum(int machine) const = 0;
+  virtual double work(int machine) const = 0;
+  /// Sum of ground impulses (tyres and contacts) on a machine in the last step [N s].
+  virtual Vec3 ground_impulse(int machine) const = 0;
+
+  virtual void hash(StateHash& hash) const = 0;
+  virtual void save(StateWriter& writer) const = 0;
+  virtual void load(StateReader& reader) = 0;
+};
+
+std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity);
+std::unique_ptr<Engine> make_kinematic_engine();
+
+}  // namespace navvy::vehicle
