@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Versioned binary state of modules. A snapshot is a sequence of sections {tag, version, size, bytes}; a reader refuses
-// a version it does not know and a section that is longer or shorter than it reads. Little-endian hosts only (asserted).
+// a version it does not know and a section that is longer or shorter than it reads. Little-endian hosts only
+// (asserted).
 #pragma once
 
 #include <cstdint>

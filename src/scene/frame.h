@@ -29,18 +29,18 @@ struct FrameCylinder {
 /// Dense copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5) cell; x fastest.
 struct FrameGround {
   int nx = 0, ny = 0;
-  double cell = 0.1;             ///< [m]
-  Vec2 origin = Vec2::Zero();    ///< lower-left corner of column (0,0) in W [m]
-  std::vector<float> height;     ///< [m], nx * ny
-  std::vector<float> change;     ///< height - height at the start [m]; the dug and dumped parts
+  double cell = 0.1;               ///< [m]
+  Vec2 origin = Vec2::Zero();      ///< lower-left corner of column (0,0) in W [m]
+  std::vector<float> height;       ///< [m], nx * ny
+  std::vector<float> change;       ///< height - height at the start [m]; the dug and dumped parts
   std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
   std::vector<Color> soil_color;
-  std::uint64_t revision = 0;    ///< changes whenever any height changed
+  std::uint64_t revision = 0;                                  ///< changes whenever any height changed
   int dirty_x0 = 0, dirty_y0 = 0, dirty_x1 = 0, dirty_y1 = 0;  ///< half-open rectangle changed since the last frame
 };
 
 struct FrameParticles {
-  std::vector<float> position;     ///< xyz in W [m], relative to `origin`
+  std::vector<float> position;  ///< xyz in W [m], relative to `origin`
   Vec3 origin = Vec3::Zero();
   std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
   double radius = 0.04;            ///< [m]

@@ -47,11 +47,11 @@ struct GroundPatch {
 enum class SteepGround { kHold, kSettle };
 
 struct Ground {
-  std::string file;           ///< GeoTIFF or ESRI ASCII; empty: procedural
-  bool has_at = false;        ///< centre of the crop was given
-  bool at_is_local = false;   ///< `at` counts from the file's lower-left corner, not in its own coordinates
-  Vec2 at = Vec2::Zero();     ///< [m]
-  Vec2 size = Vec2(20, 20);   ///< extent of the site [m]; W's origin is the site's centre unless `origin` says otherwise
+  std::string file;          ///< GeoTIFF or ESRI ASCII; empty: procedural
+  bool has_at = false;       ///< centre of the crop was given
+  bool at_is_local = false;  ///< `at` counts from the file's lower-left corner, not in its own coordinates
+  Vec2 at = Vec2::Zero();    ///< [m]
+  Vec2 size = Vec2(20, 20);  ///< extent of the site [m]; W's origin is the site's centre unless `origin` says otherwise
   Vec2 origin = Vec2(-10, -10);  ///< W coordinates of the site's lower-left corner [m]
   bool has_origin = false;       ///< false: origin = -size / 2
   double surface = 0;            ///< height of the flat ground of a procedural site [m]

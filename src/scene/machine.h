@@ -18,10 +18,10 @@ struct Color {
 struct Geometry {
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane };
   Kind kind = Kind::kBox;
-  Vec3 size = Vec3::Ones();   ///< box edges [m]; plane: x, y
-  double radius = 0.5;        ///< cylinder (axis z), sphere [m]
-  double length = 1.0;        ///< cylinder [m]
-  std::string mesh_file;      ///< absolute path of an OBJ file
+  Vec3 size = Vec3::Ones();  ///< box edges [m]; plane: x, y
+  double radius = 0.5;       ///< cylinder (axis z), sphere [m]
+  double length = 1.0;       ///< cylinder [m]
+  std::string mesh_file;     ///< absolute path of an OBJ file
   Vec3 scale = Vec3::Ones();
 };
 
@@ -41,9 +41,9 @@ struct Collision {
 
 struct Link {
   std::string name;
-  Pose X_ML = Pose::Identity();  ///< at zero joint positions
-  double mass = 1;               ///< [kg]
-  Vec3 p_LCom = Vec3::Zero();    ///< centre of mass [m]
+  Pose X_ML = Pose::Identity();     ///< at zero joint positions
+  double mass = 1;                  ///< [kg]
+  Vec3 p_LCom = Vec3::Zero();       ///< centre of mass [m]
   Mat3 inertia = Mat3::Identity();  ///< about the centre of mass, axes of L [kg m2]
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
@@ -55,14 +55,14 @@ struct Joint {
   Type type = Type::kFixed;
   int parent = -1;  ///< index into Machine::links; -1 = world
   int child = -1;
-  Pose X_LcJ = Pose::Identity();    ///< joint frame in the child link
-  Vec3 axis = Vec3::UnitZ();        ///< unit, in the joint frame at zero position
-  bool has_limits = false;          ///< false: continuous
-  double lower = 0, upper = 0;      ///< [rad] or [m]
-  double effort = 1e9;              ///< [N m] or [N]; hydraulics may limit further
-  double velocity = 1e9;            ///< [rad/s] or [m/s]
+  Pose X_LcJ = Pose::Identity();  ///< joint frame in the child link
+  Vec3 axis = Vec3::UnitZ();      ///< unit, in the joint frame at zero position
+  bool has_limits = false;        ///< false: continuous
+  double lower = 0, upper = 0;    ///< [rad] or [m]
+  double effort = 1e9;            ///< [N m] or [N]; hydraulics may limit further
+  double velocity = 1e9;          ///< [rad/s] or [m/s]
   double damping = 0, friction = 0;
-  double initial = 0;               ///< position at the start
+  double initial = 0;  ///< position at the start
 };
 
 /// A hydraulic cylinder acting on one joint. Length and lever arm follow from two pins, or from a four-bar linkage.
@@ -70,39 +70,39 @@ struct Joint {
 struct Cylinder {
   std::string name;
   std::string joint;
-  std::string base_link, rod_link;               ///< links that carry the pins
-  Vec3 p_base = Vec3::Zero();                    ///< pin on base_link, in that link's frame [m]
-  Vec3 p_rod = Vec3::Zero();                     ///< pin on rod_link [m] (without a linkage)
-  bool has_linkage = false;                      ///< rod pin sits on a rocker that pushes a coupler to the bucket
-  Vec3 p_rocker = Vec3::Zero();                  ///< rocker pivot on base_link [m]
-  double rocker_rod = 0, rocker_coupler = 0;     ///< pivot to rod pin, pivot to coupler pin [m]
-  double coupler = 0;                            ///< coupler length [m]
-  Vec3 p_coupler = Vec3::Zero();                 ///< coupler pin on rod_link (the bucket) [m]
-  int count = 1;                                 ///< cylinders side by side
-  double bore = 0.12, rod = 0.085;               ///< [m]
-  double pressure = 35e6;                        ///< relief [Pa]
-  double flow = 0.004;                           ///< most oil for this function [m3/s]
+  std::string base_link, rod_link;            ///< links that carry the pins
+  Vec3 p_base = Vec3::Zero();                 ///< pin on base_link, in that link's frame [m]
+  Vec3 p_rod = Vec3::Zero();                  ///< pin on rod_link [m] (without a linkage)
+  bool has_linkage = false;                   ///< rod pin sits on a rocker that pushes a coupler to the bucket
+  Vec3 p_rocker = Vec3::Zero();               ///< rocker pivot on base_link [m]
+  double rocker_rod = 0, rocker_coupler = 0;  ///< pivot to rod pin, pivot to coupler pin [m]
+  double coupler = 0;                         ///< coupler length [m]
+  Vec3 p_coupler = Vec3::Zero();              ///< coupler pin on rod_link (the bucket) [m]
+  int count = 1;                              ///< cylinders side by side
+  double bore = 0.12, rod = 0.085;            ///< [m]
+  double pressure = 35e6;                     ///< relief [Pa]
+  double flow = 0.004;                        ///< most oil for this function [m3/s]
 };
 
 /// A tyre (or a twin pair as one) with its own force law on the ground.
 struct Wheel {
-  std::string joint;             ///< spin joint
-  std::string steer_joint;       ///< empty: not steered
+  std::string joint;        ///< spin joint
+  std::string steer_joint;  ///< empty: not steered
   bool driven = false;
-  double radius = 0.525;         ///< [m]
-  double width = 0.28;           ///< of one tyre [m]
-  double twin_spacing = 0;       ///< centre to centre; 0 = single tyre [m]
-  double stiffness = 1.2e6;      ///< radial, per wheel (pair) [N/m]
-  double damping = 1.5e4;        ///< [N s/m]
-  double friction = 0.8;         ///< tyre on firm ground [-]
+  double radius = 0.525;             ///< [m]
+  double width = 0.28;               ///< of one tyre [m]
+  double twin_spacing = 0;           ///< centre to centre; 0 = single tyre [m]
+  double stiffness = 1.2e6;          ///< radial, per wheel (pair) [N/m]
+  double damping = 1.5e4;            ///< [N s/m]
+  double friction = 0.8;             ///< tyre on firm ground [-]
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
 struct Drive {
-  double max_speed = 2.5;          ///< [m/s]
-  double tractive_force = 100e3;   ///< all driven wheels together [N]
-  double power = 90e3;             ///< [W]
-  double max_steer = radians(35);  ///< inner wheel [rad]
+  double max_speed = 2.5;                ///< [m/s]
+  double tractive_force = 100e3;         ///< all driven wheels together [N]
+  double power = 90e3;                   ///< [W]
+  double max_steer = radians(35);        ///< inner wheel [rad]
   double wheelbase = 2.8, track = 1.94;  ///< [m]; track between king pins
   double steer_rate = radians(30);       ///< [rad/s]
   double brake_force = 150e3;            ///< [N]
@@ -122,16 +122,16 @@ struct Shell {
 struct Bucket {
   std::string link;
   std::string shell;
-  double capacity = 0.8;                ///< heaped [m3]
-  double width = 1.05;                  ///< of the cut [m]
-  Vec3 p_tip = Vec3::Zero();            ///< centre of the cutting edge, link frame [m]
-  Vec3 cut_direction = Vec3::UnitX();   ///< unit, link frame: the way the edge points (along the floor, outward)
-  Vec3 opening = Vec3::UnitZ();         ///< unit, link frame: out of the mouth
+  double capacity = 0.8;               ///< heaped [m3]
+  double width = 1.05;                 ///< of the cut [m]
+  Vec3 p_tip = Vec3::Zero();           ///< centre of the cutting edge, link frame [m]
+  Vec3 cut_direction = Vec3::UnitX();  ///< unit, link frame: the way the edge points (along the floor, outward)
+  Vec3 opening = Vec3::UnitZ();        ///< unit, link frame: out of the mouth
 };
 
 struct Machine {
   std::string name;
-  std::string file;  ///< SDF it came from
+  std::string file;        ///< SDF it came from
   bool kinematic = false;  ///< moved by joint positions only, no dynamics ("engine" kinematic)
   bool fixed_base = false;
   std::vector<Link> links;  ///< links[0] is the base

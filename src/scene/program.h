@@ -14,16 +14,17 @@ namespace navvy::scene {
 struct DriveTo {
   Vec2 target = Vec2::Zero();  ///< [m] in W
   bool has_heading = false;
-  double heading = 0;          ///< [rad]
-  double speed = 1.0;          ///< [m/s]; negative: backwards
-  double tolerance = 0.15;     ///< [m]
+  double heading = 0;       ///< [rad]
+  double speed = 1.0;       ///< [m/s]; negative: backwards
+  double tolerance = 0.15;  ///< [m]
 };
 
 /// Dig a straight trench by whole cycles (scoop, swing, dump, return) until floor and length are reached.
 struct Dig {
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< ends of the centre line at the surface [m] in W; far end first or not
-  double depth = 0.8;      ///< below the surface at the start [m]
-  double width = 1.05;     ///< one bucket wide by default [m]
+  Vec2 from = Vec2::Zero(),
+       to = Vec2::Zero();       ///< ends of the centre line at the surface [m] in W; far end first or not
+  double depth = 0.8;           ///< below the surface at the start [m]
+  double width = 1.05;          ///< one bucket wide by default [m]
   Vec2 dump_at = Vec2::Zero();  ///< where the spoil goes [m] in W
   double dump_height = 1.5;     ///< tip clearance over the ground there [m]
   double pass_depth = 0.25;     ///< depth of one slice [m]

@@ -8,22 +8,22 @@ namespace navvy::scene {
 
 struct Soil {
   std::string name;
-  std::string source;                      ///< where the numbers come from
-  double bank_density = 1540;              ///< undisturbed [kg/m3]
-  double swell = 1.23;                     ///< loose volume / bank volume [-], >= 1
-  double friction_angle = 0.5236;          ///< plane-strain internal friction angle phi [rad]
-  double cohesion = 5000;                  ///< c of intact soil [Pa]
-  double residual_cohesion = 1000;         ///< c_r after remoulding [Pa]
-  double remoulding_strain = 0.5;          ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
-  double loosening_strain = 0.3;           ///< plastic shear over which the swell develops [-]
-  double opening_strain = 0.05;            ///< eps: volume ratio above closed at which cohesion is gone [-]
-  double young_modulus = 1.0e6;            ///< softened for speed [Pa]
+  std::string source;               ///< where the numbers come from
+  double bank_density = 1540;       ///< undisturbed [kg/m3]
+  double swell = 1.23;              ///< loose volume / bank volume [-], >= 1
+  double friction_angle = 0.5236;   ///< plane-strain internal friction angle phi [rad]
+  double cohesion = 5000;           ///< c of intact soil [Pa]
+  double residual_cohesion = 1000;  ///< c_r after remoulding [Pa]
+  double remoulding_strain = 0.5;   ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
+  double loosening_strain = 0.3;    ///< plastic shear over which the swell develops [-]
+  double opening_strain = 0.05;     ///< eps: volume ratio above closed at which cohesion is gone [-]
+  double young_modulus = 1.0e6;     ///< softened for speed [Pa]
   double poisson = 0.3;
-  double tool_friction_angle = 0.349;      ///< delta [rad]
-  double adhesion = 0;                     ///< soil on steel [Pa]
+  double tool_friction_angle = 0.349;  ///< delta [rad]
+  double adhesion = 0;                 ///< soil on steel [Pa]
   // Bekker-Wong plate and Janosi-Hanamoto shear, for tyres on resting ground.
-  double bekker_kc = 5270;                 ///< [N/m^(n+1)]
-  double bekker_kphi = 1515040;            ///< [N/m^(n+2)]
+  double bekker_kc = 5270;       ///< [N/m^(n+1)]
+  double bekker_kphi = 1515040;  ///< [N/m^(n+2)]
   double bekker_n = 0.7;
   double janosi_k = 0.02;                  ///< [m]
   float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear RGB 0..1

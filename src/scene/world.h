@@ -14,9 +14,9 @@
 namespace navvy::scene {
 
 struct Solver {
-  double cell = 0.1;          ///< edge of a soil cell and of a column [m]
-  double courant = 0.5;       ///< share of cell / sound speed
-  double max_step = 0.0017;   ///< base step never exceeds this [s]
+  double cell = 0.1;            ///< edge of a soil cell and of a column [m]
+  double courant = 0.5;         ///< share of cell / sound speed
+  double max_step = 0.0017;     ///< base step never exceeds this [s]
   int max_particles = 2000000;  ///< the awake budget
 };
 
@@ -32,12 +32,12 @@ struct Camera {
   enum class Kind { kFixed, kChase, kOnLink };
   std::string name;
   Kind kind = Kind::kFixed;
-  std::string machine, link;           ///< chase: machine; on_link: both
-  Vec3 position = Vec3(8, -8, 5);      ///< W (fixed), M (chase), L (on link) [m]
-  Vec3 target = Vec3::Zero();          ///< same frame [m]
-  double fov = radians(50);            ///< horizontal [rad]
+  std::string machine, link;       ///< chase: machine; on_link: both
+  Vec3 position = Vec3(8, -8, 5);  ///< W (fixed), M (chase), L (on link) [m]
+  Vec3 target = Vec3::Zero();      ///< same frame [m]
+  double fov = radians(50);        ///< horizontal [rad]
   int width = 1280, height = 720;
-  double rate = 4;                     ///< frames per simulated second
+  double rate = 4;  ///< frames per simulated second
 };
 
 struct Light {

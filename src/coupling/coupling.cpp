@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/coupling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stopwatch.h"
+
+namespace navvy::coupling {
+namespace {
+
+constexpr int kRutInterval = 8;       // steps between presses; a wheel at 2.5 m/s moves 3 cm in between
+constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
+constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
+constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
+constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m (SOIL_SOLVER section 5)
+
+}  // namespace
+
+Coupling::Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+                   heightfield::Ground& ground)
+    : world_(world),
+      dynamic_(engine),
+      kinematic_(kinematic),
+      solver_(solver),
+      ground_(ground),
+      view_(ground),
+      ruts_(ground) {
+  for (std::size_t m = 0; m < world.machines.size(); ++m) {
+    const scene::MachineInWorld& placed = world.machines[m];
+    Pose X_WM = placed.X_WM;
+    if (placed.on_ground) X_WM.translation().z() += ground.sample(X_WM.translation().x(), X_WM.translation().y());
+    vehicle::Engine& home = placed.machine.kinematic ? kinematic : engine;
+    homes_.push_back({&home, home.add_machine(placed.machine, X_WM)});
+    for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
+      const scene::Shell& shell = placed.machine.shells[s];
+      ToolLoad load;
+      load.machine = static_cast<int>(m);
+      load.shell = static_cast<int>(s);
+      load.link = placed.machine.link_index(shell.link);
+      load.tool = solver.add_tool(shell);
+      tools_.push_back(load);
+    }
+  }
+  update_ground_patch();
+}
+
+double Coupling::payload(const ToolLoad& tool) const {
+  return solver_.payload(tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
+}
+
+void Coupling::step(double dt) {
+  if (steps_ % kPatchInterval == 0) {
+    const Lap lap(time_share_.ground);
+    update_ground_patch();
+  }
+  // Soil acts over the interval that starts at these poses.
+  std::vector<Pose> before;
+  before.reserve(tools_.size());
+  for (const ToolLoad& tool : tools_) before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
+  {
+    const Lap lap(time_share_.vehicle);
+    if (dynamic_.machine_count() > 0) dynamic_.step(dt, view_);
+    if (kinematic_.machine_count() > 0) kinematic_.step(dt, view_);
+  }
+  {
+    const Lap lap(time_share_.soil);
+    exchange_with_soil(dt, before);
+  }
+  const Lap lap(time_share_.ground);
+  if (steps_ % kRutInterval == 0) press_ruts();
+  ++steps_;
+}
+
+void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_before) {
+  std::vector<soil::ToolMotion> motions(tools_.size());
+  std::vector<soil::ToolImpulse> impulses(tools_.size());
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const ToolLoad& tool = tools_[i];
+    const vehicle::LinkState link = engine(tool.machine).link(index(tool.machine), tool.link);
+    motions[i].tool = tool.tool;
+    motions[i].X_WT = poses_before[i];
+    motions[i].v_WT = link.v_WL;
+    motions[i].w_WT = link.w_WL;
+    motions[i].inverse_mass = engine(tool.machine).inverse_mass(index(tool.machine), tool.link);
+  }
+  solver_.step(dt, motions, impulses);
+  const double blend = 1 - std::exp(-2 * kPi * kForceCutoff * dt);
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    ToolLoad& tool = tools_[i];
+    const soil::ToolImpulse& impulse = impulses[i];
+    tool.impulse = impulse;
+    tool.force_W = impulse.J_W / dt;
+    tool.moment_W = impulse.L_W / dt;
+    tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
+    if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
+      engine(tool.machine).apply_impulse(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W);
+  }
+}
+
+void Coupling::press_ruts() {
+  for (std::size_t m = 0; m < homes_.size(); ++m) {
+    const scene::Machine& machine = world_.machines[m].machine;
+    for (std::size_t w = 0; w < machine.wheels.size(); ++w)
+      ruts_.press(machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w)));
+  }
+}
+
+void Coupling::update_ground_patch() {
+  if (dynamic_.machine_count() == 0) return;
+  heightfield::CellRect need;
+  const double cell = ground_.cell();
+  for (const Home& home : homes_) {
+    if (home.engine != &dynamic_) continue;
+    const Vec3 p = home.engine->link(home.index, 0).X_WL.translation();
+    const Vec2i low = ground_.column_at(p.x() - kPatchMargin, p.y() - kPatchMargin);
+    const Vec2i high = ground_.column_at(p.x() + kPatchMargin, p.y() + kPatchMargin);
+    need.include({low.x(), low.y(), high.x() + 1, high.y() + 1});
+  }
+  const bool inside = need.x0 >= patch_.x0 && need.y0 >= patch_.y0 && need.x1 <= patch_.x1 && need.y1 <= patch_.y1;
+  if (inside) {
+    const heightfield::CellRect changed = ground_.changed_since(patch_sequence_);
+    const bool touched = !changed.empty() && changed.x0 < patch_.x1 && changed.x1 > patch_.x0 &&
+                         changed.y0 < patch_.y1 && changed.y1 > patch_.y0;
+    if (!touched) return;
+  } else {
+    const int margin = static_cast<int>(std::lround(0.5 * kPatchMargin / cell));
+    patch_ = {need.x0 - margin, need.y0 - margin, need.x1 + margin, need.y1 + margin};
+  }
+  patch_sequence_ = ground_.sequence();
+  const int stride = patch_stride();
+  const int nx = (patch_.x1 - patch_.x0) / stride + 1, ny = (patch_.y1 - patch_.y0) / stride + 1;
+  patch_height_.clear();
+  patch_height_.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      patch_height_.push_back(
+          static_cast<float>(ground_.height(std::clamp(patch_.x0 + i * stride, 0, ground_.nx() - 1),
+                                            std::clamp(patch_.y0 + j * stride, 0, ground_.ny() - 1))));
+  upload_ground_patch();
+}
+
+int Coupling::patch_stride() const {
+  // A wide patch (machines far apart) is sampled more coarsely; wheels never use it.
+  const int span = std::max(patch_.x1 - patch_.x0, patch_.y1 - patch_.y0);
+  return std::max(1, (span + kPatchNodes - 1) / kPatchNodes);
+}
+
+void Coupling::upload_ground_patch() {
+  const int stride = patch_stride();
+  const int nx = (patch_.x1 - patch_.x0) / stride + 1, ny = (patch_.y1 - patch_.y0) / stride + 1;
+  const Vec2 corner = ground_.origin() + ground_.cell() * Vec2(patch_.x0 + 0.5, patch_.y0 + 0.5);
+  dynamic_.set_ground_patch(nx, ny, stride * ground_.cell(), corner, patch_height_);
+}
+
+void Coupling::hash(StateHash& hash) const {
+  hash.value(steps_);
+  for (const ToolLoad& tool : tools_)
+    for (int i = 0; i < 3; ++i) hash.value(tool.smooth_W[i]);
+  ruts_.hash(hash);
+}
+
+void Coupling::save(StateWriter& writer) const {
+  writer.begin("coupling", 1);
+  writer.value(steps_);
+  writer.value(patch_);
+  writer.value(patch_sequence_);
+  writer.vector(patch_height_);
+  writer.value(static_cast<std::uint64_t>(tools_.size()));
+  for (const ToolLoad& tool : tools_) writer.vec3(tool.smooth_W);
+  writer.end();
+  ruts_.save(writer);
+}
+
+void Coupling::load(StateReader& reader) {
+  reader.begin("coupling", 1);
+  steps_ = reader.value<std::uint64_t>();
+  patch_ = reader.value<heightfield::CellRect>();
+  patch_sequence_ = reader.value<std::uint64_t>();
+  patch_height_ = reader.vector<float>();
+  if (reader.value<std::uint64_t>() != tools_.size())
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "coupling", "",
+                           "the snapshot has another number of tools than the scene",
+                           "use the scene it was made with"});
+  for (ToolLoad& tool : tools_) tool.smooth_W = reader.vec3();
+  reader.end();
+  if (!patch_height_.empty()) upload_ground_patch();
+  ruts_.load(reader);
+}
+
+}  // namespace navvy::coupling

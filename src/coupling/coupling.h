@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exchange between machines, soil and ground, once per base step. Alone sees all three.
+#pragma once
+
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "coupling/ground_view.h"
+#include "coupling/ruts.h"
+#include "heightfield/ground.h"
+#include "scene/world.h"
+#include "soil/solver.h"
+#include "vehicle/engine.h"
+
+namespace navvy::coupling {
+
+/// What soil does to one shell of one machine.
+struct ToolLoad {
+  int machine = -1, shell = -1, link = -1, tool = -1;
+  Vec3 force_W = Vec3::Zero();   ///< mean of the last step [N]
+  Vec3 moment_W = Vec3::Zero();  ///< about the link's origin [N m]
+  Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
+  soil::ToolImpulse impulse;     ///< of the last step, with the momentum proof
+};
+
+/// Wall time spent so far, by module [s].
+struct TimeShare {
+  double vehicle = 0, soil = 0, ground = 0;
+};
+
+/// Steps engine and soil together.
+///
+/// The engine moves the machine to the end of the step; soil answers, over the same interval, with impulses that change
+/// the links' velocities at once, so what soil gives is what the machine takes. Ground under wheels and rigid bodies is
+/// read from the columns of this very step.
+class Coupling {
+ public:
+  /// The references must outlive it. Registers every shell of every dynamic or kinematic machine with the solver.
+  Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+           heightfield::Ground& ground);
+
+  /// Advances everything by dt [s].
+  void step(double dt);
+
+  const std::vector<ToolLoad>& tools() const { return tools_; }
+  const TimeShare& time_share() const { return time_share_; }
+  /// Soil carried by a tool [kg].
+  double payload(const ToolLoad& tool) const;
+  /// The engine that moves machine `m` of the world, and its index there.
+  vehicle::Engine& engine(int m) const { return *homes_[static_cast<std::size_t>(m)].engine; }
+  int index(int m) const { return homes_[static_cast<std::size_t>(m)].index; }
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct Home {
+    vehicle::Engine* engine = nullptr;
+    int index = 0;
+  };
+  void update_ground_patch();
+  void upload_ground_patch();
+  int patch_stride() const;
+  void press_ruts();
+  void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
+
+  const scene::World& world_;
+  vehicle::Engine& dynamic_;
+  vehicle::Engine& kinematic_;
+  soil::Solver& solver_;
+  heightfield::Ground& ground_;
+  GroundView view_;
+  Ruts ruts_;
+  std::vector<Home> homes_;
+  std::vector<ToolLoad> tools_;
+  std::uint64_t steps_ = 0;
+  // Patch of ground that rigid bodies collide with: its columns, every how many of them, their heights.
+  heightfield::CellRect patch_;
+  std::uint64_t patch_sequence_ = 0;
+  std::vector<float> patch_height_;
+  TimeShare time_share_;
+};
+
+}  // namespace navvy::coupling
