@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/buffer.h"
+
+#include "device/opencl_private.h"
+
+namespace navvy::device {
+
+struct RawBuffer::Memory {
+  std::shared_ptr<Device::State> device;
+  cl_mem memory = nullptr;
+
+  Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
+    // Memory that host and device share is allocated where both reach it, so that mapping moves no bytes.
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
+    cl_int code = CL_SUCCESS;
+    memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
+    if (code != CL_SUCCESS) {
+      throw DeviceError("clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
+                            ", on device " + device->info.text(),
+                        code);
+    }
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { clReleaseMemObject(memory); }
+};
+
+namespace {
+// OpenCL has no empty buffers; a kernel argument needs one.
+constexpr std::size_t kLeastBytes = 16;
+}  // namespace
+
+RawBuffer::RawBuffer(Device& device, std::size_t bytes)
+    : memory_(std::make_shared<Memory>(device.state(), std::max(bytes, kLeastBytes))),
+      capacity_(std::max(bytes, kLeastBytes)) {}
+
+void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
+  if (!memory_) throw DeviceError("a buffer without a device cannot grow: construct it with one");
+  auto bigger = std::make_shared<Memory>(memory_->device, bytes);
+  if (keep > 0) {
+    const Device::State& device = *memory_->device;
+    check(clEnqueueCopyBuffer(device.queue, memory_->memory, bigger->memory, 0, 0, keep, 0, nullptr, nullptr),
+          "clEnqueueCopyBuffer", device);
+  }
+  memory_ = std::move(bigger);
+  capacity_ = bytes;
+}
+
+void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes) {
+  if (bytes == 0) return;
+  const Device::State& device = *memory_->device;
+  check(clEnqueueWriteBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+        "clEnqueueWriteBuffer", device);
+}
+
+void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
+  if (bytes == 0) return;
+  const Device::State& device = *memory_->device;
+  check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+        "clEnqueueReadBuffer", device);
+}
+
+void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes) {
+  if (bytes == 0) return;
+  const Device::State& device = *memory_->device;
+  check(clEnqueueCopyBuffer(device.queue, other.memory_->memory, memory_->memory, from, to, bytes, 0, nullptr, nullptr),
+        "clEnqueueCopyBuffer", device);
+}
+
+void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes) {
+  if (bytes == 0) return;
+  const Device::State& device = *memory_->device;
+  const bool power_of_two = (pattern_bytes & (pattern_bytes - 1)) == 0;
+  if (power_of_two && pattern_bytes <= 128) {
+    check(
+        clEnqueueFillBuffer(device.queue, memory_->memory, pattern, pattern_bytes, offset, bytes, 0, nullptr, nullptr),
+        "clEnqueueFillBuffer", device);
+    return;
+  }
+  // OpenCL fills with powers of two only; other structs are repeated by the host.
+  std::vector<char> values(bytes);
+  const char* source = static_cast<const char*>(pattern);
+  for (std::size_t at = 0; at < bytes; at += pattern_bytes) {
+    std::copy(source, source + pattern_bytes, values.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  write(values.data(), offset, bytes);
+}
+
+void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes) const {
+  const Device::State& device = *memory_->device;
+  cl_map_flags flags = CL_MAP_READ;
+  if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
+  if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
+  cl_int code = CL_SUCCESS;
+  void* at =
+      clEnqueueMapBuffer(device.queue, memory_->memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
+  check(code, "clEnqueueMapBuffer", device);
+  return at;
+}
+
+void RawBuffer::unmap(void* at) const noexcept {
+  // A failure here shows at the next call on the queue; a destructor must not throw.
+  clEnqueueUnmapMemObject(memory_->device->queue, memory_->memory, at, 0, nullptr, nullptr);
+}
+
+void* RawBuffer::handle() const { return memory_ ? memory_->memory : nullptr; }
+
+}  // namespace navvy::device

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+
+#include "device/opencl_private.h"
+
+namespace navvy::device {
+namespace {
+
+struct Found {
+  cl_platform_id platform = nullptr;
+  cl_device_id device = nullptr;
+  DeviceInfo info;
+};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string platform_text(cl_platform_id platform, cl_platform_info what) {
+  std::size_t size = 0;
+  if (clGetPlatformInfo(platform, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
+  std::string text(size, '\0');
+  if (clGetPlatformInfo(platform, what, size, text.data(), nullptr) != CL_SUCCESS) return "";
+  text.resize(size - 1);
+  return text;
+}
+
+std::string device_text(cl_device_id device, cl_device_info what) {
+  std::size_t size = 0;
+  if (clGetDeviceInfo(device, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
+  std::string text(size, '\0');
+  if (clGetDeviceInfo(device, what, size, text.data(), nullptr) != CL_SUCCESS) return "";
+  text.resize(size - 1);
+  return text;
+}
+
+template <class T>
+T device_value(cl_device_id device, cl_device_info what) {
+  T value{};
+  // A value a driver does not know stays zero, which switches the feature off.
+  clGetDeviceInfo(device, what, sizeof value, &value, nullptr);
+  return value;
+}
+
+DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
+  DeviceInfo info;
+  const auto type = device_value<cl_device_type>(device, CL_DEVICE_TYPE);
+  info.kind = (type & CL_DEVICE_TYPE_CPU) ? Kind::kCpu : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu : Kind::kOther;
+  info.name = device_text(device, CL_DEVICE_NAME);
+  info.vendor = device_text(device, CL_DEVICE_VENDOR);
+  info.platform = platform_text(platform, CL_PLATFORM_NAME);
+  info.version = device_text(device, CL_DEVICE_VERSION);
+  info.driver = device_text(device, CL_DRIVER_VERSION);
+  info.compute_units = static_cast<int>(device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS));
+  info.memory = device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
+  info.local_memory = device_value<cl_ulong>(device, CL_DEVICE_LOCAL_MEM_SIZE);
+  info.max_work_group = device_value<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  info.shares_memory = device_value<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;
+  const auto floats = device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG);
+  info.correct_divide_sqrt = (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+  return info;
+}
+
+std::vector<Found> find_devices() {
+  std::vector<Found> found;
+  cl_uint platform_count = 0;
+  if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return found;
+  std::vector<cl_platform_id> platforms(platform_count);
+  if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
+  for (cl_platform_id platform : platforms) {
+    cl_uint count = 0;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) continue;
+    std::vector<cl_device_id> devices(count);
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS) continue;
+    for (cl_device_id device : devices) {
+      Found entry{platform, device, describe(platform, device)};
+      entry.info.index = static_cast<int>(found.size());
+      found.push_back(std::move(entry));
+    }
+  }
+  return found;
+}
+
+/// Index of the device that `choice` means, -1 for none.
+int match(const std::vector<Found>& found, const std::string& choice) {
+  const auto first = [&](auto&& accept) {
+    const auto it = std::find_if(found.begin(), found.end(), accept);
+    return it == found.end() ? -1 : static_cast<int>(it - found.begin());
+  };
+  const std::string wanted = lower(choice);
+  const auto of_kind = [&](Kind kind) { return first([=](const Found& f) { return f.info.kind == kind; }); };
+  if (wanted.empty()) {
+    if (const int cpu = of_kind(Kind::kCpu); cpu >= 0) return cpu;
+    if (const int gpu = of_kind(Kind::kGpu); gpu >= 0) return gpu;
+    return found.empty() ? -1 : 0;
+  }
+  if (wanted == "cpu") return of_kind(Kind::kCpu);
+  if (wanted == "gpu") return of_kind(Kind::kGpu);
+  if (wanted.size() < 6 && std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
+    const int index = std::stoi(wanted);
+    return index < static_cast<int>(found.size()) ? index : -1;
+  }
+  return first([&](const Found& f) {
+    return lower(f.info.name).find(wanted) != std::string::npos ||
+           lower(f.info.platform).find(wanted) != std::string::npos;
+  });
+}
+
+[[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice, bool from_environment) {
+  if (found.empty()) {
+    throw DeviceError(
+        "no OpenCL device: no platform is installed or none offers a device; install one, for example the CPU device "
+        "with 'apt-get install pocl-opencl-icd' or your GPU vendor's OpenCL driver");
+  }
+  std::string text = "no OpenCL device matches '" + choice + "'";
+  if (from_environment) text += " (from the environment variable NAVVY_DEVICE)";
+  text += "; there is:";
+  for (const Found& f : found) text += "\n  " + f.info.text();
+  text += "\nchoose cpu, gpu, an index or a part of a name";
+  throw DeviceError(text);
+}
+
+const char* kind_name(Kind kind) { return kind == Kind::kCpu ? "cpu" : kind == Kind::kGpu ? "gpu" : "other"; }
+
+}  // namespace
+
+void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel) {
+  if (code == CL_SUCCESS) return;
+  std::string text = std::string(call) + " failed: " + error_name(code);
+  if (!kernel.empty()) text += ", kernel " + kernel;
+  throw DeviceError(text + ", on device " + state.info.name, code);
+}
+
+std::string DeviceInfo::text() const {
+  char memory_text[32];
+  std::snprintf(memory_text, sizeof memory_text, "%.1f GiB", static_cast<double>(memory) / (1 << 30));
+  return std::to_string(index) + ": " + kind_name(kind) + ", " + name + " (" + platform + ", " + version + "), " +
+         std::to_string(compute_units) + " compute units, " + memory_text;
+}
+
+std::vector<DeviceInfo> list_devices() {
+  std::vector<DeviceInfo> infos;
+  for (Found& found : find_devices()) infos.push_back(std::move(found.info));
+  return infos;
+}
+
+Device::State::~State() {
+  if (queue != nullptr) clFinish(queue);
+  for (auto& [name, event] : events) clReleaseEvent(event);
+  if (queue != nullptr) clReleaseCommandQueue(queue);
+  if (context != nullptr) clReleaseContext(context);
+}
+
+void Device::State::open_queue() {
+  if (queue != nullptr) clReleaseCommandQueue(queue);
+  cl_int code = CL_SUCCESS;
+  queue = clCreateCommandQueue(context, device, profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+  check(code, "clCreateCommandQueue", *this);
+}
+
+void Device::State::finish() {
+  check(clFinish(queue), "clFinish", *this);
+  collect();
+}
+
+void Device::State::collect() {
+  for (auto& [name, event] : events) {
+    cl_ulong start = 0, end = 0;
+    clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
+    clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
+    clReleaseEvent(event);
+    KernelTime& time = times[name];
+    time.name = name;
+    ++time.launches;
+    time.seconds += static_cast<double>(end - start) * 1e-9;
+  }
+  events.clear();
+}
+
+Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
+  const char* variable = std::getenv("NAVVY_DEVICE");
+  const bool from_environment = choice.empty() && variable != nullptr && *variable != '\0';
+  const std::string wanted = from_environment ? variable : choice;
+  const std::vector<Found> found = find_devices();
+  const int index = match(found, wanted);
+  if (index < 0) fail_to_match(found, wanted, from_environment);
+  const Found& pick = found[static_cast<std::size_t>(index)];
+  state_->info = pick.info;
+  state_->device = pick.device;
+  const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
+                                              reinterpret_cast<cl_context_properties>(pick.platform), 0};
+  cl_int code = CL_SUCCESS;
+  state_->context = clCreateContext(properties, 1, &pick.device, nullptr, nullptr, &code);
+  check(code, "clCreateContext", *state_);
+  state_->open_queue();
+}
+
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+const DeviceInfo& Device::info() const { return state_->info; }
+void Device::finish() { state_->finish(); }
+void Device::flush() { check(clFlush(state_->queue), "clFlush", *state_); }
+
+void Device::set_profile(bool on) {
+  if (on == state_->profiling) return;
+  state_->finish();
+  state_->profiling = on;
+  state_->open_queue();
+}
+
+std::vector<KernelTime> Device::profile() {
+  state_->finish();
+  std::vector<KernelTime> rows;
+  for (const auto& [name, time] : state_->times) rows.push_back(time);
+  return rows;
+}
+
+void Device::clear_profile() {
+  state_->finish();
+  state_->times.clear();
+}
+
+}  // namespace navvy::device

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenCL devices: list, pick, queue, profile. No other module sees OpenCL's headers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/error.h"
+
+namespace navvy::device {
+
+enum class Kind { kCpu, kGpu, kOther };
+
+/// What a device says about itself.
+struct DeviceInfo {
+  int index = 0;  ///< in the list of all devices, platform by platform
+  Kind kind = Kind::kOther;
+  std::string name, vendor, platform, version, driver;
+  int compute_units = 0;
+  std::uint64_t memory = 0;          ///< global memory [bytes]
+  std::uint64_t local_memory = 0;    ///< of one work-group [bytes]
+  std::size_t max_work_group = 0;    ///< work-items
+  bool shares_memory = false;        ///< with the host: mapped buffers cost no copy
+  bool correct_divide_sqrt = false;  ///< single-precision divide and sqrt can be rounded correctly
+
+  /// "0: cpu, pthread-haswell-AMD EPYC (Portable Computing Language, OpenCL 3.0 PoCL ...), 2 compute units, 7.6 GiB".
+  std::string text() const;
+};
+
+/// Every OpenCL device of every platform; empty when there is none. Never throws for a broken platform, leaves it out.
+std::vector<DeviceInfo> list_devices();
+
+/// Time a kernel took on the device, summed over launches.
+struct KernelTime {
+  std::string name;
+  std::uint64_t launches = 0;
+  double seconds = 0;
+};
+
+/// One device with its context and one in-order queue.
+///
+/// Buffers, programs and kernels made on it keep it alive. Everything is queued in the order it is called; only reads,
+/// maps and `finish` wait. Not thread-safe.
+class Device {
+ public:
+  /// Picks a device: "cpu", "gpu", an index of `list_devices`, or a part of a name or platform (case does not matter).
+  /// Empty: what the environment variable NAVVY_DEVICE says, else the first CPU, else the first GPU, else the first.
+  /// @throws DeviceError listing what exists and what to do when nothing matches.
+  explicit Device(const std::string& choice = "");
+  ~Device();
+  Device(Device&&) noexcept;
+  Device& operator=(Device&&) noexcept;
+
+  const DeviceInfo& info() const;
+
+  /// Waits until everything queued is done. @throws DeviceError when something queued failed.
+  void finish();
+  /// Hands queued work to the device without waiting.
+  void flush();
+
+  /// Switches the per-kernel profile; off at start. Waits for the queue.
+  void set_profile(bool on);
+  /// Device time by kernel name, in alphabetical order, since the profile was switched on or cleared. Waits.
+  std::vector<KernelTime> profile();
+  void clear_profile();
+
+  struct State;  ///< private to src/device
+  const std::shared_ptr<State>& state() const { return state_; }
+
+ private:
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace navvy::device

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What cmake/EmbedKernels.cmake generates.
+#pragma once
+
+namespace navvy::device {
+
+struct EmbeddedFile {
+  const char* path;  ///< relative to kernels/
+  const char* text;
+};
+
+/// Ends with a null path.
+const EmbeddedFile* embedded_files();
+
+}  // namespace navvy::device

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only header that sees OpenCL; included by src/device/*.cpp alone and not installed.
+#pragma once
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/device.h"
+
+namespace navvy::device {
+
+struct Device::State {
+  DeviceInfo info;
+  cl_device_id device = nullptr;
+  cl_context context = nullptr;
+  cl_command_queue queue = nullptr;
+  bool profiling = false;
+  std::vector<std::pair<std::string, cl_event>> events;  ///< launches not yet added to `times`
+  std::map<std::string, KernelTime> times;
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State();
+  void open_queue();
+  void finish();
+  /// Adds finished launches to `times`; the queue must be done.
+  void collect();
+};
+
+/// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" unless code is CL_SUCCESS.
+void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel = "");
+
+}  // namespace navvy::device

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels built from files of kernels/, and their launches.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "device/buffer.h"
+#include "device/device.h"
+#include "device/source.h"
+
+namespace navvy::device {
+
+/// "-DNAME=value" with the value written so that the kernel's compiler gets the same bits.
+std::string define(const std::string& name, int value);
+std::string define(const std::string& name, float value);
+std::string define(const std::string& name, const std::string& value);
+
+/// The flags every program is built with on this device; the reason of each is in program.cpp.
+std::vector<std::string> compiler_flags(const DeviceInfo& device);
+
+/// One kernel file with its includes, built for one device. Costs up to a second at the first build; the driver caches
+/// it.
+class Program {
+ public:
+  /// Builds kernels/`path` with `options` (from `define`) after the common flags.
+  /// @throws DeviceError with the driver's log, whose lines name our files.
+  Program(Device& device, const std::string& path, const std::vector<std::string>& options = {});
+  /// Builds a text instead of a file; `name` is what the log calls it.
+  static Program from_text(Device& device, const std::string& name, const std::string& text,
+                           const std::vector<std::string>& options = {});
+
+  struct State;  ///< private to src/device
+  const std::shared_ptr<State>& state() const { return state_; }
+
+ private:
+  Program() = default;
+  std::shared_ptr<State> state_;
+};
+
+/// Number of work-items along each axis.
+struct Range {
+  Range(std::size_t nx, std::size_t ny = 1, std::size_t nz = 1) : n{nx, ny, nz} {}  // NOLINT: a number is a range
+  std::size_t n[3];
+};
+
+/// An argument that reserves `bytes` of local memory.
+struct LocalMemory {
+  std::size_t bytes = 0;
+};
+
+/// One kernel of a program. Arguments stay set between launches; a buffer that was replaced (resized) must be set
+/// again.
+class Kernel {
+ public:
+  /// @throws DeviceError when the program has no kernel of this name.
+  Kernel(const Program& program, const std::string& name);
+
+  /// Sets all arguments in order: buffers, numbers, plain structs, LocalMemory.
+  /// @throws DeviceError when their count or the size of one does not fit the kernel.
+  template <class... Args>
+  Kernel& args(const Args&... values) {
+    expect(sizeof...(values));
+    unsigned index = 0;
+    (set(index++, values), ...);
+    return *this;
+  }
+  template <class T>
+  void set(unsigned index, const Buffer<T>& buffer) {
+    set_buffer(index, buffer.raw());
+  }
+  void set(unsigned index, LocalMemory memory) { set_bytes(index, nullptr, memory.bytes); }
+  template <class T>
+  void set(unsigned index, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "a kernel takes plain values and buffers");
+    static_assert(!std::is_same_v<T, bool>, "bool has no size in OpenCL: pass an int");
+    set_bytes(index, &value, sizeof value);
+  }
+
+  /// Queues one launch over at least `global` work-items: each axis is rounded up to a multiple of `local`, so the
+  /// kernel guards its index. Without `local` the driver chooses and nothing is rounded. An axis of 0 launches nothing.
+  void enqueue(Range global);
+  void enqueue(Range global, Range local);
+
+  const std::string& name() const;
+  /// Largest work-group this kernel can have on its device.
+  std::size_t max_work_group() const;
+
+ private:
+  void expect(std::size_t count) const;
+  void set_buffer(unsigned index, const RawBuffer& buffer);
+  void set_bytes(unsigned index, const void* data, std::size_t bytes);
+  void launch(const Range& global, const std::size_t* local);
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace navvy::device

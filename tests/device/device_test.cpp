@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/device.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <string>
+
+#include "device/buffer.h"
+#include "device/program.h"
+
+namespace navvy::device {
+namespace {
+
+std::string message_of(const std::string& choice) {
+  try {
+    Device device(choice);
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Sets NAVVY_DEVICE for one test and puts it back.
+class Environment {
+ public:
+  explicit Environment(const char* value) {
+    if (const char* old = std::getenv("NAVVY_DEVICE")) old_ = old;
+    ::setenv("NAVVY_DEVICE", value, 1);
+  }
+  ~Environment() {
+    if (old_.empty()) {
+      ::unsetenv("NAVVY_DEVICE");
+    } else {
+      ::setenv("NAVVY_DEVICE", old_.c_str(), 1);
+    }
+  }
+
+ private:
+  std::string old_;
+};
+
+TEST(Device, ListsItselfUnderItsIndex) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  ASSERT_FALSE(devices.empty());
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_FALSE(devices[i].name.empty());
+    EXPECT_GT(devices[i].compute_units, 0);
+    EXPECT_EQ(Device(std::to_string(i)).info().name, devices[i].name);
+  }
+}
+
+TEST(Device, IsPickedByKindAndByPartOfItsNameInAnyCase) {
+  const DeviceInfo first = list_devices().front();
+  std::string part = first.platform.substr(0, 6);
+  for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(Device(part).info().platform, first.platform);
+  const char* kind = first.kind == Kind::kCpu ? "CPU" : "GPU";
+  EXPECT_EQ(Device(kind).info().kind, first.kind);
+}
+
+TEST(Device, IsPickedByTheEnvironmentUnlessOneIsNamed) {
+  Environment environment("no-such-device");
+  EXPECT_NE(message_of("").find("environment variable NAVVY_DEVICE"), std::string::npos);
+  EXPECT_EQ(Device("0").info().index, 0);
+}
+
+TEST(Device, TellsWhatExistsWhenNoneMatches) {
+  const std::string text = message_of("quantum");
+  EXPECT_NE(text.find("no OpenCL device matches 'quantum'"), std::string::npos) << text;
+  EXPECT_NE(text.find(list_devices().front().name), std::string::npos) << text;
+  EXPECT_NE(text.find("choose cpu, gpu, an index or a part of a name"), std::string::npos) << text;
+  EXPECT_NE(message_of("99").find("matches '99'"), std::string::npos);
+}
+
+TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
+  Device device;
+  const Program program = Program::from_text(
+      device, "spin", "kernel void spin(global int* x) { for (int i = 0; i < 1000; ++i) x[0] = x[0] * 3 + i; }");
+  Buffer<int> x(device, 1);
+  x.fill(0);
+  Kernel spin(program, "spin");
+  spin.args(x).enqueue(1);
+  EXPECT_TRUE(device.profile().empty());
+  device.set_profile(true);
+  for (int i = 0; i < 3; ++i) spin.enqueue(1);
+  const std::vector<KernelTime> rows = device.profile();
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "spin");
+  EXPECT_EQ(rows[0].launches, 3u);
+  EXPECT_GT(rows[0].seconds, 0);
+  device.clear_profile();
+  EXPECT_TRUE(device.profile().empty());
+}
+
+TEST(Device, IsKeptAliveByItsBuffers) {
+  Buffer<int> buffer;
+  {
+    Device device;
+    buffer = Buffer<int>(device, std::vector<int>{4, 5});
+  }
+  EXPECT_EQ(buffer.read(), (std::vector<int>{4, 5}));
+}
+
+TEST(DeviceError, NamesErrorsSymbolically) {
+  EXPECT_EQ(error_name(-5), "CL_OUT_OF_RESOURCES");
+  EXPECT_EQ(error_name(-1001), "CL_PLATFORM_NOT_FOUND_KHR");
+  EXPECT_EQ(error_name(-4711), "CL error -4711");
+}
+
+}  // namespace
+}  // namespace navvy::device
