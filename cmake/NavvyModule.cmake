@@ -22,6 +22,10 @@ if(NAVVY_SANITIZE)
   target_compile_options(navvy_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(navvy_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(NAVVY_FUZZ)
+  target_compile_options(navvy_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
+  target_link_options(navvy_flags INTERFACE -fsanitize=address,undefined)
+endif()
 
 # navvy_module(NAME [SUBDIRS dir...] [SOURCES generated files...] [DEPS navvy modules...] [PUBLIC libs...] [PRIVATE libs...])
 # One static library a folder of src/, made of all its .cpp files (and those of SUBDIRS); headers are included as
@@ -56,9 +60,14 @@ function(navvy_module name)
   set_property(GLOBAL APPEND PROPERTY NAVVY_MODULES navvy_${name})
 endfunction()
 
-# navvy_tests(NAME LABEL host|device|slow [LIBS ...]): one GoogleTest program of all *_test.cpp in this folder.
+# Programs with label host, which run under sanitizers too, and fuzz targets.
+add_custom_target(navvy_host_tests)
+add_custom_target(navvy_fuzzers)
+
+# navvy_tests(NAME LABEL host|device|slow [LIBS libs...] [PATTERN glob] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
+# One GoogleTest program of all *_test.cpp in this folder (or those matching PATTERN).
 function(navvy_tests name)
-  cmake_parse_arguments(T "" "LABEL;PATTERN;TIMEOUT" "LIBS;EXTRA" ${ARGN})
+  cmake_parse_arguments(T "" "LABEL;PATTERN;TIMEOUT" "LIBS;EXTRA;PROPERTIES" ${ARGN})
   if(NOT T_PATTERN)
     set(T_PATTERN *_test.cpp)
   endif()
@@ -74,6 +83,22 @@ function(navvy_tests name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${name} PRIVATE NAVVY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              NAVVY_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(T_LABEL STREQUAL "host")
+    add_dependencies(navvy_host_tests ${name})
+  endif()
   include(GoogleTest)
-  gtest_discover_tests(${name} TEST_PREFIX "" PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${T_TIMEOUT} DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} TEST_PREFIX "" DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${T_TIMEOUT} ${T_PROPERTIES})
+endfunction()
+
+# navvy_fuzzer(NAME LIBS libs...): libFuzzer target NAME.cpp of this folder, only with NAVVY_FUZZ.
+function(navvy_fuzzer name)
+  cmake_parse_arguments(F "" "" "LIBS" ${ARGN})
+  if(NOT NAVVY_FUZZ OR NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)
+    return()
+  endif()
+  add_executable(${name} EXCLUDE_FROM_ALL ${name}.cpp)
+  target_link_libraries(${name} PRIVATE navvy_flags ${F_LIBS})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer,address,undefined)
+  add_dependencies(navvy_fuzzers ${name})
 endfunction()

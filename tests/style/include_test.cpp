@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who may include whom: the table of src/README.md, and the one place of every third-party library.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "style/sources.h"
+
+namespace navvy::style {
+namespace {
+
+using Names = std::set<std::string>;
+
+/// Direct arrows of src/README.md; core is open to all.
+const std::map<std::string, Names>& arrows() {
+  static const std::map<std::string, Names> table = {
+      {"core", {}},
+      {"device", {"core"}},
+      {"scene", {"core"}},
+      {"scene_io", {"scene"}},
+      {"heightfield", {"device", "scene"}},
+      {"soil", {"heightfield", "device", "scene"}},
+      {"lab", {"soil"}},
+      {"vehicle", {"scene"}},
+      {"control", {"vehicle", "heightfield"}},
+      {"coupling", {"soil", "vehicle", "heightfield"}},
+      {"sim", {"coupling", "control", "scene"}},
+      {"render", {"scene"}},
+      {"sensor", {"sim", "render"}},
+      {"record", {"sim", "sensor", "render"}},
+      {"planner", {"sim", "heightfield"}},
+      {"cli", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
+      {"python", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
+      {"link", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
+  };
+  return table;
+}
+
+/// Everything `module` may include: itself and what the arrows reach.
+Names reachable(const std::string& module) {
+  Names seen = {"core"};
+  std::vector<std::string> open = {module};
+  while (!open.empty()) {
+    const std::string name = open.back();
+    open.pop_back();
+    if (!seen.insert(name).second && name != "core") continue;
+    const auto it = arrows().find(name);
+    if (it != arrows().end()) open.insert(open.end(), it->second.begin(), it->second.end());
+  }
+  return seen;
+}
+
+/// A third-party library: how its headers begin, and the folders that may include them.
+struct Library {
+  std::string name;
+  std::vector<std::string> prefixes;
+  std::vector<std::string> folders;
+};
+
+const std::vector<Library>& libraries() {
+  static const std::vector<Library> table = {
+      {"Eigen", {"Eigen/"}, {"src"}},
+      {"OpenCL", {"CL/", "OpenCL/"}, {"src/device"}},
+      {"Bullet", {"bt", "Bullet", "LinearMath/", "bullet/"}, {"src/vehicle/bullet"}},
+      {"sdformat", {"sdf/", "ignition/", "gz/"}, {"src/scene_io"}},
+      {"tinyxml2", {"tinyxml2.h"}, {"src/scene_io"}},
+      {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"src/heightfield/gdal"}},
+      {"Coin, OpenGL, OSMesa", {"Inventor/", "GL/", "EGL/"}, {"src/render"}},
+      {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/render", "src/vehicle", "src/scene_io"}},
+      {"libpng", {"png.h"}, {"src/render", "src/record"}},
+      {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
+      {"CLI11", {"CLI/"}, {"src/cli"}},
+      {"spdlog", {"spdlog/"}, {"src/cli"}},
+  };
+  return table;
+}
+
+bool starts_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+bool is_system(const std::string& name) {
+  // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals need.
+  static const Names posix = {"fcntl.h", "unistd.h", "signal.h", "dlfcn.h", "poll.h", "pthread.h", "termios.h"};
+  return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 || starts_with(name, "sys/");
+}
+
+std::string module_of(const std::string& path) {
+  const std::size_t begin = path.find('/') + 1;
+  return path.substr(begin, path.find('/', begin) - begin);
+}
+
+/// Violations of one file of src/.
+std::vector<std::string> check(const SourceFile& file) {
+  std::vector<std::string> found;
+  const std::string module = module_of(file.path);
+  const Names allowed = reachable(module);
+  if (arrows().count(module) == 0) return {file.path + ": module " + module + " is not in the table"};
+  for (const Include& include : includes(file.text)) {
+    const std::string where = file.path + ":" + std::to_string(include.line) + ": ";
+    const auto says = [&](const std::string& text) { found.push_back(where + text); };
+    const auto library = std::find_if(libraries().begin(), libraries().end(), [&](const Library& l) {
+      return std::any_of(l.prefixes.begin(), l.prefixes.end(),
+                         [&](const std::string& prefix) { return starts_with(include.name, prefix); });
+    });
+    if (include.angle && is_system(include.name)) continue;
+    if (include.angle || (library != libraries().end() && !exists("src/" + include.name))) {
+      const bool right_place =
+          library != libraries().end() && std::any_of(library->folders.begin(), library->folders.end(),
+                                                      [&](const std::string& folder) { return file.under(folder); });
+      if (library == libraries().end()) says("<" + include.name + "> belongs to no library of the table");
+      if (library != libraries().end() && !right_place) says(library->name + " is not allowed here: " + include.name);
+      continue;
+    }
+    if (exists("src/" + include.name)) {
+      const std::string target = include.name.substr(0, include.name.find('/'));
+      if (allowed.count(target) == 0) says(module + " may not include " + include.name);
+      if (include.name.find("_private.h") != std::string::npos && target != module) {
+        says(include.name + " is private to " + target);
+      }
+    } else if (exists("kernels/" + include.name)) {
+      static const Names sharing = {"device", "heightfield", "soil", "lab"};
+      if (sharing.count(module) == 0) says("kernel header outside device, heightfield, soil, lab: " + include.name);
+    } else {
+      says("\"" + include.name + "\" is neither below src/ nor below kernels/");
+    }
+  }
+  return found;
+}
+
+TEST(Includes, FollowTheArrowsOfTheModuleMap) {
+  const std::vector<SourceFile> files = sources("src", {".h", ".cpp"});
+  ASSERT_GT(files.size(), 20u) << "the sources were not found";
+  std::vector<std::string> found;
+  for (const SourceFile& file : files) {
+    const std::vector<std::string> more = check(file);
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  EXPECT_EQ(report(found), "");
+}
+
+TEST(Includes, OfAWrongKindAreFound) {
+  const auto violations = [](const std::string& path, const std::string& text) {
+    return check(SourceFile{path, text}).size();
+  };
+  EXPECT_EQ(violations("src/soil/a.cpp", "#include \"soil/solver.h\"\n#include <vector>\n#include <Eigen/Core>\n"), 0u);
+  EXPECT_EQ(violations("src/core/a.cpp", "#include \"soil/solver.h\"\n"), 1u);
+  EXPECT_EQ(violations("src/render/a.cpp", "#include \"soil/solver.h\"\n"), 1u);
+  EXPECT_EQ(violations("src/soil/a.cpp", "#include <CL/cl.h>\n"), 1u);
+  EXPECT_EQ(violations("src/soil/a.cpp", "#include <boost/any.hpp>\n"), 1u);
+  EXPECT_EQ(violations("src/soil/a.cpp", "#include \"device/opencl_private.h\"\n"), 1u);
+  EXPECT_EQ(violations("src/vehicle/a.cpp", "#include <btBulletDynamicsCommon.h>\n"), 1u);
+  EXPECT_EQ(violations("src/vehicle/bullet/a.cpp", "#include <btBulletDynamicsCommon.h>\n"), 0u);
+  EXPECT_EQ(violations("src/sim/a.cpp", "#include \"common/portable.h\"\n"), 1u);
+  EXPECT_EQ(violations("src/attic/a.cpp", ""), 1u);
+}
+
+TEST(Includes, OfSlowLibrariesStayOutOfHeaders) {
+  std::vector<std::string> found;
+  for (const SourceFile& file : sources("src", {".h"})) {
+    if (file.ends_with("_private.h")) continue;
+    for (const Include& include : includes(file.text)) {
+      // 14 s to compile the three of them; sdformat 3 s.
+      for (const char* slow : {"CLI/", "nlohmann/json.hpp", "spdlog/", "sdf/", "gdal", "Inventor/"}) {
+        if (starts_with(include.name, slow)) found.push_back(file.path + " includes " + include.name);
+      }
+    }
+  }
+  EXPECT_EQ(report(found), "");
+}
+
+TEST(Includes, TableNamesEveryModuleOfTheTree) {
+  for (const SourceFile& file : sources("src", {"CMakeLists.txt"})) {
+    if (file.path == "src/CMakeLists.txt") continue;
+    EXPECT_EQ(arrows().count(module_of(file.path)), 1u) << file.path;
+  }
+}
+
+}  // namespace
+}  // namespace navvy::style
