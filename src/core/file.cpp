@@ -33,7 +33,11 @@ void write_bytes(const std::string& path, const char* data, std::size_t size) {
     data += n;
     size -= static_cast<std::size_t>(n);
   }
-  if (::close(fd) != 0) fail("close", part, errno);
+  if (::close(fd) != 0) {
+    const int code = errno;
+    ::unlink(part.c_str());
+    fail("close", part, code);
+  }
   commit_file(path);
 }
 

@@ -12,7 +12,9 @@ namespace navvy {
 
 class StateHash {
  public:
+  /// The length is part of it: an array of zeros hashes differently from a longer one.
   void bytes(const void* data, std::size_t size) {
+    mix(size);
     const auto* p = static_cast<const unsigned char*>(data);
     // Eight bytes at a time keeps hashing a 100 MB state affordable; the tail goes bytewise.
     for (; size >= 8; size -= 8, p += 8) {
@@ -25,7 +27,10 @@ class StateHash {
   template <class T>
   void value(const T& v) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "hash only values without padding");
-    bytes(&v, sizeof v);
+    static_assert(sizeof v <= sizeof(std::uint64_t), "long double has padding");
+    std::uint64_t word = 0;
+    std::memcpy(&word, &v, sizeof v);
+    mix(word);
   }
   std::uint64_t digest() const { return state_; }
   /// 16 lower-case hex digits.

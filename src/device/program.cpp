@@ -134,8 +134,8 @@ void Kernel::expect(std::size_t count) const {
 }
 
 void Kernel::set_buffer(unsigned index, const RawBuffer& buffer) {
-  auto memory = static_cast<cl_mem>(buffer.handle());
-  set_bytes(index, &memory, sizeof memory);
+  void* memory = buffer.handle();  // a cl_mem is a pointer; its address and size are the argument
+  set_bytes(index, &memory, sizeof(void*));
 }
 
 void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes) {
