@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/fields.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace navvy::scene_io {
+
+namespace {
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string range_text(const Range& range) {
+  const double huge = std::numeric_limits<double>::max();
+  if (range.min == -huge && range.max == huge) return "a finite number";
+  if (range.max == huge) return "a number of at least " + short_number(range.min);
+  return "a number from " + short_number(range.min) + " to " + short_number(range.max);
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+}  // namespace
+
+bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out, Faults& faults) {
+  const std::vector<std::string> words = words_of(text_of(element));
+  if (count > 0 && words.size() != count) {
+    faults.error(element, text_of(element),
+                 count == 1 ? "must be " + range_text(range)
+                            : "must be " + std::to_string(count) + " numbers separated by blanks");
+    return false;
+  }
+  out.clear();
+  for (const std::string& word : words) {
+    double value = 0;
+    if (!to_number(word, value) || !std::isfinite(value) || value < range.min || value > range.max) {
+      faults.error(element, word, "must be " + range_text(range));
+      return false;
+    }
+    out.push_back(value);
+  }
+  return true;
+}
+
+bool read_flag(const Element& element, bool& out, Faults& faults) {
+  const std::string value = text_of(element);
+  if (value == "true" || value == "1") {
+    out = true;
+  } else if (value == "false" || value == "0") {
+    out = false;
+  } else {
+    faults.error(element, value, "must be true or false");
+    return false;
+  }
+  return true;
+}
+
+bool read_pose(const Element& element, Pose& out, Faults& faults) {
+  const bool quaternion = attribute(element, "rotation_format") == "quat_xyzw";
+  std::vector<double> v;
+  if (!read_numbers(element, quaternion ? 7 : 6, {-1e7, 1e7}, v, faults)) return false;
+  if (quaternion) {
+    Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    if (std::abs(q.norm() - 1) > 1e-3) {
+      faults.error(element, text_of(element), "the last four numbers must be a unit quaternion x y z w");
+      return false;
+    }
+    out = Pose::Identity();
+    out.linear() = q.normalized().toRotationMatrix();
+    out.translation() = Vec3(v[0], v[1], v[2]);
+    return true;
+  }
+  const std::string degrees = attribute(element, "degrees");
+  const double f = degrees == "true" || degrees == "1" ? kDegree : 1;
+  out = make_pose(v[0], v[1], v[2], v[3] * f, v[4] * f, v[5] * f);
+  return true;
+}
+
+Element* Fields::take(const char* name) {
+  known_.push_back(name);
+  return element_.FirstChildElement(name);
+}
+
+Fields& Fields::number(const char* name, double& out, Range range, double factor) {
+  std::vector<double> v;
+  if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) out = v[0] * factor;
+  return *this;
+}
+
+Fields& Fields::number(const char* name, float& out, Range range) {
+  double value = out;
+  number(name, value, range);
+  out = static_cast<float>(value);
+  return *this;
+}
+
+Fields& Fields::whole(const char* name, int& out, Range range) {
+  Element* child = take(name);
+  if (!child) return *this;
+  std::vector<double> v;
+  if (!read_numbers(*child, 1, range, v, faults_)) return *this;
+  if (v[0] != std::floor(v[0])) {
+    faults_.error(*child, text_of(*child), "must be a whole number");
+  } else {
+    out = static_cast<int>(v[0]);
+  }
+  return *this;
+}
+
+Fields& Fields::whole(const char* name, std::uint64_t& out) {
+  Element* child = take(name);
+  if (!child) return *this;
+  const std::string text = text_of(*child);
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), out);
+  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
+    faults_.error(*child, text, "must be a whole number from 0 to 18446744073709551615");
+  return *this;
+}
+
+Fields& Fields::text(const char* name, std::string& out) {
+  if (Element* child = take(name)) {
+    out = text_of(*child);
+    if (out.empty()) faults_.error(*child, "", "must not be empty");
+  }
+  return *this;
+}
+
+Fields& Fields::flag(const char* name, bool& out) {
+  if (Element* child = take(name)) read_flag(*child, out, faults_);
+  return *this;
+}
+
+Fields& Fields::vec2(const char* name, Vec2& out, Range range) {
+  std::vector<double> v;
+  if (Element* child = take(name); child && read_numbers(*child, 2, range, v, faults_)) out = Vec2(v[0], v[1]);
+  return *this;
+}
+
+Fields& Fields::vec3(const char* name, Vec3& out, Range range) {
+  std::vector<double> v;
+  if (Element* child = take(name); child && read_numbers(*child, 3, range, v, faults_)) out = Vec3(v[0], v[1], v[2]);
+  return *this;
+}
+
+Fields& Fields::direction(const char* name, Vec3& out) {
+  Vec3 v = out;
+  vec3(name, v, {-1e6, 1e6});
+  if (v.norm() > 1e-6) {
+    out = v.normalized();
+  } else if (Element* child = element_.FirstChildElement(name)) {
+    faults_.error(*child, text_of(*child), "a direction must not be zero");
+  }
+  return *this;
+}
+
+Fields& Fields::list(const char* name, std::vector<double>& out, Range range, double factor) {
+  if (Element* child = take(name)) {
+    read_numbers(*child, 0, range, out, faults_);
+    for (double& value : out) value *= factor;
+  }
+  return *this;
+}
+
+Fields& Fields::each(const char* name, const std::function<void(Element&)>& read) {
+  repeatable_.push_back(name);
+  for (Element* child = take(name); child; child = child->NextSiblingElement(name)) read(*child);
+  return *this;
+}
+
+Fields& Fields::nested(const char* name, const std::function<void(Element&)>& read) {
+  nested_.push_back(name);
+  if (Element* child = take(name)) read(*child);
+  return *this;
+}
+
+Fields& Fields::required(const char* name) {
+  if (!has(name)) faults_.error(element_, "", std::string("needs an element <") + name + ">", "add it");
+  return *this;
+}
+
+Fields& Fields::attribute(const char* name) {
+  attributes_.push_back(name);
+  return *this;
+}
+
+void Fields::one_of(const Element& child, const std::string& value, const std::vector<std::string>& names) {
+  if (contains(names, value)) return;
+  std::string rule = "must be one of";
+  for (const std::string& name : names) rule += " " + name;
+  faults_.error(child, value, rule);
+}
+
+void Fields::finish() {
+  for (const Element* child = element_.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    const std::string name = child->Name();
+    if (!contains(known_, name)) {
+      faults_.error(*child, text_of(*child), "unknown element", suggestion(name, known_));
+    } else if (!contains(repeatable_, name) && element_.FirstChildElement(child->Name()) != child) {
+      faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
+    }
+    // Values hold text only; what holds elements is read by its own table.
+    if (!contains(known_, name) || contains(repeatable_, name) || contains(nested_, name)) continue;
+    if (child->FirstChildElement())
+      faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements");
+    if (child->FirstAttribute()) faults_.error(*child, child->FirstAttribute()->Name(), "takes no attributes");
+  }
+  for (const auto* at = element_.FirstAttribute(); at; at = at->Next())
+    if (!contains(attributes_, at->Name()))
+      faults_.error(element_, at->Name(), "unknown attribute", suggestion(at->Name(), attributes_));
+  if (!text_of(element_).empty() && !known_.empty())
+    faults_.error(element_, text_of(element_), "text is not allowed between the elements here", "remove it");
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A table-driven reader of one element's children: each line of a table gives name (with unit), target, range and the
+// factor to SI. `finish` reports what the table does not know, so nothing is ever skipped in silence.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/math.h"
+#include "scene_io/xml.h"
+
+namespace navvy::scene_io {
+
+/// Closed range of a value as written in the file (before conversion).
+struct Range {
+  double min = -std::numeric_limits<double>::max();
+  double max = std::numeric_limits<double>::max();
+};
+inline constexpr double kDegree = kPi / 180.0;
+
+class Fields {
+ public:
+  Fields(Element& element, Faults& faults) : element_(element), faults_(faults) {}
+
+  Fields& number(const char* name, double& out, Range range, double factor = 1);
+  Fields& number(const char* name, float& out, Range range);
+  Fields& whole(const char* name, int& out, Range range);
+  Fields& whole(const char* name, std::uint64_t& out);
+  Fields& text(const char* name, std::string& out);
+  Fields& flag(const char* name, bool& out);
+  Fields& vec2(const char* name, Vec2& out, Range range = {-1e7, 1e7});
+  Fields& vec3(const char* name, Vec3& out, Range range = {-1e3, 1e3});
+  /// Must not be zero; is normalised.
+  Fields& direction(const char* name, Vec3& out);
+  /// Any number of numbers.
+  Fields& list(const char* name, std::vector<double>& out, Range range, double factor = 1);
+  template <class T>
+  Fields& choice(const char* name, T& out, const std::vector<std::pair<std::string, T>>& choices) {
+    if (Element* child = take(name)) {
+      std::vector<std::string> names;
+      const std::string value = text_of(*child);
+      for (const auto& [key, result] : choices) {
+        names.push_back(key);
+        if (key == value) out = result;
+      }
+      one_of(*child, value, names);
+    }
+    return *this;
+  }
+  /// Children that may occur any number of times, handled by `read` in file order.
+  Fields& each(const char* name, const std::function<void(Element&)>& read);
+  /// A child that holds elements of its own and occurs at most once.
+  Fields& nested(const char* name, const std::function<void(Element&)>& read);
+  /// The element must be there.
+  Fields& required(const char* name);
+  /// An attribute that is allowed here.
+  Fields& attribute(const char* name);
+  bool has(const char* name) const { return element_.FirstChildElement(name) != nullptr; }
+  Element* child(const char* name) const { return element_.FirstChildElement(name); }
+  /// Reports unknown children, repeated ones, unknown attributes and stray text.
+  void finish();
+
+ private:
+  Element* take(const char* name);
+  void one_of(const Element& child, const std::string& value, const std::vector<std::string>& names);
+  Element& element_;
+  Faults& faults_;
+  std::vector<std::string> known_, repeatable_, nested_, attributes_;
+};
+
+/// Reads exactly `count` (0: any number) numbers of an element's text. False after a fault.
+bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out, Faults& faults);
+bool read_flag(const Element& element, bool& out, Faults& faults);
+/// SDF <pose>: x y z roll pitch yaw, or x y z qx qy qz qw with rotation_format. False after a fault.
+bool read_pose(const Element& element, Pose& out, Faults& faults);
+
+}  // namespace navvy::scene_io

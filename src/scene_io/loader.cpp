@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/loader.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scene_io/overrides.h"
+#include "scene_io/soil_reader.h"
+#include "scene_io/world_reader.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, Faults& faults) {
+  scene::World world;
+  if (document) {
+    apply_overrides(*document, overrides, faults);
+    world = read_world(*document, faults);
+  }
+  faults.finish();
+  return world;
+}
+
+}  // namespace
+
+scene::World load_world(const std::string& file, const Overrides& overrides) {
+  Faults faults;
+  return load(Document::open(file, faults), overrides, faults);
+}
+
+scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides) {
+  Faults faults;
+  return load(Document::parse(text, name, faults), overrides, faults);
+}
+
+scene::Machine load_machine(const std::string& file) {
+  Faults faults;
+  scene::Machine machine = read_machine_file(file, faults);
+  faults.finish();
+  return machine;
+}
+
+std::vector<scene::Soil> load_soils(const std::string& directory) {
+  Faults faults;
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, failed))
+    if (entry.path().extension() == ".sdf") files.push_back(entry.path().string());
+  if (failed) {
+    Fault fault;
+    fault.file = directory;
+    fault.rule = "the directory cannot be read: " + failed.message();
+    faults.add(fault);
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<scene::Soil> soils;
+  for (const std::string& file : files)
+    for (scene::Soil& soil : read_soil_file(file, faults)) soils.push_back(std::move(soil));
+  faults.finish();
+  return soils;
+}
+
+std::vector<Fault> check(const std::string& file) {
+  Faults faults;
+  const auto document = Document::open(file, faults);
+  if (!document) return faults.list();
+  const Element& root = *document->root();
+  if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
+    read_soil_file(file, faults);
+  } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
+    read_machine_file(file, faults);
+  } else {
+    read_world(*document, faults);
+  }
+  return faults.list();
+}
+
+}  // namespace navvy::scene_io

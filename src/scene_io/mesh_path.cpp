@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/mesh_path.h"
+
+#include <tiny_obj_loader.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "scene_io/loader.h"
+
+namespace navvy::scene_io {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> data_directories() {
+  std::vector<std::string> directories;
+  if (const char* own = std::getenv("NAVVY_DATA_DIR"); own && *own) directories.push_back(own);
+  directories.push_back(NAVVY_INSTALLED_DATA);
+  directories.push_back(NAVVY_SOURCE_DATA);
+  return directories;
+}
+
+std::string find_data(const std::string& relative) {
+  std::error_code ignored;
+  for (const std::string& directory : data_directories()) {
+    const fs::path path = fs::path(directory) / relative;
+    if (fs::exists(path, ignored)) return path.string();
+  }
+  return "";
+}
+
+namespace {
+
+// Empty when nothing exists under that name.
+std::string locate(const Element& uri, const std::string& text) {
+  std::error_code ignored;
+  if (text.rfind("model://", 0) == 0) return find_data("vehicles/" + text.substr(8));
+  fs::path path = text.rfind("file://", 0) == 0 ? fs::path(text.substr(7)) : fs::path(text);
+  if (path.is_relative()) path = fs::path(Document::of(uri).directory()) / path;
+  return fs::exists(path, ignored) ? path.string() : "";
+}
+
+std::string absolute(const std::string& path) {
+  std::error_code failed;
+  const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
+  return failed ? path : full.string();
+}
+
+}  // namespace
+
+bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
+  const std::string text = text_of(uri);
+  std::error_code ignored;
+  const std::string found = locate(uri, text);
+  if (found.empty() || !fs::is_regular_file(found, ignored)) {
+    faults.error(uri, text, "no such mesh file", "paths count from the file that names them");
+    return false;
+  }
+  if (fs::path(found).extension() != ".obj" && fs::path(found).extension() != ".OBJ") {
+    faults.error(uri, text, "meshes must be OBJ files", "convert it");
+    return false;
+  }
+  path = absolute(found);
+  return true;
+}
+
+bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
+  const std::string text = text_of(uri);
+  std::error_code ignored;
+  std::string found = locate(uri, text);
+  if (!found.empty() && fs::is_directory(found, ignored)) found = (fs::path(found) / "model.sdf").string();
+  if (found.empty() || !fs::is_regular_file(found, ignored)) {
+    faults.error(uri, text, "no such model",
+                 "give a path from this file to an SDF file or its directory, or model://NAME of a shipped machine");
+    return false;
+  }
+  path = fs::path(found).lexically_normal().string();
+  return true;
+}
+
+bool read_obj(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults) {
+  tinyobj::ObjReader reader;
+  tinyobj::ObjReaderConfig config;
+  config.triangulate = true;
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > (64u << 20) || !reader.ParseFromFile(path, config)) {
+    faults.error(at, path, "cannot be read as an OBJ file of at most 64 MB", reader.Error());
+    return false;
+  }
+  const auto& v = reader.GetAttrib().vertices;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+    shell.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
+    if (!shell.vertices.back().allFinite()) {
+      faults.error(at, path, "vertex " + std::to_string(i / 3 + 1) + " of the OBJ file must hold finite numbers");
+      return false;
+    }
+  }
+  for (const auto& shape : reader.GetShapes()) {
+    const auto& indices = shape.mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+      shell.triangles.push_back({indices[i].vertex_index, indices[i + 1].vertex_index, indices[i + 2].vertex_index});
+  }
+  return true;
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/sdf_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <ignition/math/Inertial.hh>
+#include <ignition/math/Pose3.hh>
+#include <sdf/sdf.hh>
+
+#include "scene_io/mesh_path.h"
+#include "scene_io/sdf_rules.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+Pose to_pose(const ignition::math::Pose3d& p) {
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).normalized().toRotationMatrix();
+  X.translation() = Vec3(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
+  return X;
+}
+
+Vec3 to_vec3(const ignition::math::Vector3d& v) { return Vec3(v.X(), v.Y(), v.Z()); }
+
+const Element* named_child(const Element& parent, const char* kind, const std::string& name) {
+  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
+    if (attribute(*child, "name") == name) return child;
+  return nullptr;
+}
+
+// The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf has reported it).
+void copy_used(const Element& from, Element& to) {
+  for (const auto* at = from.FirstAttribute(); at; at = at->Next()) to.SetAttribute(at->Name(), at->Value());
+  bool has_elements = false;
+  for (const Element* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    has_elements = true;
+    if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(child->Name()));
+  }
+  if (!has_elements) to.SetText(text_of(from).c_str());
+}
+
+std::string as_sdf_text(const Element& model) {
+  tinyxml2::XMLDocument copy;
+  Element* root = copy.NewElement("sdf");
+  root->SetAttribute("version", attribute(*model.GetDocument()->RootElement(), "version").c_str());
+  copy.InsertEndChild(root);
+  copy_used(model, *root->InsertNewChildElement("model"));
+  tinyxml2::XMLPrinter printer;
+  copy.Print(&printer);
+  return printer.CStr();
+}
+
+// libsdformat knows no lines; its messages name the link, joint or frame in [brackets] or 'quotes'.
+const Element& blamed(const Element& model, const std::string& message) {
+  for (const Element* child = model.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    const std::string name = attribute(*child, "name");
+    if (name.empty()) continue;
+    for (const std::string& mark : {"[" + name + "]", "'" + name + "'", "\"" + name + "\"", "named " + name + " "})
+      if (message.find(mark) != std::string::npos) return *child;
+  }
+  return model;
+}
+
+void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
+  for (const sdf::Error& error : errors) {
+    const std::string message = error.Message();
+    faults.error(blamed(model, message), "", "libsdformat: " + message);
+  }
+}
+
+bool read_geometry(const sdf::Geometry& from, const Element& xml, scene::Geometry& to, Faults& faults) {
+  using Kind = scene::Geometry::Kind;
+  if (const auto* box = from.BoxShape()) {
+    to.kind = Kind::kBox;
+    to.size = to_vec3(box->Size());
+  } else if (const auto* cylinder = from.CylinderShape()) {
+    to.kind = Kind::kCylinder;
+    to.radius = cylinder->Radius();
+    to.length = cylinder->Length();
+  } else if (const auto* sphere = from.SphereShape()) {
+    to.kind = Kind::kSphere;
+    to.radius = sphere->Radius();
+  } else if (const auto* plane = from.PlaneShape()) {
+    to.kind = Kind::kPlane;
+    to.size = Vec3(plane->Size().X(), plane->Size().Y(), 0);
+    if (to_vec3(plane->Normal()).cross(Vec3::UnitZ()).norm() > 1e-9 || plane->Normal().Z() < 0)
+      faults.error(xml, "", "the normal of a plane must be 0 0 1", "turn it with <pose>");
+  } else if (const auto* mesh = from.MeshShape()) {
+    to.kind = Kind::kMesh;
+    to.scale = to_vec3(mesh->Scale());
+    const Element* uri = xml.FirstChildElement("mesh")->FirstChildElement("uri");
+    return uri && resolve_mesh(*uri, to.mesh_file, faults);
+  } else {
+    faults.error(xml, "", "needs one of box, cylinder, sphere, plane, mesh");
+    return false;
+  }
+  return true;
+}
+
+void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Faults& faults) {
+  for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
+    const sdf::Visual& visual = *from.VisualByIndex(i);
+    const Element* element = named_child(xml, "visual", visual.Name());
+    if (!element || !element->FirstChildElement("geometry")) continue;
+    scene::Visual out;
+    out.name = visual.Name();
+    ignition::math::Pose3d pose;
+    report(*element, visual.SemanticPose().Resolve(pose), faults);
+    out.X_LV = to_pose(pose);
+    if (const sdf::Material* material = visual.Material()) {
+      const auto c = material->Diffuse();
+      out.color = {c.R(), c.G(), c.B(), c.A()};
+    }
+    if (read_geometry(*visual.Geom(), *element->FirstChildElement("geometry"), out.geometry, faults))
+      to.visuals.push_back(out);
+  }
+  for (std::uint64_t i = 0; i < from.CollisionCount(); ++i) {
+    const sdf::Collision& collision = *from.CollisionByIndex(i);
+    const Element* element = named_child(xml, "collision", collision.Name());
+    if (!element || !element->FirstChildElement("geometry")) continue;
+    scene::Collision out;
+    out.name = collision.Name();
+    ignition::math::Pose3d pose;
+    report(*element, collision.SemanticPose().Resolve(pose), faults);
+    out.X_LC = to_pose(pose);
+    // sdformat 12 has no accessor for friction.
+    const Element* step = element;
+    for (const char* name : {"surface", "friction", "ode", "mu"}) step = step ? step->FirstChildElement(name) : nullptr;
+    if (step) to_number(text_of(*step), out.friction);
+    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), out.geometry, faults))
+      to.collisions.push_back(out);
+  }
+}
+
+scene::Link read_link(const sdf::Link& from, const Element& xml, Faults& faults) {
+  scene::Link link;
+  link.name = from.Name();
+  ignition::math::Pose3d pose;
+  report(xml, from.SemanticPose().Resolve(pose, "__model__"), faults);
+  link.X_ML = to_pose(pose);
+  const auto& inertial = from.Inertial();
+  link.mass = inertial.MassMatrix().Mass();
+  link.p_LCom = to_vec3(inertial.Pose().Pos());
+  const auto moi = inertial.Moi();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) link.inertia(r, c) = moi(r, c);
+  read_shapes(from, xml, link, faults);
+  return link;
+}
+
+struct NamedJoint {
+  scene::Joint joint;
+  std::string parent, child;
+};
+
+void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, Faults& faults) {
+  const sdf::JointAxis* axis = from.Axis();
+  if (!axis) return;
+  ignition::math::Vector3d xyz;
+  report(xml, axis->ResolveXyz(xyz, from.Name()), faults);
+  joint.axis = to_vec3(xyz).normalized();
+  const double lower = axis->Lower(), upper = axis->Upper();
+  joint.has_limits = from.Type() != sdf::JointType::CONTINUOUS && lower > -1e15 && upper < 1e15;
+  if (joint.has_limits) {
+    joint.lower = lower;
+    joint.upper = upper;
+  }
+  // A negative or missing limit of SDF means none (libsdformat answers infinity).
+  if (std::isfinite(axis->Effort()) && axis->Effort() >= 0) joint.effort = axis->Effort();
+  if (std::isfinite(axis->MaxVelocity()) && axis->MaxVelocity() >= 0) joint.velocity = axis->MaxVelocity();
+  joint.damping = axis->Damping();
+  joint.friction = axis->Friction();
+}
+
+NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults) {
+  using Type = scene::Joint::Type;
+  NamedJoint out;
+  out.joint.name = from.Name();
+  switch (from.Type()) {
+    case sdf::JointType::REVOLUTE:
+    case sdf::JointType::CONTINUOUS:
+      out.joint.type = Type::kRevolute;
+      break;
+    case sdf::JointType::PRISMATIC:
+      out.joint.type = Type::kPrismatic;
+      break;
+    case sdf::JointType::BALL:
+      out.joint.type = Type::kBall;
+      break;
+    default:
+      out.joint.type = Type::kFixed;
+  }
+  report(xml, from.ResolveParentLink(out.parent), faults);
+  report(xml, from.ResolveChildLink(out.child), faults);
+  ignition::math::Pose3d pose;
+  report(xml, from.SemanticPose().Resolve(pose, out.child), faults);
+  out.joint.X_LcJ = to_pose(pose);
+  if (out.joint.type == Type::kRevolute || out.joint.type == Type::kPrismatic) read_axis(from, xml, out.joint, faults);
+  return out;
+}
+
+// Orders links from the base outward; every link but the base must hang on exactly one joint.
+void order_tree(const Element& model, std::vector<scene::Link> links, std::vector<NamedJoint> joints,
+                scene::Machine& machine, Faults& faults) {
+  auto element_of = [&](const char* kind, const std::string& name) -> const Element& {
+    const Element* element = named_child(model, kind, name);
+    return element ? *element : model;
+  };
+  const std::size_t before = faults.error_count();
+  std::vector<std::string> moved;
+  for (const NamedJoint& joint : joints) {
+    if (joint.parent == "world") continue;
+    if (std::find(moved.begin(), moved.end(), joint.child) != moved.end())
+      faults.error(element_of("joint", joint.joint.name), joint.child, "a link can be the child of one joint only",
+                   "closed loops such as cylinders are described by navvy:cylinder");
+    moved.push_back(joint.child);
+  }
+  std::vector<std::size_t> bases;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (std::find(moved.begin(), moved.end(), links[i].name) == moved.end()) bases.push_back(i);
+  if (bases.empty()) faults.error(model, "", "the joints form a loop: no link is the base");
+  for (std::size_t i = 1; i < bases.size(); ++i)
+    faults.error(element_of("link", links[bases[i]].name), links[bases[i]].name,
+                 "no joint connects this link to the base '" + links[bases[0]].name + "'",
+                 "add a joint (type fixed to weld it), or make it a model of its own");
+  if (faults.error_count() > before) return;
+
+  machine.links.push_back(links[bases[0]]);
+  for (std::size_t i = 0; i < machine.links.size(); ++i) {
+    for (NamedJoint& joint : joints) {
+      const scene::Link& parent = machine.links[i];
+      if (joint.parent != parent.name) continue;
+      const auto child =
+          std::find_if(links.begin(), links.end(), [&](const scene::Link& link) { return link.name == joint.child; });
+      joint.joint.parent = static_cast<int>(i);
+      joint.joint.child = static_cast<int>(machine.links.size());
+      machine.joints.push_back(joint.joint);
+      machine.links.push_back(*child);
+    }
+  }
+  if (machine.links.size() != links.size()) faults.error(model, "", "the joints form a loop beside the base");
+
+  for (const NamedJoint& joint : joints) {
+    if (joint.parent != "world") continue;
+    if (joint.joint.type == scene::Joint::Type::kFixed && joint.child == machine.links[0].name) {
+      machine.fixed_base = true;
+    } else {
+      faults.error(element_of("joint", joint.joint.name), joint.child,
+                   "only the base link can be joined to the world, by a fixed joint",
+                   "put a small link between, fix that to the world");
+    }
+  }
+}
+
+}  // namespace
+
+bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults) {
+  const std::size_t before = faults.error_count();
+  sdf::Console::Instance()->SetQuiet(true);
+  sdf::ParserConfig config;
+  config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  sdf::Root root;
+  try {
+    report(model, root.LoadSdfString(as_sdf_text(model), config), faults);
+    if (faults.error_count() > before || !root.Model()) return false;
+    const sdf::Model& from = *root.Model();
+    machine.name = from.Name();
+    if (from.Static()) machine.fixed_base = true;
+    std::vector<scene::Link> links;
+    for (std::uint64_t i = 0; i < from.LinkCount(); ++i) {
+      const sdf::Link& link = *from.LinkByIndex(i);
+      if (const Element* xml = named_child(model, "link", link.Name())) links.push_back(read_link(link, *xml, faults));
+    }
+    std::vector<NamedJoint> joints;
+    for (std::uint64_t i = 0; i < from.JointCount(); ++i) {
+      const sdf::Joint& joint = *from.JointByIndex(i);
+      if (const Element* xml = named_child(model, "joint", joint.Name()))
+        joints.push_back(read_joint(joint, *xml, faults));
+    }
+    if (faults.error_count() == before) order_tree(model, std::move(links), std::move(joints), machine, faults);
+  } catch (const std::exception& failure) {
+    faults.error(model, "", std::string("libsdformat failed: ") + failure.what());
+  } catch (const sdf::Exception& failure) {
+    faults.error(model, "", std::string("libsdformat failed: ") + failure.GetErrorStr());
+  }
+  return faults.error_count() == before;
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/soil_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scene_io/fields.h"
+#include "scene_io/loader.h"
+#include "scene_io/sdf_rules.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+// The table of a soil; ranges are what any soil, snow and lunar dust included, stays within.
+void read_values(Element& element, scene::Soil& soil, Faults& faults) {
+  std::vector<double> color;
+  double repose = 0;
+  Fields fields(element, faults);
+  fields.attribute("name")
+      .attribute("ref")
+      .text("source", soil.source)
+      .number("bank_density_kg_per_m3", soil.bank_density, {50, 6000})
+      .number("swell", soil.swell, {1, 2})
+      .number("friction_angle_deg", soil.friction_angle, {0, 60}, kDegree)
+      .number("repose_angle_deg", repose, {0, 44}, kDegree)
+      .number("cohesion_pa", soil.cohesion, {0, 1e6})
+      .number("residual_cohesion_pa", soil.residual_cohesion, {0, 1e6})
+      .number("remoulding_strain", soil.remoulding_strain, {1e-3, 100})
+      .number("loosening_strain", soil.loosening_strain, {1e-3, 100})
+      .number("opening_strain", soil.opening_strain, {1e-4, 1})
+      .number("young_modulus_pa", soil.young_modulus, {1e4, 1e9})
+      .number("poisson", soil.poisson, {0, 0.49})
+      .number("tool_friction_angle_deg", soil.tool_friction_angle, {0, 60}, kDegree)
+      .number("adhesion_pa", soil.adhesion, {0, 1e5})
+      .number("bekker_kc_n_per_m_n1", soil.bekker_kc, {-1e9, 1e9})
+      .number("bekker_kphi_n_per_m_n2", soil.bekker_kphi, {1, 1e9})
+      .number("bekker_n", soil.bekker_n, {0.05, 3})
+      .number("janosi_k_m", soil.janosi_k, {1e-4, 1})
+      .list("color", color, {0, 1})
+      .finish();
+  if (Element* child = fields.child("color")) {
+    if (color.size() == 3) {
+      for (int i = 0; i < 3; ++i) soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);
+    } else if (!color.empty() || text_of(*child).empty()) {
+      faults.error(*child, text_of(*child), "must be 3 numbers from 0 to 1: red green blue");
+    }
+  }
+  // Plane strain without dilatancy: loose soil flows above atan(sin phi), so a repose angle t means sin phi = tan t.
+  if (Element* child = fields.child("repose_angle_deg")) {
+    if (fields.has("friction_angle_deg")) {
+      faults.error(*child, text_of(*child), "give either repose_angle_deg or friction_angle_deg", "remove one");
+    } else {
+      soil.friction_angle = std::asin(std::min(1.0, std::tan(repose)));
+    }
+  }
+  if (Element* child = fields.child("residual_cohesion_pa"); child && soil.residual_cohesion > soil.cohesion)
+    faults.error(*child, text_of(*child), "must not exceed cohesion_pa", "remoulding only weakens soil");
+}
+
+bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults& faults) {
+  std::error_code ignored;
+  const bool is_file = ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0;
+  std::string file = is_file ? (std::filesystem::path(Document::of(element).directory()) / ref).string()
+                             : find_data("terrain/soils/" + ref + ".sdf");
+  if (!is_file && ref.find('/') != std::string::npos) file.clear();
+  if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
+    std::vector<std::string> known;
+    for (const std::string& directory : data_directories())
+      for (const auto& entry : std::filesystem::directory_iterator(directory + "/terrain/soils", ignored))
+        if (entry.path().extension() == ".sdf") known.push_back(entry.path().stem().string());
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    faults.error(element, ref, "no such soil", suggestion(ref, known));
+    return false;
+  }
+  const std::vector<scene::Soil> soils = read_soil_file(file, faults);
+  if (soils.empty()) return false;
+  soil = soils.front();
+  return true;
+}
+
+}  // namespace
+
+scene::Soil read_soil(Element& element, Faults& faults) {
+  scene::Soil soil;
+  const std::string ref = attribute(element, "ref");
+  const std::string name = attribute(element, "name");
+  if (!ref.empty()) {
+    // Soil files must not refer to others: no loops to follow.
+    if (!element.Parent()->ToElement() || std::string(element.Parent()->ToElement()->Name()) == "sdf")
+      faults.error(element, ref, "ref is for worlds; a soil file holds values");
+    else
+      inherit(element, ref, soil, faults);
+  }
+  if (!name.empty()) soil.name = name;
+  if (ref.empty() && name.empty())
+    faults.error(element, "", "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
+  const double cohesion = soil.cohesion, residual = soil.residual_cohesion;
+  read_values(element, soil, faults);
+  // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one line only.
+  if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
+    soil.residual_cohesion = std::min(residual, soil.cohesion);
+  return soil;
+}
+
+std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults) {
+  std::vector<scene::Soil> soils;
+  const auto document = Document::open(file, faults);
+  if (!document || !check_root(*document->root(), faults)) return soils;
+  check_sdf(*document->root(), faults);
+  for (Element* e = document->root()->FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil"))
+    soils.push_back(read_soil(*e, faults));
+  if (soils.empty()) faults.error(*document->root(), "", "a soil file needs a <navvy:soil name=\"...\">");
+  return soils;
+}
+
+}  // namespace navvy::scene_io

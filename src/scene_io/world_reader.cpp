@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/world_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene_io/fields.h"
+#include "scene_io/ground_reader.h"
+#include "scene_io/machine_reader.h"
+#include "scene_io/mesh_path.h"
+#include "scene_io/program_reader.h"
+#include "scene_io/sdf_rules.h"
+#include "scene_io/soil_reader.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+void read_solver(Element& element, scene::Solver& solver, Faults& faults) {
+  Fields(element, faults)
+      .number("cell_m", solver.cell, {0.005, 2})
+      .number("courant", solver.courant, {0.05, 1})
+      .number("max_step_s", solver.max_step, {1e-6, 0.02})
+      .whole("max_particles", solver.max_particles, {1000, 1e9})
+      .finish();
+}
+
+void read_recording(Element& element, scene::Recording& recording, Faults& faults) {
+  Fields(element, faults)
+      .number("duration_s", recording.duration, {1e-3, 1e6})
+      .number("settle_s", recording.settle, {0, 1e5})
+      .number("telemetry_rate_hz", recording.telemetry_rate, {0.01, 1e5})
+      .flag("render", recording.render)
+      .finish();
+}
+
+scene::Camera read_camera(Element& element, const scene::World& world, Faults& faults) {
+  scene::Camera camera;
+  camera.name = attribute(element, "name");
+  Fields fields(element, faults);
+  fields.attribute("name")
+      .text("machine", camera.machine)
+      .text("link", camera.link)
+      .vec3("position_m", camera.position, {-1e6, 1e6})
+      .vec3("target_m", camera.target, {-1e6, 1e6})
+      .number("fov_deg", camera.fov, {1, 170}, kDegree)
+      .whole("width_px", camera.width, {16, 8192})
+      .whole("height_px", camera.height, {16, 8192})
+      .number("rate_hz", camera.rate, {0.001, 1000})
+      .finish();
+  if (camera.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
+  if (!camera.machine.empty())
+    camera.kind = camera.link.empty() ? scene::Camera::Kind::kChase : scene::Camera::Kind::kOnLink;
+  if (camera.machine.empty() && !camera.link.empty())
+    faults.error(element, camera.link, "a camera on a link needs <machine>, too");
+  if ((camera.position - camera.target).norm() < 1e-3)
+    faults.error(element, "", "position_m and target_m must not be the same place");
+  if (camera.machine.empty()) return camera;
+  const int index = world.machine_index(camera.machine);
+  std::vector<std::string> names;
+  if (index < 0) {
+    for (const auto& machine : world.machines) names.push_back(machine.name);
+    faults.error(*fields.child("machine"), camera.machine, "no machine of this name in the world",
+                 suggestion(camera.machine, names));
+    return camera;
+  }
+  const scene::Machine& machine = world.machines[static_cast<std::size_t>(index)].machine;
+  if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0) return camera;
+  for (const scene::Link& link : machine.links) names.push_back(link.name);
+  faults.error(*fields.child("link"), camera.link, "no link of this name in the machine",
+               suggestion(camera.link, names));
+  return camera;
+}
+
+void read_light(Element& element, std::vector<scene::Light>& lights, Faults& faults) {
+  if (attribute(element, "type") != "directional") {
+    faults.warning(element, attribute(element, "type"), "is ignored", "only directional lights are drawn");
+    return;
+  }
+  scene::Light light;
+  std::vector<double> v;
+  if (Element* e = element.FirstChildElement("direction"); e && read_numbers(*e, 3, {}, v, faults)) {
+    light.direction = Vec3(v[0], v[1], v[2]);
+    if (light.direction.norm() < 1e-9)
+      faults.error(*e, text_of(*e), "a direction must not be zero");
+    else
+      light.direction.normalize();
+  }
+  if (Element* e = element.FirstChildElement("diffuse")) {
+    const auto words = words_of(text_of(*e));
+    double c[4] = {1, 1, 1, 1};
+    for (std::size_t i = 0; i < 4 && i < words.size(); ++i) to_number(words[i], c[i]);
+    light.color = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
+                   static_cast<float>(c[3])};
+  }
+  lights.push_back(light);
+}
+
+// What <include> and an inline <model> share: place, joints, program.
+void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, bool ground_known,
+                   Faults& faults) {
+  if (Element* pose = element.FirstChildElement("pose")) {
+    if (words_of(text_of(*pose)).size() >= 6) read_pose(*pose, instance.X_WM, faults);
+    if (pose->Attribute("relative_to"))
+      faults.error(*pose, attribute(*pose, "relative_to"), "relative_to is not supported here",
+                   "give the pose in the world");
+    const Vec2 place = instance.X_WM.translation().head<2>();
+    const Vec2 low = world.ground.origin, high = low + world.ground.size;
+    if (ground_known && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
+      faults.error(*pose, text_of(*pose), "the machine must stand on the site",
+                   "move it, or enlarge size_m of the ground");
+  }
+  if (Element* e = element.FirstChildElement("navvy:on_ground")) read_flag(*e, instance.on_ground, faults);
+  if (!instance.machine.links.empty() && std::string(element.Name()) == "include")
+    for (Element* e = element.FirstChildElement("navvy:joint"); e; e = e->NextSiblingElement("navvy:joint"))
+      read_initial_position(*e, instance.machine, faults);
+  if (Element* e = element.FirstChildElement("navvy:program"))
+    instance.program = read_program(*e, &instance.machine, ground_known ? &world.ground : nullptr, faults);
+}
+
+scene::MachineInWorld read_include(Element& element, const scene::World& world, bool ground_known, Faults& faults) {
+  scene::MachineInWorld instance;
+  Element* uri = element.FirstChildElement("uri");
+  std::string path;
+  if (!uri) {
+    faults.error(element, "", "needs an element <uri>", "e.g. <uri>model://ew180</uri>");
+  } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
+    instance.machine = read_machine_file(path, faults);
+  }
+  instance.name = element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
+  const std::string is_static = child_text(element, "static");
+  if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
+  read_instance(element, instance, world, ground_known, faults);
+  return instance;
+}
+
+void read_soils(Element& world_element, scene::World& world, Faults& faults) {
+  for (Element* e = world_element.FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil")) {
+    scene::Soil soil = read_soil(*e, faults);
+    if (!soil.name.empty() && world.soil_index(soil.name) >= 0)
+      faults.error(*e, soil.name, "there is already a soil of this name", "give this one another name=\"...\"");
+    world.soils.push_back(std::move(soil));
+  }
+  if (!world_element.FirstChildElement("navvy:soil"))
+    faults.error(world_element, "", "a world needs a soil", "add <navvy:soil ref=\"loam\"/>");
+  if (world.soils.size() > 255) faults.error(world_element, std::to_string(world.soils.size()), "at most 255 soils");
+}
+
+void check_grid(const Element& world_element, const scene::World& world, Faults& faults) {
+  const Vec2 cells = world.ground.size / world.solver.cell;
+  const Element* ground = world_element.FirstChildElement("navvy:ground");
+  const Element& at = ground ? *ground : world_element;
+  if (cells.minCoeff() < 4)
+    faults.error(at, "", "the site must be at least 4 cells wide", "smaller cell_m or larger size_m");
+  // 2^16 columns an edge: the sparse tables index columns with 16 bits and more is never meant.
+  if (cells.maxCoeff() > 65536)
+    faults.error(at, "", "the site must be at most 65536 cells wide", "larger cell_m or smaller size_m");
+}
+
+void read_machines(Element& world_element, scene::World& world, bool ground_known, bool sdf_sound, Faults& faults) {
+  for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const std::string kind = e->Name();
+    if (kind != "include" && kind != "model") continue;
+    scene::MachineInWorld instance;
+    if (kind == "include") {
+      instance = read_include(*e, world, ground_known, faults);
+    } else {
+      instance.machine = read_machine(*e, sdf_sound, faults);
+      instance.name = instance.machine.name;
+      read_instance(*e, instance, world, ground_known, faults);
+    }
+    if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
+      faults.error(*e, instance.name, "there is already a machine of this name", "give this one a <name>");
+    world.machines.push_back(std::move(instance));
+  }
+}
+
+}  // namespace
+
+scene::Machine read_machine_file(const std::string& file, Faults& faults) {
+  const auto document = Document::open(file, faults);
+  if (!document || !check_root(*document->root(), faults)) return {};
+  Element& root = *document->root();
+  const std::size_t before = faults.error_count();
+  check_sdf(root, faults);
+  Element* model = root.FirstChildElement("model");
+  if (!model) {
+    faults.error(root, "", "a machine file needs a <model>");
+    return {};
+  }
+  if (Element* program = model->FirstChildElement("navvy:program"))
+    faults.error(*program, "", "a program belongs to the world that uses the machine", "move it into <include>");
+  if (Element* flag = model->FirstChildElement("navvy:on_ground"))
+    faults.error(*flag, "", "belongs to the world that uses the machine", "move it into <include>");
+  return read_machine(*model, faults.error_count() == before, faults);
+}
+
+scene::World read_world(Document& document, Faults& faults) {
+  scene::World world;
+  world.file = document.file();
+  Element& root = *document.root();
+  if (!check_root(root, faults)) return world;
+  const std::size_t before = faults.error_count();
+  check_sdf(root, faults);
+  const bool sdf_sound = faults.error_count() == before;
+  Element* element = root.FirstChildElement("world");
+  if (!element) {
+    faults.error(root, "", "a scene needs a <world name=\"...\">", "");
+    return world;
+  }
+  world.name = attribute(*element, "name");
+  std::vector<double> v;
+  Faults seen;  // check_sdf has reported these
+  if (Element* e = element->FirstChildElement("gravity"); e && read_numbers(*e, 3, {-100, 100}, v, seen))
+    world.gravity = Vec3(v[0], v[1], v[2]);
+  if (Element* e = element->FirstChildElement("navvy:seed")) {
+    double seed = 0;
+    if (!to_number(text_of(*e), seed) || seed < 0 || seed > 9e15 || seed != std::floor(seed))
+      faults.error(*e, text_of(*e), "must be a whole number from 0 to 9e15");
+    else
+      world.seed = static_cast<std::uint64_t>(seed);
+  }
+  read_soils(*element, world, faults);
+  if (Element* e = element->FirstChildElement("navvy:solver")) read_solver(*e, world.solver, faults);
+  const std::size_t before_ground = faults.error_count();
+  Element* ground = element->FirstChildElement("navvy:ground");
+  if (ground) {
+    world.ground = read_ground(*ground, world.soils, faults);
+    check_grid(*element, world, faults);
+  } else {
+    faults.error(*element, "", "a world needs <navvy:ground>",
+                 "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
+  }
+  const bool ground_known = ground && faults.error_count() == before_ground;
+  read_machines(*element, world, ground_known, sdf_sound, faults);
+  if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);
+  for (Element* e = element->FirstChildElement("navvy:camera"); e; e = e->NextSiblingElement("navvy:camera")) {
+    scene::Camera camera = read_camera(*e, world, faults);
+    for (const scene::Camera& other : world.cameras)
+      if (!camera.name.empty() && other.name == camera.name)
+        faults.error(*e, camera.name, "there is already a camera of this name", "rename one of them");
+    world.cameras.push_back(std::move(camera));
+  }
+  for (Element* e = element->FirstChildElement("light"); e; e = e->NextSiblingElement("light"))
+    read_light(*e, world.lights, faults);
+  return world;
+}
+
+}  // namespace navvy::scene_io

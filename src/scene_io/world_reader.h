@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/world.h"
+#include "scene_io/loader.h"
+#include "scene_io/xml.h"
+
+namespace navvy::scene_io {
+
+/// Reads the <world> of a document, after the overrides were applied to it.
+scene::World read_world(Document& document, Faults& faults);
+
+/// Reads the <model> of a machine file; an empty machine after a fault.
+scene::Machine read_machine_file(const std::string& file, Faults& faults);
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/xml.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "core/file.h"
+#include "core/log.h"
+
+namespace navvy::scene_io {
+
+void Faults::add_at(Fault::Severity severity, const Element& at, const std::string& value, const std::string& rule,
+                    const std::string& remedy) {
+  Fault fault;
+  fault.severity = severity;
+  fault.line = at.GetLineNum();
+  fault.file = fault.line > 0 ? Document::of(at).file() : "command line";
+  fault.element = element_path(at);
+  fault.value = value.size() > 80 ? value.substr(0, 77) + "..." : value;
+  fault.rule = rule;
+  fault.remedy = remedy;
+  list_.push_back(std::move(fault));
+}
+
+void Faults::error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) {
+  add_at(Fault::Severity::kError, at, value, rule, remedy);
+}
+
+void Faults::warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) {
+  add_at(Fault::Severity::kWarning, at, value, rule, remedy);
+}
+
+std::size_t Faults::error_count() const {
+  return static_cast<std::size_t>(std::count_if(
+      list_.begin(), list_.end(), [](const Fault& fault) { return fault.severity == Fault::Severity::kError; }));
+}
+
+void Faults::finish() const {
+  if (has_errors()) throw InputError(list_);
+  for (const Fault& fault : list_) log_warning(fault.text());
+}
+
+std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults) {
+  Fault fault;
+  fault.file = file;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    fault.rule = "this is a directory, a file is needed";
+    faults.add(fault);
+    return nullptr;
+  }
+  try {
+    const std::vector<char> bytes = read_file(file);
+    return parse(std::string(bytes.begin(), bytes.end()), file, faults);
+  } catch (const FileError& failure) {
+    fault.rule = std::string("cannot be read: ") + failure.what();
+    fault.remedy = "check the path";
+    faults.add(fault);
+    return nullptr;
+  }
+}
+
+std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name, Faults& faults) {
+  std::unique_ptr<Document> document(new Document);
+  document->file_ = name;
+  document->xml_.SetUserData(document.get());
+  document->xml_.Parse(text.data(), text.size());
+  Fault fault;
+  fault.file = name;
+  if (document->xml_.Error()) {
+    fault.line = document->xml_.ErrorLineNum();
+    fault.rule = std::string("the file must be well-formed XML, but: ") + document->xml_.ErrorName();
+    fault.remedy = "look for an unclosed or misspelt tag at or before this line";
+    faults.add(fault);
+    return nullptr;
+  }
+  if (!document->root()) {
+    fault.rule = "the file has no element";
+    fault.remedy = "start with <sdf version=\"1.9\">";
+    faults.add(fault);
+    return nullptr;
+  }
+  return document;
+}
+
+const Document& Document::of(const Element& element) {
+  return *static_cast<const Document*>(element.GetDocument()->GetUserData());
+}
+
+std::string Document::directory() const {
+  const std::string directory = std::filesystem::path(file_).parent_path().string();
+  return directory.empty() ? "." : directory;
+}
+
+namespace {
+std::string label(const Element& element) {
+  const std::string name = element.Name();
+  for (const char* key : {"name", "ref", "joint"})
+    if (const char* value = element.Attribute(key)) return name + "[" + value + "]";
+  // Without a name: the place among equal siblings, when there are several.
+  int place = 1, count = 0;
+  const auto* parent = element.Parent() ? element.Parent()->ToElement() : nullptr;
+  if (!parent) return name;
+  for (const Element* other = parent->FirstChildElement(element.Name()); other;
+       other = other->NextSiblingElement(element.Name())) {
+    ++count;
+    if (other == &element) place = count;
+  }
+  return count > 1 ? name + "[" + std::to_string(place) + "]" : name;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t keep = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({keep, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+}  // namespace
+
+std::string element_path(const Element& element) {
+  if (std::strcmp(element.Name(), "world") == 0) return "world";
+  std::string path = label(element);
+  for (const auto* up = element.Parent(); up && up->ToElement(); up = up->Parent()) {
+    const Element& parent = *up->ToElement();
+    if (std::strcmp(parent.Name(), "sdf") == 0) break;
+    path = (std::strcmp(parent.Name(), "world") == 0 ? std::string("world") : label(parent)) + "/" + path;
+  }
+  return path;
+}
+
+std::string text_of(const Element& element) {
+  std::string text;
+  for (const auto* node = element.FirstChild(); node; node = node->NextSibling())
+    if (node->ToText()) text += node->Value();
+  const char* blank = " \t\r\n";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::string child_text(const Element& element, const char* name) {
+  const Element* child = element.FirstChildElement(name);
+  return child ? text_of(*child) : "";
+}
+
+std::string attribute(const Element& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value ? value : "";
+}
+
+bool is_extension(const Element& element) { return std::strncmp(element.Name(), "navvy:", 6) == 0; }
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "remove it";
+  // Long words come from broken files; their distance is of no use and would be slow.
+  const std::string head = word.substr(0, 64);
+  const std::string* best = nullptr;
+  std::size_t least = std::max<std::size_t>(2, head.size() / 2);
+  for (const std::string& candidate : candidates) {
+    std::size_t distance = edit_distance(head, candidate);
+    // A forgotten unit ("cohesion" for "cohesion_pa") is the likeliest slip.
+    if (!head.empty() && candidate.rfind(head, 0) == 0) distance = 0;
+    if (distance < least) {
+      least = distance;
+      best = &candidate;
+    }
+  }
+  if (best) return "did you mean '" + *best + "'?";
+  std::string all = "known here: ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) all += (i ? ", " : "") + candidates[i];
+  return all;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+bool to_number(const std::string& text, double& value) {
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (first != last && *first == '+') ++first;
+  const auto result = std::from_chars(first, last, value);
+  return result.ec == std::errc() && result.ptr == last && first != last;
+}
+
+}  // namespace navvy::scene_io
