@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -DPROJECT=headers|minimal -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
+set(work ${BINARY_DIR}/install-test/${PROJECT})
+set(prefix ${work}/prefix)
+file(REMOVE_RECURSE ${work})
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    string(REPLACE ";" " " command "${ARGN}")
+    message(FATAL_ERROR "${command}\nended with ${result}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${prefix})
+file(GLOB_RECURSE headers RELATIVE ${prefix}/include/navvy ${prefix}/include/navvy/*.h)
+list(LENGTH headers count)
+if(count LESS 15)
+  message(FATAL_ERROR "only ${count} headers were installed")
+endif()
+
+# A foreign project: one source a header, or a copy of examples/minimal.
+if(PROJECT STREQUAL "headers")
+  set(sources "")
+  foreach(header IN LISTS headers)
+    string(MAKE_C_IDENTIFIER ${header} name)
+    file(WRITE ${work}/source/${name}.cpp "#include \"${header}\"\n#include \"${header}\"\n")
+    string(APPEND sources " ${name}.cpp")
+  endforeach()
+  file(WRITE ${work}/source/CMakeLists.txt
+       "cmake_minimum_required(VERSION 3.25)\nproject(headers CXX)\nfind_package(navvy 0.1 REQUIRED)\n"
+       "add_library(headers OBJECT${sources})\ntarget_link_libraries(headers PRIVATE navvy::navvy)\n")
+else()
+  file(COPY ${SOURCE_DIR}/examples/${PROJECT}/ DESTINATION ${work}/source)
+endif()
+run(${CMAKE_COMMAND} -S ${work}/source -B ${work}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+run(${CMAKE_COMMAND} --build ${work}/build -j 2)
+if(PROJECT STREQUAL "minimal")
+  run(${work}/build/minimal)
+  if(NOT output MATCHES "boom")
+    message(FATAL_ERROR "the example did not say where the boom is:\n${output}")
+  endif()
+  message("${output}")
+endif()
+file(REMOVE_RECURSE ${work})
