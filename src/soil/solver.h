@@ -24,12 +24,12 @@ namespace navvy::soil {
 
 /// How a tool moves during the coming step. T is the link frame its shell is given in.
 struct ToolMotion {
-  int tool = -1;               ///< from add_tool
+  int tool = -1;  ///< from add_tool
   Pose X_WT = Pose::Identity();
-  Vec3 v_WT = Vec3::Zero();    ///< velocity of T's origin before soil acts [m/s]
-  Vec3 w_WT = Vec3::Zero();    ///< angular velocity [rad/s]
-  /// Inverse of the link's effective (articulated) mass at T's origin, order (angular, linear), axes of W: the change of
-  /// (w, v) per unit of (angular impulse about T's origin, impulse). Zero: scripted, the tool does not yield.
+  Vec3 v_WT = Vec3::Zero();  ///< velocity of T's origin before soil acts [m/s]
+  Vec3 w_WT = Vec3::Zero();  ///< angular velocity [rad/s]
+  /// Inverse of the link's effective (articulated) mass at T's origin, order (angular, linear), axes of W: the change
+  /// of (w, v) per unit of (angular impulse about T's origin, impulse). Zero: scripted, the tool does not yield.
   Mat6 inverse_mass = Mat6::Zero();
 };
 
@@ -50,7 +50,8 @@ struct Ledger {
   std::vector<std::int64_t> columns;    ///< change of the ground against its start
   std::vector<std::int64_t> particles;  ///< sum of particle masses; a particle with a NaN counts as lost (not counted)
   std::vector<std::int64_t> left_site;  ///< went over the edge
-  std::int64_t error() const;           ///< sum over soils of |columns + particles + left_site|; 0 = closed
+  std::vector<std::int64_t> inserted;   ///< came in through `insert`
+  std::int64_t error() const;           ///< sum over soils of |columns + particles + left_site - inserted|; 0 = closed
 };
 
 struct SolverStats {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contact of the two node fields with tools: fractional, unilateral, Coulomb; and the sums of the two-way solve.
+//
+// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; tools: TOOL_WORDS floats each. One work-item per near block. Host: src/soil/contact.cpp.
+// Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
+#include "common/portable.h"
+#include "soil/layout.h"
+
+typedef struct Reach {
+  float h, ramp, edge, edge_ramp, rate;  // [cells]; rate = dt / reference step
+} Reach;
+
+// Weight of the contact at a node, 0..1, made independent of the step.
+// b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
+static inline float weight(float clearance, float inset, Reach r) {
+  const float along = clamp((inset - r.edge + 0.5f * r.edge_ramp) / r.edge_ramp, 0.0f, 1.0f);
+  const float b = clamp((r.h + 0.5f * r.ramp - clearance) / r.ramp, 0.0f, 1.0f) * along;
+  return b * r.rate / (1.0f + (r.rate - 1.0f) * b);
+}
+
+typedef struct Node {
+  float3 v, r, n;  // velocity, lever arm from the tool's origin [m], normal away from the plate on this field's side
+  float m, b, mu;
+} Node;
+
+// Impulse on the node [N s] for the tool's twist; *pushing and *sticking tell the branch.
+static inline float3 impulse(const Node* node, float3 spin, float3 speed, bool* pushing, bool* sticking) {
+  const float3 rel = node->v - (speed + cross(spin, node->r));
+  const float rn = dot(rel, node->n);
+  *pushing = rn < 0.0f;
+  *sticking = false;
+  if (!*pushing) return (float3)(0.0f);
+  const float jn = -node->m * rn;
+  const float3 t = rel - rn * node->n;
+  const float speed_t = sqrt(dot(t, t));
+  const float most = node->mu * jn;
+  *sticking = node->m * speed_t <= most;
+  const float3 jt = *sticking ? node->m * t : t * (most / fmax(speed_t, 1e-12f));
+  return node->b * (jn * node->n - jt);
+}
+
+// Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
+static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float dx, Reach reach,
+                             global const float4* field, global const int* split, global const int* node_tool,
+                             global const float8* shell, global const float* friction, global const int4* windows,
+                             global const float* tools) {
+  const int i = slot * BLOCK_NODES + n;
+  if (split[i] == 0) return false;
+  const float4 v = field[i];
+  if (!(v.w > MASS_QUANTUM)) return false;
+  const int tool = node_tool[i];
+  global const float* at = tools + TOOL_WORDS * tool;
+  if (at[TOOL_ACTIVE] == 0.0f) return false;
+  const float sign = s == 0 ? 1.0f : -1.0f;
+  const float8 q = shell[i];
+  node->b = weight(sign * q.s3 - at[TOOL_HALF], q.s4, reach);
+  if (!(node->b > 0.0f)) return false;
+  node->v = v.xyz;
+  node->m = v.w;
+  node->n = sign * q.s012;
+  node->mu = friction[i];
+  const int3 p = 4 * (key - windows[tool].xyz) + (int3)(n & 3, (n >> 2) & 3, n >> 4);
+  node->r = dx * (convert_float3(p) - vload3(0, at + TOOL_ORIGIN));
+  return true;
+}
+
+#define NODE_ARGS                                                                                              \
+  global const int *restrict near_list, global const int4 *restrict keys, global const float4 *restrict before0, \
+      global const float4 *restrict before1, global const int *restrict split, global const int *restrict node_tool, \
+      global const float8 *restrict shell, global const float *restrict friction, global const int4 *restrict windows, \
+      global const float *restrict tools, const Reach reach, const float dx
+#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, windows, tools
+
+// Out: per near block the wrench sum of J (angular about the tool's origin, linear) and sum of G^T b m P G, where P is
+// what of the node's velocity the contact holds: the normal, or everything when it sticks.
+kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
+  const int slot = get_global_id(0);
+  const int3 key = keys[near_list[slot]].xyz;
+  float out[CONTACT_SUMS];
+  for (int i = 0; i < CONTACT_SUMS; ++i) out[i] = 0.0f;
+  for (int n = 0; n < BLOCK_NODES; ++n)
+    for (int s = 0; s < 2; ++s) {
+      Node node;
+      if (!load_node(&node, s, slot, n, NODE_PASS)) continue;
+      global const float* at = tools + TOOL_WORDS * node_tool[slot * BLOCK_NODES + n];
+      bool pushing, sticking;
+      const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
+      if (!pushing) continue;
+      const float3 l = cross(node.r, j);
+      out[0] += l.x;
+      out[1] += l.y;
+      out[2] += l.z;
+      out[3] += j.x;
+      out[4] += j.y;
+      out[5] += j.z;
+      // Directions held: the normal, or three axes. Each adds b m g g^T with g = (r x d, d).
+      for (int a = 0; a < (sticking ? 3 : 1); ++a) {
+        const float3 d = !sticking ? node.n : (float3)(a == 0, a == 1, a == 2);
+        const float3 moment = cross(node.r, d);
+        const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
+        int k = 6;
+        for (int row = 0; row < 6; ++row)
+          for (int col = row; col < 6; ++col) out[k++] += node.b * node.m * g[row] * g[col];
+      }
+    }
+  for (int i = 0; i < CONTACT_SUMS; ++i) sums[CONTACT_SUMS * slot + i] = out[i];
+}
+
+// Applies the impulses of the final twist, then holds nodes at or below the resting ground.
+// Out: after0/1 = velocity after contact, before the floor (w = |normal impulse|), for the books; velocity0 (per active
+// block) and velocity1 (per near block) = what particles will feel.
+kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global float4* restrict after0,
+                          global float4* restrict after1, global float4* restrict velocity0,
+                          global float4* restrict velocity1) {
+  const int slot = get_global_id(0);
+  const int block = near_list[slot];
+  const int3 key = keys[block].xyz;
+  for (int n = 0; n < BLOCK_NODES; ++n) {
+    const int i = slot * BLOCK_NODES + n;
+    const bool held = (float)(n >> 4) <= floor_height[16 * block + (n & 15)];
+    for (int s = 0; s < 2; ++s) {
+      const float4 v = s == 0 ? before0[i] : before1[i];
+      float4 after = (float4)(v.xyz, 0.0f);
+      Node node;
+      if (load_node(&node, s, slot, n, NODE_PASS)) {
+        global const float* at = tools + TOOL_WORDS * node_tool[i];
+        bool pushing, sticking;
+        const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
+        if (pushing) after = (float4)(v.xyz + j / node.m, dot(j, node.n));
+      }
+      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w);
+      if (s == 0) {
+        after0[i] = after;
+        velocity0[(size_t)block * BLOCK_NODES + n] = felt;
+      } else {
+        after1[i] = after;
+        velocity1[i] = felt;
+      }
+    }
+  }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layout of the particle and grid arrays, read by the host and by the kernels. Scalars and macros only.
+//
+// Particles are stored by home block, each block's run starting at a multiple of NAVVY_LANES; lanes past a block's count
+// have mass 0. Field f of slot i is word f * capacity + i. A particle's home is the block of its base node
+// floor(x - 0.5), so x runs over [0.5, 4.5) after a re-bin and may drift one cell to each side before the next one.
+// A tile is the 8 x 8 x 8 nodes -1..6 of a home block, x fastest, one float4 each.
+#ifndef NAVVY_KERNELS_SOIL_LAYOUT_H
+#define NAVVY_KERNELS_SOIL_LAYOUT_H
+
+#define NAVVY_LANES 16
+
+#define FIELD_X 0       // 3: offset from the home block's corner [cells]
+#define FIELD_V 3       // 3: [m/s]
+#define FIELD_C 6       // 9: velocity gradient, row major [1/s]
+#define FIELD_S 15      // 6: deviatoric stress xx yy zz xy yz xz [Pa]
+#define FIELD_J 21      // volume ratio
+#define FIELD_J0 22     // density state
+#define FIELD_SHEAR 23  // plastic shear
+#define FIELD_MASS 24   // int, mass quanta
+#define FIELD_TAG 25    // int, soil | side << 16
+#define FIELD_ID 26     // int
+#define FIELD_COUNT 27
+
+#define MASS_QUANTUM (1.0f / 16777216.0f)  // core/math.h kMassQuantum [kg]; a lighter node is empty
+
+#define TILE_NODES 516  // 512 and a pad row end: a float16 read of the last row stays inside; not a power of two
+#define BLOCK_NODES 64
+
+// One soil in the constant table.
+#define SOIL_BULK 0
+#define SOIL_SHEAR 1
+#define SOIL_ALPHA 2
+#define SOIL_K_RESIDUAL 3
+#define SOIL_K_BOND 4
+#define SOIL_INV_REMOULD 5
+#define SOIL_INV_OPENING 6
+#define SOIL_VISCOSITY 7
+#define SOIL_SWELL 8
+#define SOIL_LOOSENING 9
+#define SOIL_PUSH 10
+#define SOIL_INV_DENSITY 11
+#define SOIL_TOOL_FRICTION 12
+#define SOIL_WORDS 16
+
+// One tool in the table of contact.cl.
+#define TOOL_ORIGIN 0   // 3: frame origin from the window's corner [cells]
+#define TOOL_SPIN 3     // 3: angular velocity [rad/s]
+#define TOOL_SPEED 6    // 3: velocity of the origin [m/s]
+#define TOOL_HALF 9     // half thickness [cells]
+#define TOOL_ACTIVE 10  // 1 when the tool takes part in this launch
+#define TOOL_WORDS 16
+
+// Sums of one near block in the two-way solve: 6 wrench, 21 upper triangle of the stiffness, 1 unused.
+#define CONTACT_SUMS 28
+
+// float4 words of one triangle, see shell_query.h.
+#define SHELL_WORDS 10
+
+#endif  // NAVVY_KERNELS_SOIL_LAYOUT_H

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sorts particles into their new home blocks without atomics, in stable order.
+//
+// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many.
+// 2 (host) builds the new homes from the counts, and for each the 27 old homes it takes from.
+// 3 rebin_gather: per new home, the old slot of each new slot.
+// 4 rebin_move: per new home, copies every field.
+// One work-item per home. Host: src/soil/particle_store.cpp.
+#include "soil/lanes.h"
+
+// site: number of cells in x and y.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
+    global const float* restrict state, const int capacity, global const int4* restrict homes,
+    global const int4* restrict keys, global uchar* restrict codes, global int* restrict counts, const int2 site) {
+  const int home = get_global_id(0);
+  int count[28];
+  for (int i = 0; i < 28; ++i) count[i] = 0;
+  const float x0 = -4.0f * keys[home].x, y0 = -4.0f * keys[home].y, x1 = x0 + site.x, y1 = y0 + site.y;
+  for (int at = homes[home].x; at < homes[home].x + homes[home].y; ++at) {
+    const float x = state[at], y = state[(size_t)capacity + at], z = state[2 * (size_t)capacity + at];
+    const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
+    const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
+    const bool outside = x < x0 || x >= x1 || y < y0 || y >= y1;
+    const int code = outside ? 27 : (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1);
+    codes[at] = code;
+    ++count[code];
+  }
+  for (int i = 0; i < 28; ++i) counts[28 * home + i] = count[i];
+}
+
+// sources[27 * new + n] = old home from which code n leads here, or -1.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
+    global const int4* restrict old_homes, global const uchar* restrict codes, global const int* restrict counts,
+    global const int4* restrict homes, global const int* restrict sources, global int* restrict from) {
+  const int home = get_global_id(0);
+  int slot = homes[home].x;
+  for (int n = 0; n < 27; ++n) {
+    const int old = sources[27 * home + n];
+    if (old < 0) continue;
+    int left = counts[28 * old + n];
+    for (int at = old_homes[old].x; left > 0; ++at)
+      if (codes[at] == n) {
+        from[slot++] = at;
+        --left;
+      }
+  }
+}
+
+// Also the mean tool friction of each home, and the lanes past its count, which get mass 0.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
+    global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
+    global const int* restrict from, global const int4* restrict homes, global float* restrict state, const int capacity,
+    constant float* soils, global float* restrict home_friction) {
+  const int home = get_global_id(0);
+  const int start = homes[home].x, end = start + homes[home].y;
+  const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
+  for (int f = 0; f < FIELD_COUNT; ++f) {
+    global const float* in = old_state + (size_t)f * old_capacity;
+    global float* out = state + (size_t)f * capacity;
+    for (int at = start; at < end; ++at) out[at] = in[from[at]];
+    const float rest = f < FIELD_X + 3 ? 2.0f : (f == FIELD_J || f == FIELD_J0) ? 1.0f : 0.0f;
+    for (int at = end; at < padded; ++at) out[at] = rest;
+  }
+  float friction = 0.0f;
+  for (int at = start; at < end; ++at) {
+    const int3 d = neighbour_offset(codes[from[at]]);
+    state[at] -= 4.0f * d.x;
+    state[(size_t)capacity + at] -= 4.0f * d.y;
+    state[2 * (size_t)capacity + at] -= 4.0f * d.z;
+    const int tag = as_int(state[(size_t)FIELD_TAG * capacity + at]);
+    friction += soils[(tag & 0xffff) * SOIL_WORDS + SOIL_TOOL_FRICTION];
+  }
+  home_friction[home] = friction / (float)max(end - start, 1);
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
+//
+// In:  triangles (shell_query.h), tools: per tool int4 (window block x y z, unused), half thickness [cells];
+//      first / list: candidate triangles per near block (compressed rows). Band [cells]: how far a side reaches.
+// One work-item per near block, nothing shared. Host: src/soil/contact.cpp.
+#include "soil/lanes.h"
+#include "soil/shell_query.h"
+
+static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const int4* windows,
+                         global const int* list, int begin, int end, Closest* best) {
+  best->distance2 = INFINITY;
+  best->x = best->y = best->z = 0.0f;
+  best->feature = -1;
+  for (int i = begin; i < end; ++i) {
+    const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
+    const float3 shift = convert_float3(4 * (key - windows[tool].xyz));
+    closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], best);
+  }
+}
+
+// What one point learns from its closest feature. Normal points to the front.
+static inline bool resolve(global const float4* triangles, int feature, float3 away, float distance2, float* phi,
+                           float3* normal, bool* rim) {
+  if (feature < 0) return false;
+  const float4 pseudo = triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL + (feature & 7)];
+  const float d = sqrt(distance2);
+  const float sign = dot(away, pseudo.xyz) >= 0.0f ? 1.0f : -1.0f;
+  *phi = sign * d;
+  // On the plate itself the direction is the plate's.
+  *normal = d > 1e-4f ? away * (sign / d) : triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL].xyz;
+  *rim = pseudo.w > 0.0f;
+  return true;
+}
+
+// Out per near node: split (0 none, 1 in front, 2 behind), tool, and float8 (normal, phi, inset, 0 0 0) [cells].
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
+    global const int* restrict near_list, global const int4* restrict keys, global const float4* restrict triangles,
+    global const int4* restrict windows, global const int* restrict first, global const int* restrict list,
+    global const float4* restrict rims, const int rim_count, const float band, global int* restrict node_split,
+    global int* restrict node_tool, global float8* restrict node_shell) {
+  const int slot = get_global_id(0);
+  const int3 key = keys[near_list[slot]].xyz;
+  const real step_x = (real)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+  const real step_y = (real)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  for (int layer = 0; layer < 4; ++layer) {
+    Closest best;
+    const real step_z = (float)layer;
+    query(step_x, step_y, step_z, key, triangles, windows, list, first[slot], first[slot + 1], &best);
+    // Distance along the plate to its free edge; only plates of the same tool count.
+    real inset2 = INFINITY;
+    float d2[16], cx[16], cy[16], cz[16], inset[16];
+    int feature[16], tools[16];
+    vstore16(best.feature, 0, feature);
+    for (int l = 0; l < 16; ++l)
+      tools[l] = feature[l] < 0 ? -1 : as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
+    const int16 tool_of = vload16(0, tools);
+    if (any(best.distance2 < band * band))
+      for (int r = 0; r < rim_count; ++r) {
+        const real e2 = segment_distance2(best.x, best.y, best.z, rims[2 * r].xyz, rims[2 * r + 1].xyz);
+        inset2 = select(inset2, fmin(inset2, e2), tool_of == as_int(rims[2 * r].w));
+      }
+    vstore16(best.distance2, 0, d2);
+    vstore16(best.x, 0, cx);
+    vstore16(best.y, 0, cy);
+    vstore16(best.z, 0, cz);
+    vstore16(sqrt(inset2), 0, inset);
+    for (int l = 0; l < 16; ++l) {
+      const int node = slot * BLOCK_NODES + 16 * layer + l;
+      node_split[node] = 0;
+      node_tool[node] = tools[l];
+      if (tools[l] < 0) continue;
+      const float3 at = convert_float3(4 * (key - windows[tools[l]].xyz) + (int3)(l & 3, l >> 2, layer));
+      float phi;
+      float3 normal;
+      bool rim;
+      resolve(triangles, feature[l], at - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal, &rim);
+      node_split[node] = rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2;
+      node_shell[node] = (float8)(normal.x, normal.y, normal.z, phi, inset[l], 0.0f, 0.0f, 0.0f);
+    }
+  }
+}
+
+// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface (position only).
+// Out: moved[near home] = farthest push [cells]; crossed[near home] = particles found on the wrong side.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
+    global float* restrict state, const int capacity, global const int* restrict near_list,
+    global const int4* restrict homes, global const int4* restrict keys, global const float4* restrict triangles,
+    global const int4* restrict windows, global const float* restrict half_thickness, global const int* restrict first,
+    global const int* restrict list, const float band, const float longest_push, global float* restrict moved,
+    global int* restrict crossed) {
+  const int near = get_global_id(0);
+  const int home = near_list[near];
+  const int3 key = keys[home].xyz;
+  float far_push = 0.0f;
+  int crossings = 0;
+  for (int at = homes[home].x; at < homes[home].x + homes[home].y; at += 16) {
+    const int count = min(16, homes[home].x + homes[home].y - at);
+    Closest best;
+    const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
+    query(x, y, z, key, triangles, windows, list, first[near], first[near + 1], &best);
+    float d2[16], cx[16], cy[16], cz[16], px[16], py[16], pz[16];
+    int feature[16], tag[16];
+    vstore16(best.feature, 0, feature);
+    vstore16(best.distance2, 0, d2);
+    vstore16(best.x, 0, cx);
+    vstore16(best.y, 0, cy);
+    vstore16(best.z, 0, cz);
+    vstore16(x, 0, px);
+    vstore16(y, 0, py);
+    vstore16(z, 0, pz);
+    vstore16(as_int16(LOAD(FIELD_TAG)), 0, tag);
+    for (int l = 0; l < count; ++l) {
+      const int old_side = tag[l] >> 16;
+      int side = 0;
+      float phi = 0.0f;
+      float3 normal = (float3)(0.0f);
+      bool rim = true;
+      int tool = -1;
+      if (feature[l] >= 0 && d2[l] < 4.0f * band * band) {
+        tool = as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
+        const float3 here = convert_float3(4 * (key - windows[tool].xyz)) + (float3)(px[l], py[l], pz[l]);
+        resolve(triangles, feature[l], here - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal, &rim);
+      }
+      const bool behind_before = (old_side & 1) == 0;  // side = 1 + 2 tool + behind
+      const bool same_tool = old_side > 0 && (old_side - 1) / 2 == tool;
+      if (!rim && fabs(phi) < band) {
+        side = same_tool ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
+        const float s = (side & 1) == 0 ? -1.0f : 1.0f;
+        const float depth = half_thickness[tool] - s * phi;
+        if (depth > 0.0f) {
+          const float push = fmin(depth, longest_push);
+          px[l] += s * push * normal.x;
+          py[l] += s * push * normal.y;
+          pz[l] += s * push * normal.z;
+          far_push = fmax(far_push, push);
+          crossings += depth - push > half_thickness[tool];  // still behind the plate's middle
+        }
+      } else if (!rim && same_tool && d2[l] < 4.0f * band * band) {
+        crossings += (phi < 0.0f) != behind_before;  // left the band on the side where it never was
+      }
+      tag[l] = (tag[l] & 0xffff) | (side << 16);
+    }
+    STORE(FIELD_X, vload16(0, px));
+    STORE(FIELD_X + 1, vload16(0, py));
+    STORE(FIELD_X + 2, vload16(0, pz));
+    STORE(FIELD_TAG, as_float16(vload16(0, tag)));
+  }
+  moved[near] = far_push;
+  crossed[near] = crossings;
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closest point on the triangles of shells, for 16 points at a time.
+//
+// A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool), unit
+// normal (w unused), pseudo-normals of the edges ab bc ca and of the corners a b c (w = 1 on a free edge). The sign of
+// the distance comes from the pseudo-normal of the feature that is closest [Baerentzen & Aanaes 2005], which is right on
+// folds of either kind: with plain face normals a point before an inner corner would see one face from behind.
+#ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
+#define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
+
+#define SHELL_NORMAL 3  // feature 0 is the face, 1..3 the edges, 4..6 the corners: word = SHELL_NORMAL + feature
+
+typedef struct Closest {
+  real distance2;   // [cells^2]
+  real x, y, z;     // the closest point, from its tool's window corner
+  int16 feature;    // 8 * triangle + feature, -1: none
+} Closest;
+
+static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature, int corner_a, int corner_b,
+                                Closest* best) {
+  const float inv = 1.0f / dot(ab, ab);
+  const real t = fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
+  const real cx = a.x + t * ab.x, cy = a.y + t * ab.y, cz = a.z + t * ab.z;
+  const real dx = px - cx, dy = py - cy, dz = pz - cz;
+  const real d2 = dx * dx + dy * dy + dz * dz;
+  const int16 which = select(select((int16)(feature), (int16)(corner_b), t >= 1.0f), (int16)(corner_a), t <= 0.0f);
+  const int16 nearer = d2 < best->distance2;
+  best->distance2 = select(best->distance2, d2, nearer);
+  best->x = select(best->x, cx, nearer);
+  best->y = select(best->y, cy, nearer);
+  best->z = select(best->z, cz, nearer);
+  best->feature = select(best->feature, which, nearer);
+}
+
+// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner).
+static inline void closest_triangle(real px, real py, real pz, global const float4* triangles, int t, Closest* best) {
+  global const float4* at = triangles + SHELL_WORDS * t;
+  const float3 a = at[0].xyz, b = at[1].xyz, c = at[2].xyz, n = at[3].xyz;
+  const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
+  const real h = (px - a.x) * n.x + (py - a.y) * n.y + (pz - a.z) * n.z;
+  const int16 inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
+                       ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
+                       ((px - c.x) * mc.x + (py - c.y) * mc.y + (pz - c.z) * mc.z >= 0.0f);
+  const int16 nearer = inside & (h * h < best->distance2);
+  best->distance2 = select(best->distance2, h * h, nearer);
+  best->x = select(best->x, px - h * n.x, nearer);
+  best->y = select(best->y, py - h * n.y, nearer);
+  best->z = select(best->z, pz - h * n.z, nearer);
+  best->feature = select(best->feature, (int16)(8 * t), nearer);
+  closest_edge(px, py, pz, a, b - a, 8 * t + 1, 8 * t + 4, 8 * t + 5, best);
+  closest_edge(px, py, pz, b, c - b, 8 * t + 2, 8 * t + 5, 8 * t + 6, best);
+  closest_edge(px, py, pz, c, a - c, 8 * t + 3, 8 * t + 6, 8 * t + 4, best);
+}
+
+// Distance from points to a segment squared.
+static inline real segment_distance2(real px, real py, real pz, float3 a, float3 ab) {
+  const float inv = 1.0f / dot(ab, ab);
+  const real t = fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
+  const real dx = px - a.x - t * ab.x, dy = py - a.y - t * ab.y, dz = pz - a.z - t * ab.z;
+  return dx * dx + dy * dy + dz * dz;
+}
+
+#endif  // NAVVY_KERNELS_SOIL_SHELL_QUERY_H

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tools in the soil: who is near, the side of particles, and the nodal contact solved together with the tool.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "device/buffer.h"
+#include "device/program.h"
+#include "soil/particle_store.h"
+#include "soil/shell_geometry.h"
+#include "soil/solver.h"
+#include "soil/transfer.h"
+
+namespace navvy::soil {
+
+/// Lengths in cells [SOIL_SOLVER section 5, thin-tools.md section 7].
+struct ContactSettings {
+  double band = 2.5;          ///< how far from a shell particles keep a side
+  double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
+  double ramp = 1.0;          ///< over which their weight falls to zero
+  double edge = 0.8;          ///< nodes closer than this to a free edge do not act
+  double edge_ramp = 1.0;     ///< over which their weight falls along the plate
+  double reference = 0.4;     ///< the step for which the weights hold, as a share of cell / sound speed
+  double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
+  double longest_push = 0.2;  ///< position correction per step
+  int sweeps = 4;             ///< of the two-way solve
+};
+
+/// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
+class Contact {
+ public:
+  Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound);
+
+  int add_tool(const scene::Shell& shell);
+  const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
+
+  /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
+  /// lays out tiles again (near_homes, near_slot).
+  bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
+  /// Builds the near lists for the poses they were last built for (after `load`).
+  void list_near(const BlockTable& table);
+  const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
+  const std::vector<int>& near_slot() const { return near_slot_; }
+  NearNodes& nodes() { return nodes_; }
+
+  /// Signed distances of nodes, sides of particles, particles pushed out of plates. Waits. Returns the farthest push
+  /// [cells]; adds to `crossings`.
+  double classify(ParticleStore& store, Transfer& transfer, std::uint64_t& crossings);
+  /// The two-way solve and its impulses; `impulses` parallel to the motions. Waits.
+  void solve(Transfer& transfer, double dt, std::span<ToolImpulse> impulses);
+
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct Tool {
+    std::unique_ptr<ShellGeometry> geometry;
+    int first_triangle = 0;
+    bool present = false;              ///< has a motion this step
+    bool listed = false;               ///< near lists hold it
+    Pose X_listed = Pose::Identity();  ///< where it was then
+    Pose X = Pose::Identity();
+    BlockKey window;  ///< block its float coordinates count from
+  };
+  struct Rows {  ///< compressed rows of candidate triangles
+    std::vector<int> first, list;
+  };
+  Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
+  bool moved_far() const;
+  void find_candidates(const BlockTable& table, std::vector<std::vector<int>>& nodes,
+                       std::vector<std::vector<int>>& homes) const;
+  void upload_triangles();
+  void write_tools(std::span<const ToolMotion> motions, const std::vector<Vec6>& twists, int only);
+  Vec6 solve_twist(Transfer& transfer, std::span<const ToolMotion> motions, std::vector<Vec6>& twists, std::size_t at);
+  void book(const Transfer& transfer, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) const;
+  template <class... Tail>
+  void launch(device::Kernel& kernel, Transfer& transfer, const Tail&... tail);
+
+  device::Device& device_;
+  double cell_;
+  Vec3 origin_;
+  ContactSettings settings_;
+  double reference_step_;
+  std::vector<Tool> tools_;
+  std::vector<ToolMotion> motions_;
+  device::Program shell_program_, contact_program_;
+  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, apply_kernel_;
+  std::vector<std::uint8_t> near_homes_;
+  std::vector<int> near_slot_, near_home_list_;
+  std::vector<BlockKey> near_keys_;
+  NearNodes nodes_;
+  std::array<float, 5> reach_{};
+  device::Buffer<float> triangles_, rims_, half_thickness_, tools_buffer_, sums_, shell_, after0_, after1_, moved_;
+  device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
+      crossed_;
+  device::Buffer<std::array<std::int32_t, 4>> windows_;
+  int rim_count_ = 0;
+};
+
+}  // namespace navvy::soil

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/floor.h"
+
+#include <algorithm>
+
+#include "soil/particle.h"
+
+namespace navvy::soil {
+namespace {
+
+/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
+constexpr float kMargin = 0.25f;
+
+}  // namespace
+
+Floor::Patch Floor::make_patch(int bx, int by) const {
+  // Node i touches the columns i - 1 and i, so 4 x 4 nodes need 5 x 5 columns.
+  std::vector<float> columns;
+  const int x0 = kBlockCells * bx - 1, y0 = kBlockCells * by - 1;
+  ground_->copy_heights({x0, y0, x0 + 5, y0 + 5}, columns);
+  const auto height = [&](int ix, int iy) {
+    return (static_cast<double>(columns[static_cast<std::size_t>(ix + 5 * iy)]) - ground_->datum()) / ground_->cell();
+  };
+  Patch patch;
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) {
+      const double highest = std::max({height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)});
+      patch[static_cast<std::size_t>(x + 4 * y)] = static_cast<float>(highest) + kMargin;
+    }
+  return patch;
+}
+
+bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
+  const bool ground_changed = first_ || ground_->sequence() != sequence_;
+  if (!ground_changed && !blocks_changed) return false;
+  if (ground_changed && !first_) {
+    const heightfield::CellRect rect = ground_->changed_since(sequence_);
+    std::erase_if(patches_, [&](const auto& entry) {
+      const int x0 = kBlockCells * entry.first.first - 1, y0 = kBlockCells * entry.first.second - 1;
+      return rect.x0 < x0 + 5 && rect.x1 > x0 && rect.y0 < y0 + 5 && rect.y1 > y0;
+    });
+  }
+  sequence_ = ground_->sequence();
+  first_ = false;
+
+  std::map<std::pair<int, int>, Patch> used;
+  heights_.resize(16 * active.size());
+  for (std::size_t b = 0; b < active.size(); ++b) {
+    const std::pair<int, int> key{active[b].x, active[b].y};
+    auto found = used.find(key);
+    if (found == used.end()) {
+      const auto known = patches_.find(key);
+      found = used.emplace(key, known != patches_.end() ? known->second : make_patch(key.first, key.second)).first;
+    }
+    const float corner = static_cast<float>(kBlockCells * active[b].z);
+    for (std::size_t i = 0; i < 16; ++i) heights_[16 * b + i] = found->second[i] - corner;
+  }
+  patches_.swap(used);
+  return true;
+}
+
+}  // namespace navvy::soil

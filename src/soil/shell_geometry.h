@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shell prepared for the solver: pseudo-normals, free edges, small boxes for finding who is near, its hull.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/machine.h"
+
+namespace navvy::soil {
+
+/// Geometry of one tool in its link frame T. Built once.
+class ShellGeometry {
+ public:
+  /// @throws InputError when the shell has no triangles, one of no area, or an index out of range.
+  ShellGeometry(const scene::Shell& shell, double cell);
+
+  const scene::Shell& shell() const { return shell_; }
+
+  /// What the kernels need of triangle t, in T. Normals point to the front.
+  struct Triangle {
+    std::array<Vec3, 3> corner;
+    Vec3 normal;
+    std::array<Vec3, 3> edge_normal, corner_normal;  ///< pseudo-normals of edges ab bc ca and of corners
+    std::array<bool, 3> edge_free, corner_free;
+  };
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<std::array<Vec3, 2>>& rims() const { return rims_; }
+
+  /// Pieces of the triangles no longer than a few cells: corners in T and whose triangle they are.
+  struct Piece {
+    std::array<Vec3, 3> corner;
+    int triangle;
+  };
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+  /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference of the kernels'
+  /// query.
+  double distance(const Vec3& p) const;
+  /// Inside the hull (raised over the mouth to hold a heap) and in front.
+  bool holds(const Vec3& p) const;
+
+ private:
+  void find_normals();
+  void cut_pieces(double longest);
+  void build_hull();
+
+  scene::Shell shell_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::array<Vec3, 2>> rims_;
+  std::vector<Piece> pieces_;
+  struct Plane {
+    Vec3 normal;
+    double offset;
+  };
+  std::vector<Plane> hull_;
+};
+
+}  // namespace navvy::soil

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/soil_table.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "soil/layout.h"
+
+namespace navvy::soil {
+namespace {
+
+/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [SOIL_SOLVER section 3].
+constexpr double kViscosityShare = 0.05;
+/// Pressure that loosening soil can push with [Pa]. tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell.
+constexpr double kLooseningPush = 0;
+
+void require(bool ok, const scene::Soil& soil, const std::string& element, double value, const std::string& rule,
+             std::vector<Fault>& faults) {
+  if (ok) return;
+  Fault fault;
+  fault.element = "soil[" + soil.name + "]/" + element;
+  fault.value = std::to_string(value);
+  fault.rule = rule;
+  fault.remedy = "correct the soil";
+  faults.push_back(fault);
+}
+
+void check(const scene::Soil& s, std::vector<Fault>& faults) {
+  require(s.bank_density > 100 && s.bank_density < 20000, s, "bank_density", s.bank_density, "100 .. 20000 kg/m3",
+          faults);
+  require(s.swell >= 1 && s.swell < 3, s, "swell", s.swell, "1 .. 3", faults);
+  require(s.friction_angle >= 0 && s.friction_angle < radians(60), s, "friction_angle", s.friction_angle,
+          "0 .. 60 degrees", faults);
+  require(s.cohesion >= 0 && s.cohesion < 1e7, s, "cohesion", s.cohesion, "0 .. 1e7 Pa", faults);
+  require(s.residual_cohesion >= 0 && s.residual_cohesion <= s.cohesion, s, "residual_cohesion", s.residual_cohesion,
+          "0 .. cohesion", faults);
+  require(s.remoulding_strain > 0, s, "remoulding_strain", s.remoulding_strain, "> 0", faults);
+  require(s.loosening_strain > 0, s, "loosening_strain", s.loosening_strain, "> 0", faults);
+  require(s.opening_strain > 0, s, "opening_strain", s.opening_strain, "> 0", faults);
+  require(s.young_modulus >= 1e4 && s.young_modulus <= 1e10, s, "young_modulus", s.young_modulus, "1e4 .. 1e10 Pa",
+          faults);
+  require(s.poisson >= 0 && s.poisson < 0.49, s, "poisson", s.poisson, "0 .. 0.49", faults);
+}
+
+}  // namespace
+
+LawConstants law_constants(const scene::Soil& soil, double cell) {
+  LawConstants k;
+  k.bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
+  k.shear = soil.young_modulus / (2 * (1 + soil.poisson));
+  k.alpha = std::sin(soil.friction_angle);
+  k.k_residual = soil.residual_cohesion * std::cos(soil.friction_angle);
+  k.k_bond = (soil.cohesion - soil.residual_cohesion) * std::cos(soil.friction_angle);
+  k.inv_remould = 1 / soil.remoulding_strain;
+  k.inv_opening = 1 / soil.opening_strain;
+  k.viscosity = kViscosityShare * soil.bank_density * sound_speed(soil) * cell;
+  k.swell = soil.swell;
+  k.loosening = (soil.swell - 1) / soil.loosening_strain;
+  k.push = kLooseningPush / k.bulk;
+  return k;
+}
+
+double sound_speed(const scene::Soil& soil) {
+  const double bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
+  const double shear = soil.young_modulus / (2 * (1 + soil.poisson));
+  return std::sqrt((bulk + 4 * shear / 3) / soil.bank_density);
+}
+
+std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell) {
+  std::vector<Fault> faults;
+  for (const scene::Soil& soil : soils) check(soil, faults);
+  if (!faults.empty()) throw InputError(faults);
+  std::vector<float> table(soils.size() * SOIL_WORDS, 0.0f);
+  for (std::size_t i = 0; i < soils.size(); ++i) {
+    const LawConstants k = law_constants(soils[i], cell);
+    float* at = table.data() + i * SOIL_WORDS;
+    at[SOIL_BULK] = static_cast<float>(k.bulk);
+    at[SOIL_SHEAR] = static_cast<float>(k.shear);
+    at[SOIL_ALPHA] = static_cast<float>(k.alpha);
+    at[SOIL_K_RESIDUAL] = static_cast<float>(k.k_residual);
+    at[SOIL_K_BOND] = static_cast<float>(k.k_bond);
+    at[SOIL_INV_REMOULD] = static_cast<float>(k.inv_remould);
+    at[SOIL_INV_OPENING] = static_cast<float>(k.inv_opening);
+    at[SOIL_VISCOSITY] = static_cast<float>(k.viscosity);
+    at[SOIL_SWELL] = static_cast<float>(k.swell);
+    at[SOIL_LOOSENING] = static_cast<float>(k.loosening);
+    at[SOIL_PUSH] = static_cast<float>(k.push);
+    at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
+    at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));
+  }
+  return table;
+}
+
+}  // namespace navvy::soil

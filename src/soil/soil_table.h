@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The soils of a world as the kernels read them.
+#pragma once
+
+#include <vector>
+
+#include "scene/world.h"
+
+namespace navvy::soil {
+
+/// Speed of compression waves [m/s].
+double sound_speed(const scene::Soil& soil);
+
+/// SOIL_WORDS floats per soil (kernels/soil/layout.h). `cell` in m.
+/// @throws InputError for soils the law cannot compute: every fault is listed.
+std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell);
+
+/// Shared by the table and the reference: law constants derived from a soil.
+struct LawConstants {
+  double bulk, shear, alpha, k_residual, k_bond, inv_remould, inv_opening, viscosity, swell, loosening, push;
+};
+LawConstants law_constants(const scene::Soil& soil, double cell);
+
+}  // namespace navvy::soil

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "soil/solver_state.h"
+
+namespace navvy::soil {
+namespace {
+
+/// Drift that calls for a re-bin before the next step [cells]: one cell is the tile's margin, less one step's push.
+constexpr double kMostDrift = 0.75;
+/// Tool travel between exchange checks [cells], and steps between them when no tool moves [SOIL_SOLVER section 6].
+constexpr double kCheckTravel = 0.3;
+constexpr std::uint32_t kCheckSteps = 25;
+
+double extreme_sound(const std::vector<scene::Soil>& soils, bool fastest) {
+  double out = 0;
+  for (const scene::Soil& soil : soils) {
+    const double c = sound_speed(soil);
+    out = out == 0 ? c : fastest ? std::max(out, c) : std::min(out, c);
+  }
+  return out;
+}
+
+ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
+  ToolMotion out = motion;
+  out.w_WT = twist.head<3>();
+  out.v_WT = twist.tail<3>();
+  const double angle = motion.w_WT.norm() * t;
+  if (angle > 0) out.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
+  out.X_WT.translation() += motion.v_WT * t;
+  return out;
+}
+
+void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
+  // Moments are about each part's own origin; bring them to the first one's.
+  sum.L_W += part.L_W + (part.p_W - sum.p_W).cross(part.J_W);
+  sum.J_W += part.J_W;
+  sum.normal += part.normal;
+  sum.friction += part.friction;
+  sum.residual += part.residual;
+  sum.residual_moment += part.residual_moment;
+  sum.scale += part.scale;
+  sum.scale_moment += part.scale_moment;
+}
+
+}  // namespace
+
+Particle in_cell_block(Particle p) {
+  for (int a = 0; a < 3; ++a) {
+    const int d = static_cast<int>(std::floor(p.x[a] / kBlockCells));
+    p.block[a] += d;
+    p.x[a] -= static_cast<float>(kBlockCells * d);
+  }
+  return p;
+}
+
+Solver::State::State(device::Device& device_in, const scene::World& world_in, heightfield::Ground& ground_in)
+    : device(device_in),
+      world(world_in),
+      ground(ground_in),
+      cell(ground_in.cell()),
+      origin(ground_in.origin().x(), ground_in.origin().y(), ground_in.datum()),
+      fastest_sound(extreme_sound(world_in.soils, true)),
+      store(device_in, {ground_in.nx(), ground_in.ny()}, soil_table(world_in.soils, ground_in.cell())),
+      transfer(device_in),
+      contact(device_in, cell, origin, extreme_sound(world_in.soils, true)),
+      floor(ground_in),
+      exchange(world_in, ground_in),
+      left_site(world_in.soils.size(), 0),
+      inserted(world_in.soils.size(), 0) {}
+
+Solver::Solver(device::Device& device, const scene::World& world, heightfield::Ground& ground)
+    : state_(std::make_unique<State>(device, world, ground)) {}
+Solver::~Solver() = default;
+
+int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_tool(shell); }
+
+double Solver::step_limit(double tool_speed) const {
+  const scene::Solver& settings = state_->world.solver;
+  return std::min(settings.max_step, settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
+}
+
+double Solver::State::tool_speed(const ToolMotion& motion) const {
+  double fastest = 0;
+  for (const Vec3& v : contact.geometry(motion.tool).shell().vertices)
+    fastest = std::max(fastest, (motion.v_WT + motion.w_WT.cross(motion.X_WT.linear() * v)).norm());
+  return fastest;
+}
+
+void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
+  double fastest = 0;
+  for (const ToolMotion& motion : motions) fastest = std::max(fastest, state_->tool_speed(motion));
+  // A step beyond the limit is split; the tools move and yield in between.
+  const int parts = std::max(1, static_cast<int>(std::ceil(dt / step_limit(fastest) - 1e-6)));
+  const double part = dt / parts;
+  std::vector<ToolMotion> now(motions.begin(), motions.end());
+  std::vector<ToolImpulse> got(motions.size());
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    impulses[m] = ToolImpulse{};
+    impulses[m].p_W = motions[m].X_WT.translation();
+  }
+  for (int i = 0; i < parts; ++i) {
+    state_->advance(part, now, got);
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+      add_impulse(impulses[m], got[m]);
+      if (i + 1 == parts) continue;
+      Vec6 twist, impulse;
+      twist << now[m].w_WT, now[m].v_WT;
+      impulse << got[m].L_W, got[m].J_W;
+      now[m] = moved(now[m], twist + now[m].inverse_mass * impulse, part);
+    }
+  }
+}
+
+void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
+  exchange_if_due(dt, motions);
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    impulses[m] = ToolImpulse{};
+    impulses[m].p_W = motions[m].X_WT.translation();
+  }
+  if (store.count() > 0) {
+    rebin_if_due();
+    lay_out(motions);
+  }
+  if (store.count() > 0) {
+    {
+      StageClock clock(times, "shell");
+      drift += contact.classify(store, transfer, stats.shell_crossings);
+    }
+    {
+      StageClock clock(times, "contact");
+      transfer.scatter(store, contact.nodes(), dt, cell, world.gravity);
+      contact.solve(transfer, dt, impulses);
+    }
+    StageClock clock(times, "particles");
+    const double speed = transfer.gather(store, contact.nodes(), dt, cell);
+    if (!(speed * dt / cell < 1 - kMostDrift / 4)) fail(speed);
+    drift += speed * dt / cell;
+    stats.max_speed = speed;
+  }
+  time += dt;
+  ++stats.steps;
+  stats.particle_steps += static_cast<std::uint64_t>(store.count());
+  stats.particles = store.count();
+  stats.particles_peak = std::max(stats.particles_peak, stats.particles);
+  stats.blocks = static_cast<int>(store.homes().size());
+}
+
+void Solver::State::exchange_if_due(double dt, std::span<const ToolMotion> motions) {
+  double next_travel = 0;
+  for (const ToolMotion& motion : motions) next_travel = std::max(next_travel, tool_speed(motion) * dt);
+  const bool due = first_check || steps_since_check >= kCheckSteps || travel + next_travel > kCheckTravel * cell;
+  if (due) {
+    check_exchange(since_check, motions);
+    first_check = false;
+    since_check = travel = 0;
+    steps_since_check = 0;
+  }
+  since_check += dt;
+  travel += next_travel;
+  ++steps_since_check;
+}
+
+void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> motions) {
+  StageClock clock(times, "exchange");
+  std::vector<ToolRegion> regions;
+  for (const ToolMotion& motion : motions) {
+    ToolRegion region;
+    bool first = true;
+    for (const Vec3& v : contact.geometry(motion.tool).shell().vertices) {
+      const Vec3 p = motion.X_WT * v;
+      region.min = first ? p : region.min.cwiseMin(p);
+      region.max = first ? p : region.max.cwiseMax(p);
+      first = false;
+    }
+    const Vec3 centre = 0.5 * (region.min + region.max) - motion.X_WT.translation();
+    region.velocity = motion.v_WT + motion.w_WT.cross(centre);
+    regions.push_back(region);
+  }
+  std::vector<Particle> all = store.records();
+  for (Particle& p : all) p = in_cell_block(p);
+  Exchange::Result result = exchange.check(all, regions, time, elapsed);
+  stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
+  stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
+  const bool removed = std::any_of(result.removed.begin(), result.removed.end(), [](std::uint8_t r) { return r != 0; });
+  if (removed || !result.born.empty()) {
+    std::vector<Particle> stay;
+    stay.reserve(all.size() + result.born.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!removed || result.removed[i] == 0) stay.push_back(all[i]);
+    for (Particle& p : result.born) {
+      p.id = next_id++;
+      stay.push_back(p);
+    }
+    assign(stay);
+  }
+  const std::int64_t error = ledger().error();
+  if (error != 0) {
+    throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) +
+                          " s: the mass ledger is open by " + std::to_string(error) + " units of 2^-24 kg");
+  }
+}
+
+void Solver::State::assign(const std::vector<Particle>& particles) {
+  if (static_cast<int>(particles.size()) > world.solver.max_particles)
+    log_warning("soil: " + std::to_string(particles.size()) + " particles are awake, more than the budget of " +
+                std::to_string(world.solver.max_particles));
+  store.assign(particles);
+  blocks_changed = true;
+  drift = 0;
+}
+
+void Solver::State::add(std::vector<Particle> particles) {
+  if (particles.empty()) return;
+  std::vector<Particle> all = store.records();
+  for (Particle& p : particles) {
+    p.id = next_id++;
+    all.push_back(p);
+  }
+  assign(all);
+}
+
+void Solver::State::book_left(const std::vector<Particle>& left) {
+  for (const Particle& p : left) left_site[p.soil] += p.mass;
+}
+
+void Solver::State::rebin_if_due() {
+  if (drift <= kMostDrift) return;
+  StageClock clock(times, "rebin");
+  book_left(store.rebin());
+  ++stats.rebins;
+  drift = 0;
+  blocks_changed = true;
+}
+
+void Solver::State::lay_out(std::span<const ToolMotion> motions) {
+  StageClock clock(times, "lists");
+  const bool lists = contact.set_motions(motions, store.table(), blocks_changed);
+  if (lists || blocks_changed) {
+    const int tiles = store.set_near(contact.near_homes());
+    transfer.set_blocks(store, contact.near_slot(), tiles);
+  }
+  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.heights());
+  blocks_changed = false;
+}
+
+void Solver::State::fail(double speed) const {
+  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / cell) +
+                      " cells in one step (" + std::to_string(speed) + " m/s)";
+  for (const Particle& p : store.records()) {
+    double sum = 0, fastest = 0;
+    for (const float v : p.v) fastest = std::max(fastest, static_cast<double>(std::abs(v)));
+    for (const float v : p.x) sum += v;
+    for (const float v : p.v) sum += v;
+    for (const float v : p.c) sum += v;
+    for (const float v : p.s) sum += v;
+    sum += static_cast<double>(p.j) + p.j0 + p.shear;
+    if (std::isfinite(sum) && (!std::isfinite(speed) || fastest < 0.999 * speed)) continue;
+    cause += std::string("; particle ") + std::to_string(p.id) +
+             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") + ", block (" +
+             std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " + std::to_string(p.block[2]) +
+             "), offset (" + std::to_string(p.x[0]) + ", " + std::to_string(p.x[1]) + ", " + std::to_string(p.x[2]) +
+             ") cells, volume ratio " + std::to_string(p.j);
+    break;
+  }
+  throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) + " s: " + cause);
+}
+
+void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {
+  state_->add(state_->exchange.wake(rect, z_bottom));
+}
+
+void Solver::insert(const std::vector<Particle>& particles) {
+  for (const Particle& p : particles) state_->inserted.at(p.soil) += p.mass;
+  state_->add(particles);
+}
+
+}  // namespace navvy::soil

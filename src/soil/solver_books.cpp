@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a solver tells about itself: particles, payload, ledger, hash, snapshot.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "soil/solver.h"
+#include "soil/solver_state.h"
+
+namespace navvy::soil {
+namespace {
+
+bool finite(const Particle& p) {
+  double sum = 0;
+  for (const float v : p.x) sum += v;
+  for (const float v : p.v) sum += v;
+  for (const float v : p.c) sum += v;
+  for (const float v : p.s) sum += v;
+  return std::isfinite(sum + static_cast<double>(p.j) + p.j0 + p.shear);
+}
+
+}  // namespace
+
+std::int64_t Ledger::error() const {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    sum += std::abs(columns[i] + particles[i] + left_site[i] - inserted[i]);
+  return sum;
+}
+
+Ledger Solver::State::ledger() const {
+  Ledger out;
+  out.columns = ground.mass_change();
+  out.columns.resize(world.soils.size(), 0);
+  out.particles.assign(world.soils.size(), 0);
+  for (const Particle& p : store.records())
+    if (finite(p)) out.particles[p.soil] += p.mass;
+  out.left_site = left_site;
+  out.inserted = inserted;
+  return out;
+}
+
+Ledger Solver::ledger() const { return state_->ledger(); }
+
+std::vector<Particle> Solver::particles() const {
+  std::vector<Particle> out = state_->store.records();
+  for (Particle& p : out) p = in_cell_block(p);
+  std::sort(out.begin(), out.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
+  return out;
+}
+
+double Solver::payload(int tool, const Pose& X_WT) const {
+  const ShellGeometry& geometry = state_->contact.geometry(tool);
+  const Pose X_TW = X_WT.inverse();
+  std::int64_t sum = 0;
+  for (const Particle& p : state_->store.records()) {
+    Vec3 grid;
+    for (int a = 0; a < 3; ++a) grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
+    if (geometry.holds(X_TW * (state_->origin + grid * state_->cell))) sum += p.mass;
+  }
+  return kilograms(sum);
+}
+
+const SolverStats& Solver::stats() const { return state_->stats; }
+
+std::vector<std::pair<std::string, double>> Solver::stage_times() const {
+  return {state_->times.begin(), state_->times.end()};
+}
+
+void Solver::hash(StateHash& hash) const {
+  const State& s = *state_;
+  s.store.hash(hash);
+  hash.value(s.drift);
+  hash.value(s.travel);
+  hash.value(s.since_check);
+  hash.value(s.steps_since_check);
+  hash.value(s.next_id);
+  for (const std::int64_t m : s.left_site) hash.value(m);
+  for (const std::int64_t m : s.inserted) hash.value(m);
+  s.exchange.hash(hash);
+}
+
+void Solver::save(StateWriter& writer) const {
+  const State& s = *state_;
+  writer.begin("soil", 1);
+  writer.vector(s.store.records());
+  writer.value(s.blocks_changed);
+  writer.value(s.drift);
+  writer.value(s.time);
+  writer.value(s.since_check);
+  writer.value(s.travel);
+  writer.value(s.steps_since_check);
+  writer.value(s.first_check);
+  writer.value(s.next_id);
+  writer.vector(s.left_site);
+  writer.vector(s.inserted);
+  writer.value(s.stats);
+  s.contact.save(writer);
+  writer.end();
+  s.exchange.save(writer);
+}
+
+void Solver::load(StateReader& reader) {
+  State& s = *state_;
+  reader.begin("soil", 1);
+  s.store.assign(reader.vector<Particle>(), true);
+  s.blocks_changed = reader.value<bool>();
+  s.drift = reader.value<double>();
+  s.time = reader.value<double>();
+  s.since_check = reader.value<double>();
+  s.travel = reader.value<double>();
+  s.steps_since_check = reader.value<std::uint32_t>();
+  s.first_check = reader.value<bool>();
+  s.next_id = reader.value<std::uint32_t>();
+  s.left_site = reader.vector<std::int64_t>();
+  s.inserted = reader.vector<std::int64_t>();
+  s.stats = reader.value<SolverStats>();
+  s.contact.load(reader);
+  reader.end();
+  s.exchange.load(reader);
+  // Lists and layout follow from the blocks and the poses the lists were made for.
+  s.floor = Floor(s.ground);
+  s.contact.list_near(s.store.table());
+  s.transfer.set_blocks(s.store, s.contact.near_slot(), s.store.set_near(s.contact.near_homes()));
+  s.floor.update(s.store.table().active, true);
+  s.transfer.set_floor(s.floor.heights());
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a Solver holds; shared by the sources of the solver only.
+#pragma once
+
+#include <chrono>
+#include <map>
+
+#include "device/device.h"
+#include "soil/contact.h"
+#include "soil/exchange.h"
+#include "soil/floor.h"
+#include "soil/particle_store.h"
+#include "soil/soil_table.h"
+#include "soil/solver.h"
+#include "soil/transfer.h"
+
+namespace navvy::soil {
+
+struct Solver::State {
+  State(device::Device& device_in, const scene::World& world_in, heightfield::Ground& ground_in);
+
+  void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+  void exchange_if_due(double dt, std::span<const ToolMotion> motions);
+  void check_exchange(double elapsed, std::span<const ToolMotion> motions);
+  void rebin_if_due();
+  void lay_out(std::span<const ToolMotion> motions);
+  void add(std::vector<Particle> particles);
+  void assign(const std::vector<Particle>& particles);
+  void book_left(const std::vector<Particle>& left);
+  double tool_speed(const ToolMotion& motion) const;
+  Ledger ledger() const;
+  [[noreturn]] void fail(double speed) const;
+
+  device::Device& device;
+  scene::World world;
+  heightfield::Ground& ground;
+  double cell;
+  Vec3 origin;  ///< W of the grid frame's origin
+  double fastest_sound;
+  ParticleStore store;
+  Transfer transfer;
+  Contact contact;
+  Floor floor;
+  Exchange exchange;
+
+  bool blocks_changed = true;
+  double drift = 0;        ///< cells particles may have moved since the last re-bin
+  double time = 0;         ///< simulated, sum over steps; only handed to the exchange [s]
+  double since_check = 0;  ///< [s]
+  double travel = 0;       ///< of the fastest tool since the last check [m]
+  std::uint32_t steps_since_check = 0;
+  bool first_check = true;
+  std::uint32_t next_id = 1;
+  std::vector<std::int64_t> left_site, inserted;
+  SolverStats stats;
+  std::map<std::string, double> times;
+};
+
+/// Adds the wall time of its life to a stage.
+class StageClock {
+ public:
+  StageClock(std::map<std::string, double>& times, const char* stage)
+      : seconds_(times[stage]), start_(std::chrono::steady_clock::now()) {}
+  ~StageClock() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The same particle with its block the one its cell lies in.
+Particle in_cell_block(Particle p);
+
+}  // namespace navvy::soil

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/transfer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "soil/layout.h"
+
+namespace navvy::soil {
+
+Transfer::Transfer(device::Device& device)
+    : device_(device),
+      scatter_program_(device, "soil/particle_to_grid.cl"),
+      grid_program_(device, "soil/grid_update.cl"),
+      gather_program_(device, "soil/grid_to_particle.cl"),
+      scatter_(scatter_program_, "particle_to_grid"),
+      grid_(grid_program_, "grid_update"),
+      grid_near_(grid_program_, "grid_update_near"),
+      gather_(gather_program_, "grid_to_particle") {}
+
+void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles) {
+  const BlockTable& table = store.table();
+  active_ = table.active.size();
+  upload(device_, neighbours_, table.neighbours);
+  upload(device_, around_, table.around);
+  std::vector<std::int32_t> far;
+  std::vector<std::array<std::int32_t, 4>> keys(active_);
+  for (std::size_t b = 0; b < active_; ++b) {
+    if (near_slot[b] < 0) far.push_back(static_cast<std::int32_t>(b));
+    keys[b] = {table.active[b].x, table.active[b].y, table.active[b].z, 0};
+  }
+  far_ = far.size();
+  upload(device_, far_list_, far);
+  upload(device_, active_keys_, keys);
+  ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
+  ensure(device_, velocity_, active_ * 4 * BLOCK_NODES);
+  ensure(device_, speed_, table.homes.size());
+  ensure(device_, bad_, table.homes.size());
+}
+
+void Transfer::set_floor(const std::vector<float>& heights) { upload(device_, floor_, heights); }
+
+void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity) {
+  const auto dt_f = static_cast<float>(dt), cell_f = static_cast<float>(cell);
+  const Vec3 dv = gravity * dt;
+  const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
+                                     0.0f};
+  scatter_.args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, bad_, dt_f, cell_f)
+      .enqueue(store.homes().size(), 1);
+  grid_.args(far_list_, around_, store.homes_buffer(), tiles_, floor_, velocity_, dv_f).enqueue(far_, 1);
+  if (near.count == 0) return;
+  grid_near_
+      .args(near.list, around_, store.homes_buffer(), tiles_, store.home_friction(), near.split, near.before0,
+            near.before1, near.friction, dv_f)
+      .enqueue(static_cast<std::size_t>(near.count), 1);
+}
+
+double Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
+  const std::size_t homes = store.homes().size();
+  gather_
+      .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity_, near.velocity1, near.slot,
+            near.split, speed_, static_cast<float>(dt), static_cast<float>(cell))
+      .enqueue(homes, 1);
+  double fastest = 0;
+  const auto speed = speed_.map_read(0, homes);
+  const auto bad = bad_.map_read(0, homes);
+  for (std::size_t h = 0; h < homes; ++h) {
+    fastest = std::max(fastest, static_cast<double>(speed[h]));
+    if (bad[h] != 0) fastest = std::numeric_limits<double>::infinity();
+  }
+  return fastest;
+}
+
+}  // namespace navvy::soil
