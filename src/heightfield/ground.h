@@ -18,10 +18,10 @@ namespace navvy::heightfield {
 
 /// One soil layer of a column. Its thickness is mass x specific_volume / (bank_density x cell^2).
 struct Layer {
-  std::uint16_t soil = 0;        ///< index into the scene's soils
-  std::int64_t mass = 0;         ///< in kMassQuantum
-  float specific_volume = 1;     ///< volume / bank volume: 1 = bank, up to the soil's swell
-  float plastic_shear = 0;       ///< accumulated, for remoulded cohesion [-]
+  std::uint16_t soil = 0;     ///< index into the scene's soils
+  std::int64_t mass = 0;      ///< in kMassQuantum
+  float specific_volume = 1;  ///< volume / bank volume: 1 = bank, up to the soil's swell
+  float plastic_shear = 0;    ///< accumulated, for remoulded cohesion [-]
 };
 
 /// A rectangle of columns, half open.
@@ -46,11 +46,11 @@ class Ground {
  public:
   struct Setup {
     int nx = 0, ny = 0;
-    double cell = 0.1;              ///< [m]
-    Vec2 origin = Vec2::Zero();     ///< W of the site's lower-left corner [m]
-    double datum = 0;               ///< W height of bedrock, where every column starts [m]
+    double cell = 0.1;           ///< [m]
+    Vec2 origin = Vec2::Zero();  ///< W of the site's lower-left corner [m]
+    double datum = 0;            ///< W height of bedrock, where every column starts [m]
     std::vector<scene::Soil> soils;
-    std::vector<scene::GroundLayer> layers;   ///< from the surface down
+    std::vector<scene::GroundLayer> layers;  ///< from the surface down
     std::vector<scene::GroundPatch> patches;
     SurfaceSource surface;
     // Georeference of the site, for exports: file coordinates of `origin`, and its CRS as WKT (empty: none).
@@ -79,15 +79,17 @@ class Ground {
   double sample(double x, double y) const;
   /// Unit upward normal of the bilinear surface.
   Vec3 normal(double x, double y) const;
-  /// First hit of the ray p + t d, 0 <= t <= range (d unit); negative when there is none [m].
+  /// First hit of the ray p + t d, 0 <= t <= range (d unit); negative when there is none, 0 when p is in the soil [m].
   double ray(const Vec3& p, const Vec3& d, double range) const;
 
   /// Layers of a column, bottom first (a copy; for untouched columns computed from the source).
   std::vector<Layer> layers(int ix, int iy) const;
+  /// Same into a vector that the caller keeps, without allocating in loops.
+  void column(int ix, int iy, std::vector<Layer>& out) const;
   /// Soil index at the surface.
   std::uint16_t surface_soil(int ix, int iy) const;
-  /// Takes off everything above W height z [m] and appends it to `taken`, bottom first; the masses are exact. Leaves the
-  /// column's surface at z up to one mass quantum.
+  /// Takes off everything above W height z [m] and appends it to `taken`, bottom first; the masses are exact. Leaves
+  /// the column's surface at z up to one mass quantum.
   void take_above(int ix, int iy, double z, std::vector<Layer>& taken);
   /// Puts a layer on top; merges with the top layer when soil and density state match (within 1e-3), volumes added.
   void put(int ix, int iy, const Layer& layer);
@@ -105,10 +107,15 @@ class Ground {
   std::uint64_t sequence() const;
   CellRect changed_since(std::uint64_t sequence) const;
 
+  /// Bounding rectangle of all touched tiles; every column that ever changed lies in it.
+  CellRect touched_rect() const;
+
   /// Dense copy of heights of a rectangle, x fastest [m].
   void copy_heights(const CellRect& rect, std::vector<float>& out) const;
 
   std::size_t touched_tiles() const;
+  /// Changed columns in the order of their tiles. Loading does not announce changes: who mirrors the ground reads it
+  /// anew after a load.
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which columns changed after which sequence number.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/state_io.h"
+#include "heightfield/ground.h"
+
+namespace navvy::heightfield {
+
+/// A bounded list of edits, oldest first. Recent edits keep their own rectangle; when the list is full, neighbours in
+/// its older half are united, so a question about long ago gets a bounding superset. Adding costs amortised O(1).
+class ChangeLog {
+ public:
+  /// Counts one edit of column (ix, iy).
+  void add(int ix, int iy);
+  std::uint64_t sequence() const { return sequence_; }
+  /// Rectangle changed after `sequence`; `everything` when `sequence` lies in the future (a snapshot was loaded).
+  CellRect since(std::uint64_t sequence, const CellRect& everything) const;
+
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct Edit {
+    std::uint64_t last;  // newest sequence number in here
+    CellRect rect;
+  };
+  std::vector<Edit> edits_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace navvy::heightfield

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace navvy::heightfield {
+namespace {
+
+// Layers whose specific volume agrees this well are one layer.
+constexpr float kSameSpecificVolume = 1e-3f;
+// ... and whose plastic shear does: cohesion over this span of the remoulding law differs by less than a fifth.
+constexpr float kSameShear = 0.05f;
+// Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
+constexpr float kFullShear = 4.0f;
+// Past this many layers alike neighbours are united. tuned: Column.StaysShortUnderEndlessEdits
+constexpr std::size_t kMostLayers = 12;
+
+bool alike(const Layer& a, const Layer& b) {
+  return a.soil == b.soil && std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
+         std::abs(std::min(a.plastic_shear, kFullShear) - std::min(b.plastic_shear, kFullShear)) <= kSameShear;
+}
+
+// Adds b to a: masses and volumes are summed, shear is the mass mean.
+void unite(Layer& a, const Layer& b) {
+  const double ma = static_cast<double>(a.mass), mb = static_cast<double>(b.mass), m = ma + mb;
+  a.specific_volume = static_cast<float>((ma * a.specific_volume + mb * b.specific_volume) / m);
+  a.plastic_shear = static_cast<float>((ma * a.plastic_shear + mb * b.plastic_shear) / m);
+  a.mass += b.mass;
+}
+
+// Unites the two neighbours of one soil that differ least; leaves a column of ever-changing soils alone.
+void shorten(Column& column) {
+  std::size_t best = column.size();
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i + 1 < column.size(); ++i) {
+    const Layer &a = column[i], &b = column[i + 1];
+    if (a.soil != b.soil) continue;
+    const float difference = std::abs(a.specific_volume - b.specific_volume);
+    if (difference < least) {
+      least = difference;
+      best = i;
+    }
+  }
+  if (best == column.size()) return;
+  unite(column[best], column[best + 1]);
+  column.erase(column.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+}
+
+// Splits layer `i` so that `top` [m] of it becomes layer i + 1.
+void split(Column& column, std::size_t i, double top, const UnitThickness& unit) {
+  Layer upper = column[i];
+  upper.mass = std::llround(top / (static_cast<double>(upper.specific_volume) * unit[upper.soil]));
+  upper.mass = std::clamp<std::int64_t>(upper.mass, 0, column[i].mass);
+  column[i].mass -= upper.mass;
+  column.insert(column.begin() + static_cast<std::ptrdiff_t>(i) + 1, upper);
+}
+
+}  // namespace
+
+void take_above(Column& column, double height, const UnitThickness& unit, std::vector<Layer>& taken) {
+  double bottom = 0;
+  std::size_t i = 0;
+  while (i < column.size()) {
+    const double top = bottom + thickness(column[i], unit);
+    if (top > height) break;
+    bottom = top;
+    ++i;
+  }
+  if (i == column.size()) return;
+  // The layer that is cut keeps its rounded share; the rest is what is taken, so no unit is lost.
+  Layer& cut = column[i];
+  const double share = (height - bottom) / (static_cast<double>(cut.specific_volume) * unit[cut.soil]);
+  const std::int64_t kept = height <= bottom ? 0 : std::clamp<std::int64_t>(std::llround(share), 0, cut.mass);
+  Layer upper = cut;
+  upper.mass -= kept;
+  cut.mass = kept;
+  if (upper.mass > 0) taken.push_back(upper);
+  taken.insert(taken.end(), column.begin() + static_cast<std::ptrdiff_t>(i) + 1, column.end());
+  column.resize(kept > 0 ? i + 1 : i);
+}
+
+void put(Column& column, const Layer& layer) {
+  if (!column.empty() && alike(column.back(), layer)) {
+    unite(column.back(), layer);
+    return;
+  }
+  column.push_back(layer);
+  if (column.size() > kMostLayers) shorten(column);
+}
+
+void compact(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
+  for (std::size_t i = column.size(); i-- > 0 && drop > 0;) {
+    // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
+    if (thickness(column[i], unit) > 1.5 * zone) {
+      split(column, i, zone, unit);
+      ++i;
+    }
+    Layer& layer = column[i];
+    if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
+    const double old = thickness(layer, unit);
+    const double least = old * (static_cast<double>(min_specific_volume) / layer.specific_volume);
+    const double target = std::max(old - drop, least);
+    layer.specific_volume =
+        target == least ? min_specific_volume : static_cast<float>(layer.specific_volume * (target / old));
+    drop -= old - target;
+  }
+  std::erase_if(column, [](const Layer& layer) { return layer.mass == 0; });
+  while (column.size() > kMostLayers) {
+    const std::size_t before = column.size();
+    shorten(column);
+    if (column.size() == before) break;
+  }
+}
+
+}  // namespace navvy::heightfield

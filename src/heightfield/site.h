@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a scene's description of its ground to the ground itself.
+#pragma once
+
+#include <string>
+
+#include "heightfield/ground.h"
+#include "scene/world.h"
+
+namespace navvy::heightfield {
+
+/// Builds the site of `world`: procedural or from a file, in columns of world.solver.cell.
+///
+/// The site is as large as asked, rounded up to blocks of 4 x 4 columns; without an origin its middle is W (0, 0).
+/// Bedrock (the datum) lies `depth` below the lowest point of the surface. Heights of a file site are W z = file z -
+/// Setup::height_offset. With SteepGround::kSettle slopes above the surface soil's friction angle slide once, which
+/// needs the whole surface in memory (at most kMostSettledColumns). When `report` is given it receives what was found
+/// in a terrain file, for people.
+/// @throws InputError with every fault found: bad numbers, unknown soils, a file that is missing, off the map or not
+/// readable by this build.
+Ground make_ground(const scene::World& world, std::string* report = nullptr);
+
+inline constexpr int kMostSettledColumns = 4000000;
+
+/// Columns along a side of `length` [m]: rounded up to a multiple of 4 (soil blocks).
+int site_columns(double length, double cell);
+
+}  // namespace navvy::heightfield
