@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+cmake_minimum_required(VERSION 3.25)
 # Run by the build: cmake -DKERNEL_DIR=... -DOUT=... -P EmbedKernels.cmake writes one C++ file that holds every kernel
 # file as a raw string.
 file(GLOB_RECURSE files RELATIVE ${KERNEL_DIR} ${KERNEL_DIR}/*.cl ${KERNEL_DIR}/*.h)

@@ -22,8 +22,9 @@ int main(int argc, char** argv) {
       world.set(boom_speed, 0.2);
       world.step();
     }
-    std::printf("on %s: boom from %.4f to %.4f rad in %.3f s, %d outputs, state %s\n", device.info().name.c_str(), before,
-                world.get(boom), world.time(), static_cast<int>(world.outputs().size()), world.state_hash().c_str());
+    std::printf("on %s: boom from %.4f to %.4f rad in %.3f s, %d outputs, state %s\n", device.info().name.c_str(),
+                before, world.get(boom), world.time(), static_cast<int>(world.outputs().size()),
+                world.state_hash().c_str());
     return world.get(boom) > before ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

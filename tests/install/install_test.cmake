@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+cmake_minimum_required(VERSION 3.25)
 # cmake -DPROJECT=headers|minimal -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
 set(work ${BINARY_DIR}/install-test/${PROJECT})
 set(prefix ${work}/prefix)
