@@ -186,6 +186,11 @@ void Ground::column(int ix, int iy, std::vector<Layer>& out) const {
     state_->tiles.start_column(ix, iy, out);
 }
 
+void Ground::start_column(int ix, int iy, std::vector<Layer>& out) const {
+  state_->require_inside(ix, iy);
+  state_->tiles.start_column(ix, iy, out);
+}
+
 std::vector<Layer> Ground::layers(int ix, int iy) const {
   Column out;
   column(ix, iy, out);

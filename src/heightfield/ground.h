@@ -86,6 +86,8 @@ class Ground {
   std::vector<Layer> layers(int ix, int iy) const;
   /// Same into a vector that the caller keeps, without allocating in loops.
   void column(int ix, int iy, std::vector<Layer>& out) const;
+  /// Same as of the untouched site.
+  void start_column(int ix, int iy, std::vector<Layer>& out) const;
   /// Soil index at the surface.
   std::uint16_t surface_soil(int ix, int iy) const;
   /// Takes off everything above W height z [m] and appends it to `taken`, bottom first; the masses are exact. Leaves

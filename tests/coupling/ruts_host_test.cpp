@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/ruts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace navvy::coupling {
+namespace {
+
+heightfield::Ground flat_loam() {
+  heightfield::Ground::Setup setup;
+  setup.nx = setup.ny = 64;
+  setup.cell = 0.1;
+  setup.datum = -2;
+  setup.soils = {scene::Soil{}};
+  setup.soils[0].name = "loam";
+  setup.layers = {{"loam", 10}};
+  setup.surface = [](int, int) { return 0.0; };
+  return heightfield::Ground(std::move(setup));
+}
+
+scene::Wheel twin_tyre() {
+  scene::Wheel wheel;
+  wheel.twin_spacing = 0.32;
+  return wheel;
+}
+
+vehicle::WheelState loaded_at(double x, double y, double load) {
+  vehicle::WheelState state;
+  state.X_WWheel.translation() = Vec3(x, y, 0.5);
+  state.force_W = Vec3(0, 0, load);
+  return state;
+}
+
+double deepest(const heightfield::Ground& ground) {
+  double least = 0;
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix) least = std::min(least, ground.height(ix, iy));
+  return -least;
+}
+
+TEST(Ruts, SinkageInvertsBekkersLaw) {
+  const scene::Soil soil;
+  const double width = 0.28, z = 0.05;
+  const double p = (soil.bekker_kc / width + soil.bekker_kphi) * std::pow(z, soil.bekker_n);
+  EXPECT_NEAR(Ruts::sinkage(soil, p, width), z, 1e-12);  // closed form, rounding only
+  EXPECT_EQ(Ruts::sinkage(soil, 0, width), 0);
+}
+
+TEST(Ruts, PressSinksTheTreadAndKeepsTheMass) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3));
+  const double depth = deepest(ground);
+  // A quarter of 18 t on loam: the plate law gives centimetres, less than a cell.
+  EXPECT_GT(depth, 0.01);
+  EXPECT_LT(depth, 0.10);
+  for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
+}
+
+TEST(Ruts, StandingStillAndAnEqualSecondPassAddNothingAHeavierOneDoes) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 30e3));
+  const double once = deepest(ground);
+  for (int i = 0; i < 5; ++i) ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 30e3));
+  EXPECT_DOUBLE_EQ(deepest(ground), once);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 60e3));
+  EXPECT_GT(deepest(ground), once);
+}
+
+TEST(Ruts, OnlyColumnsUnderTheTyresChange) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3));
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix) {
+      const double dx = std::abs(0.1 * (ix + 0.5) - 3.2), dy = std::abs(0.1 * (iy + 0.5) - 3.2);
+      // Twin tyres of 0.28 m at +-0.16 m; the longest chord of a 0.525 m tyre is below 0.6 m here.
+      if (dx > 0.3 || dy > 0.31) EXPECT_EQ(ground.height(ix, iy), ground.start_height(ix, iy)) << ix << " " << iy;
+    }
+}
+
+TEST(Ruts, SavedAndLoadedStateHashesEqual) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3));
+  StateWriter writer;
+  ruts.save(writer);
+  Ruts again(ground);
+  StateReader reader(writer.bytes());
+  again.load(reader);
+  StateHash a, b;
+  ruts.hash(a);
+  again.hash(b);
+  EXPECT_EQ(a.digest(), b.digest());
+}
+
+}  // namespace
+}  // namespace navvy::coupling
