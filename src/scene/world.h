@@ -18,6 +18,7 @@ struct Solver {
   double courant = 0.5;         ///< share of cell / sound speed
   double max_step = 0.0017;     ///< base step never exceeds this [s]
   int max_particles = 2000000;  ///< the awake budget
+  bool exchange = true;         ///< false: ground neither wakes nor takes soil back by itself (rigs, tests)
 };
 
 struct MachineInWorld {

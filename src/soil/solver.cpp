@@ -152,6 +152,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
 }
 
 void Solver::State::exchange_if_due(double dt, std::span<const ToolMotion> motions) {
+  if (!world.solver.exchange) return;
   double next_travel = 0;
   for (const ToolMotion& motion : motions) next_travel = std::max(next_travel, tool_speed(motion) * dt);
   const bool due = first_check || steps_since_check >= kCheckSteps || travel + next_travel > kCheckTravel * cell;

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/reference/reference_solver.h"
+
+#include <cmath>
+
+#include "soil/reference/double_law.h"
+
+namespace navvy::soil::reference {
+namespace {
+
+/// Base node, offset from it and the three weights along each axis.
+struct Weights {
+  std::array<int, 3> base{};
+  Vec3 f;
+  std::array<std::array<double, 3>, 3> w{};
+};
+
+Weights weights_at(const Vec3& x) {
+  Weights out;
+  for (int a = 0; a < 3; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    out.base[i] = static_cast<int>(std::floor(x[a] - 0.5));
+    const double f = x[a] - out.base[i];
+    out.f[a] = f;
+    out.w[i] = {0.5 * (1.5 - f) * (1.5 - f), 0.75 - (f - 1) * (f - 1), 0.5 * (f - 0.5) * (f - 0.5)};
+  }
+  return out;
+}
+
+template <class Visit>
+void for_nodes(const Weights& at, const Visit& visit) {
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const double w = at.w[0][static_cast<std::size_t>(i)] * at.w[1][static_cast<std::size_t>(j)] *
+                         at.w[2][static_cast<std::size_t>(k)];
+        visit(std::array<int, 3>{at.base[0] + i, at.base[1] + j, at.base[2] + k}, w, Vec3(i, j, k) - at.f);
+      }
+}
+
+}  // namespace
+
+Point from_particle(const Particle& particle) {
+  Point p;
+  for (int a = 0; a < 3; ++a) {
+    p.x[a] = kBlockCells * particle.block[a] + static_cast<double>(particle.x[a]);
+    p.v[a] = static_cast<double>(particle.v[a]);
+    for (int b = 0; b < 3; ++b) p.c(a, b) = static_cast<double>(particle.c[3 * a + b]);
+  }
+  for (std::size_t i = 0; i < 6; ++i) p.s[i] = static_cast<double>(particle.s[i]);
+  p.j = static_cast<double>(particle.j);
+  p.j0 = static_cast<double>(particle.j0);
+  p.shear = static_cast<double>(particle.shear);
+  p.mass = kilograms(particle.mass);
+  p.soil = particle.soil;
+  return p;
+}
+
+ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
+                                 std::function<double(int, int)> held)
+    : soils_(std::move(soils)), cell_(cell), gravity_(gravity), held_(std::move(held)) {}
+
+void ReferenceSolver::step(double dt) {
+  // Stress, then mass and momentum to the nodes.
+  nodes_.clear();
+  for (Point& p : points) {
+    const scene::Soil& soil = soils_.at(static_cast<std::size_t>(p.soil));
+    const LawSoil law = law_soil(soil, cell_);
+    double c[9], sigma[6];
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) c[3 * a + b] = p.c(a, b);
+    law_update(c, dt, &law, p.s.data(), &p.j, &p.j0, &p.shear, sigma);
+    Mat3 stress;
+    stress << sigma[0], sigma[3], sigma[5], sigma[3], sigma[1], sigma[4], sigma[5], sigma[4], sigma[2];
+    const double volume = p.j * p.mass / soil.bank_density;
+    const Mat3 affine = p.mass * cell_ * p.c - dt * (4 / cell_) * volume * stress;
+    for_nodes(weights_at(p.x), [&](const std::array<int, 3>& at, double w, const Vec3& r) {
+      Node& node = nodes_[at];
+      node.mass += w * p.mass;
+      node.momentum += w * (p.mass * p.v + affine * r);
+    });
+  }
+  // Velocity, gravity, resting ground. A node lighter than a mass quantum is empty.
+  for (auto& [at, node] : nodes_) {
+    const bool empty = node.mass <= kMassQuantum, fixed = at[2] <= held_(at[0], at[1]);
+    node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum / node.mass + gravity_ * dt);
+  }
+  // Back to the particles; `momentum` of a node is its velocity now.
+  for (Point& p : points) {
+    Vec3 v = Vec3::Zero();
+    Mat3 moment = Mat3::Zero();
+    for_nodes(weights_at(p.x), [&](const std::array<int, 3>& at, double w, const Vec3& r) {
+      const Vec3& u = nodes_.at(at).momentum;
+      v += w * u;
+      moment += w * u * r.transpose();
+    });
+    p.v = v;
+    p.c = (4 / cell_) * moment;
+    p.x += (dt / cell_) * v;
+  }
+}
+
+Vec3 ReferenceSolver::momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Point& p : points) sum += p.mass * p.v;
+  return sum;
+}
+
+}  // namespace navvy::soil::reference

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The particle method in doubles and plain loops, written to be read: what the kernels must agree with.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/soil.h"
+#include "soil/particle.h"
+
+namespace navvy::soil::reference {
+
+/// One particle in doubles; positions in cells of the grid frame G.
+struct Point {
+  Vec3 x = Vec3::Zero(), v = Vec3::Zero();
+  Mat3 c = Mat3::Zero();
+  std::array<double, 6> s{};
+  double j = 1, j0 = 1, shear = 0, mass = 0;
+  int soil = 0;
+};
+
+Point from_particle(const Particle& particle);
+
+/// MLS-MPM with quadratic B-splines [Hu et al. 2018, "A moving least squares material point method ..."], APIC
+/// transfer, the law of kernels/soil/law.h. No tools. Slow: a map from node to momentum.
+class ReferenceSolver {
+ public:
+  /// `held(i, j)`: nodes (i, j, k) with k <= held are fixed by resting ground [cells].
+  ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
+                  std::function<double(int, int)> held);
+
+  std::vector<Point> points;
+
+  void step(double dt);
+
+  Vec3 momentum() const;
+
+ private:
+  struct Node {
+    double mass = 0;
+    Vec3 momentum = Vec3::Zero();
+  };
+  std::vector<scene::Soil> soils_;
+  double cell_;
+  Vec3 gravity_;
+  std::function<double(int, int)> held_;
+  std::map<std::array<int, 3>, Node> nodes_;
+};
+
+}  // namespace navvy::soil::reference
