@@ -80,7 +80,16 @@ function(navvy_tests name)
     return()
   endif()
   add_executable(${name} ${sources} ${T_EXTRA})
-  target_link_libraries(${name} PRIVATE navvy_flags ${T_LIBS} GTest::gtest GTest::gtest_main)
+  set(main GTest::gtest_main)
+  if(T_LABEL STREQUAL "device")
+    set(main "")
+    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/device_main.cpp)
+    # The whole program once more on a GPU; shows as skipped where there is none.
+    add_test(NAME ${name}_on_gpu COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${name}_on_gpu PROPERTIES LABELS "device" ENVIRONMENT "NAVVY_TEST_DEVICE=gpu" TIMEOUT 900
+                         SKIP_REGULAR_EXPRESSION "^.  SKIPPED . no OpenCL device")
+  endif()
+  target_link_libraries(${name} PRIVATE navvy_flags ${T_LIBS} GTest::gtest ${main})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   # An EXPECT that is the whole branch of an if is no ambiguity to a reader; the macro's inner else makes it one to GCC.
   target_compile_options(${name} PRIVATE -Wno-dangling-else)
