@@ -54,7 +54,9 @@ class Ground {
     std::vector<scene::GroundPatch> patches;
     SurfaceSource surface;
     // Georeference of the site, for exports: file coordinates of `origin`, and its CRS as WKT (empty: none).
+    // File z [m] = W z + height_offset; the file may count in feet.
     double easting = 0, northing = 0, height_offset = 0;
+    double file_unit = 1, file_height_unit = 1;  ///< metres per unit of the file's coordinates and heights
     std::string crs_wkt;
   };
   explicit Ground(Setup setup);

@@ -9,7 +9,7 @@
 #include "core/log.h"
 #include "heightfield/procedural.h"
 #include "heightfield/settle.h"
-#if defined(NAVVY_WITH_GDAL) && __has_include("heightfield/gdal/import.h")
+#ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/import.h"
 #endif
 
@@ -101,7 +101,7 @@ Ground make_ground(const scene::World& world, std::string* report) {
     make_procedural(world, setup);
     if (report != nullptr) report->clear();
   } else {
-#if defined(NAVVY_WITH_GDAL) && __has_include("heightfield/gdal/import.h")
+#ifdef NAVVY_WITH_GDAL
     const TerrainReport found = import_terrain(world, setup);
     if (report != nullptr) *report = found.text();
 #else

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/esri_ascii.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "heightfield/file_rows.h"
+
+namespace navvy::heightfield {
+namespace {
+
+// Shortest text that reads back to the same number.
+template <class T>
+void append(std::string& out, T value) {
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  out.append(buffer, end.ptr);
+}
+
+std::string header(const Ground& ground) {
+  const Ground::Setup& setup = ground.setup();
+  std::string out = "ncols " + std::to_string(ground.nx()) + "\nnrows " + std::to_string(ground.ny()) + "\nxllcorner ";
+  append(out, setup.easting);
+  out += "\nyllcorner ";
+  append(out, setup.northing);
+  out += "\ncellsize ";
+  append(out, setup.cell / setup.file_unit);
+  out += "\nNODATA_value ";
+  append(out, kExportNodata);
+  return out + "\n";
+}
+
+}  // namespace
+
+void write_esri_ascii(const Ground& ground, const std::string& path) {
+  const std::string part = partial_name(path);
+  const auto fail = [&](int code) {
+    ::unlink(part.c_str());
+    throw FileError("cannot write '" + path + "': " + std::strerror(code));
+  };
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(part.c_str(), "wb"), std::fclose);
+  if (!file) fail(errno);
+  const auto write = [&](const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(errno);
+  };
+  write(header(ground));
+  // North first; 32 rows at a time because that is how the ground keeps them.
+  std::vector<float> rows;
+  for (int bottom = (ground.ny() - 1) / 32 * 32; bottom >= 0; bottom -= 32) {
+    const int top = std::min(bottom + 32, ground.ny());
+    file_rows(ground, bottom, top, rows);
+    for (int iy = top - 1; iy >= bottom; --iy) {
+      std::string line;
+      const float* row = rows.data() + static_cast<std::size_t>(iy - bottom) * ground.nx();
+      for (int ix = 0; ix < ground.nx(); ++ix) {
+        if (ix > 0) line += ' ';
+        append(line, row[ix]);
+      }
+      line += '\n';
+      write(line);
+    }
+  }
+  if (std::fclose(file.release()) != 0) fail(errno);
+  commit_file(path);
+}
+
+}  // namespace navvy::heightfield

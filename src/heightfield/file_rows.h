@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights of the ground in the units and datum of the file it came from.
+#pragma once
+
+#include <vector>
+
+#include "heightfield/ground.h"
+
+namespace navvy::heightfield {
+
+/// Written where a map has no height.
+inline constexpr double kExportNodata = -9999;
+
+/// Rows [y0, y1) of the whole site, row y0 first, x fastest; in double until the last rounding to float.
+void file_rows(const Ground& ground, int y0, int y1, std::vector<float>& out);
+
+}  // namespace navvy::heightfield

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/gdal/export.h"
+
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "heightfield/file_rows.h"
+#include "heightfield/gdal/session.h"
+
+namespace navvy::heightfield {
+namespace {
+
+// Rows that are held and compressed together.
+constexpr int kStripRows = 32;
+
+/// Fills `out` with rows [y0, y1) of the rectangle, row y0 first.
+using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
+
+void write(const Ground& ground, const CellRect& rect, const RowSource& rows, const std::string& path) {
+  const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
+  const std::string part = partial_name(path);
+  GdalSession session;
+  const auto check = [&](bool good, const char* action) {
+    if (good && session.errors().empty()) return;
+    ::unlink(part.c_str());
+    throw FileError("cannot write '" + path + "': " + session.cause(action));
+  };
+  const char* const options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", "BLOCKYSIZE=32", "BIGTIFF=IF_SAFER", nullptr};
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  check(driver != nullptr, "this GDAL cannot write GeoTIFF");
+  std::unique_ptr<GDALDataset> data(driver->Create(part.c_str(), nx, ny, 1, GDT_Float32, const_cast<char**>(options)));
+  check(data != nullptr, "the file cannot be created");
+  const Ground::Setup& setup = ground.setup();
+  const double step = setup.cell / setup.file_unit;
+  double transform[6] = {setup.easting + rect.x0 * step, step, 0, setup.northing + rect.y1 * step, 0, -step};
+  data->SetGeoTransform(transform);
+  if (!setup.crs_wkt.empty()) {
+    OGRSpatialReference crs;
+    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (crs.importFromWkt(setup.crs_wkt.c_str()) == OGRERR_NONE) data->SetSpatialRef(&crs);
+  }
+  GDALRasterBand* band = data->GetRasterBand(1);
+  band->SetNoDataValue(kExportNodata);
+  // From the north down, whole strips of the file at a time.
+  std::vector<float> strip;
+  for (int top = 0; top < ny; top += kStripRows) {
+    const int bottom = std::min(top + kStripRows, ny);
+    rows(ny - bottom, ny - top, strip);
+    for (int row = top; row < bottom; ++row)
+      check(band->RasterIO(GF_Write, 0, row, nx, 1, strip.data() + static_cast<std::size_t>(bottom - 1 - row) * nx, nx,
+                           1, GDT_Float32, 0, 0, nullptr) == CE_None,
+            "a row cannot be written");
+  }
+  data.reset();  // flushes; a full disk shows here at the latest
+  // What GeoTIFF cannot say about an exotic CRS, GDAL puts beside the file: under the wrong name, so away with it.
+  ::unlink((part + ".aux.xml").c_str());
+  check(true, "");
+  commit_file(path);
+}
+
+}  // namespace
+
+void write_geotiff(const Ground& ground, const std::string& path) {
+  const CellRect site{0, 0, ground.nx(), ground.ny()};
+  write(
+      ground, site, [&](int y0, int y1, std::vector<float>& out) { file_rows(ground, y0, y1, out); }, path);
+}
+
+void write_geotiff(const Ground& ground, const CellRect& rect, std::span<const float> values, const std::string& path) {
+  const auto nx = static_cast<std::size_t>(std::max(rect.x1 - rect.x0, 0));
+  if (rect.empty() || values.size() != nx * static_cast<std::size_t>(rect.y1 - rect.y0))
+    throw Error("write_geotiff: " + std::to_string(values.size()) + " values do not fill the rectangle for '" + path +
+                "'");
+  const auto rows = [&](int y0, int y1, std::vector<float>& out) {
+    out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
+               values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
+  };
+  write(ground, rect, rows, path);
+}
+
+}  // namespace navvy::heightfield

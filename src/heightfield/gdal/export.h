@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ground as GeoTIFF. Exists only in builds with NAVVY_WITH_GDAL.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "heightfield/ground.h"
+
+namespace navvy::heightfield {
+
+/// Writes the present heights of the whole site as float32 GeoTIFF (DEFLATE, PREDICTOR 3, nodata -9999): north up, in
+/// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none. Strip by
+/// strip, so a large site needs no copy. A kill leaves the old file or the new one.
+/// @throws FileError naming path and cause.
+void write_geotiff(const Ground& ground, const std::string& path);
+
+/// Same for any dense layer over `rect` of the ground (x fastest, row 0 = least y), values written as they are.
+/// @throws Error when sizes do not fit, FileError.
+void write_geotiff(const Ground& ground, const CellRect& rect, std::span<const float> values, const std::string& path);
+
+}  // namespace navvy::heightfield

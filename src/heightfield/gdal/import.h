@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Terrain maps (GeoTIFF, ESRI ASCII) as the surface of a site. Exists only in builds with NAVVY_WITH_GDAL.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "heightfield/ground.h"
+#include "heightfield/raster.h"
+#include "scene/world.h"
+
+namespace navvy::heightfield {
+
+/// What a map was and what was made of it. File coordinates are in the file's own units, all else in metres.
+struct TerrainReport {
+  std::string file, format;
+  int columns = 0, rows = 0;             ///< of the whole file
+  double cell_x = 0, cell_y = 0;         ///< [m]
+  bool point_registered = false;         ///< heights belong to points, the file's area reaches half a cell beyond them
+  std::string crs;                       ///< name; empty: none
+  std::string unit, height_unit;         ///< names as the file gives them
+  double metres = 1, height_metres = 1;  ///< per unit
+  Vec2 file_min = Vec2::Zero(), file_max = Vec2::Zero();  ///< extent of the map, file coordinates
+  Vec2 site_min = Vec2::Zero(), site_max = Vec2::Zero();  ///< extent of the site, file coordinates
+  std::int64_t source_cells = 0;                          ///< map cells under the site and a margin of two
+  GapFill nodata;                                         ///< of those
+  std::string nodata_value;                               ///< as declared; "none"
+  double height_offset = 0;                               ///< W z = file z - offset [m]
+  double lowest = 0, highest = 0;                         ///< file datum [m]
+  SlopeRange slope;
+  double repose = 0;               ///< [rad]
+  double soil_cell = 0;            ///< [m]
+  std::vector<std::string> notes;  ///< traps found in the file
+
+  /// Some lines for a person.
+  std::string text() const;
+};
+
+/// Reads the part of `world.ground.file` that the site covers and fills in the surface, datum and georeference of
+/// `setup`, whose nx, ny, cell and origin are given. The map is kept at its own resolution and interpolated on demand.
+/// @throws InputError when the file is missing, unreadable, in degrees, turned, without heights here, or when the site
+/// is off the map.
+TerrainReport import_terrain(const scene::World& world, Ground::Setup& setup);
+
+}  // namespace navvy::heightfield

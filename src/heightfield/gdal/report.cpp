@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdarg>
+#include <cstdio>
+
+#include "heightfield/gdal/import.h"
+
+namespace navvy::heightfield {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
+  char buffer[512];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(buffer, sizeof buffer, format, args);
+  va_end(args);
+  return std::string(buffer) + "\n";
+}
+
+}  // namespace
+
+std::string TerrainReport::text() const {
+  std::string out = "terrain " + file + "\n";
+  out += line("  source   %s, %d x %d cells of %.6g x %.6g m%s", format.c_str(), columns, rows, cell_x, cell_y,
+              point_registered ? ", registered at points" : "");
+  out += "  CRS      " + (crs.empty() ? std::string("none") : crs) + "\n";
+  out +=
+      line("  units    %s (%.12g m), heights %s (%.12g m)", unit.c_str(), metres, height_unit.c_str(), height_metres);
+  out += line("  extent   x %.3f .. %.3f, y %.3f .. %.3f", file_min.x(), file_max.x(), file_min.y(), file_max.y());
+  out += line("  site     x %.3f .. %.3f, y %.3f .. %.3f, resampled to %.4g m", site_min.x(), site_max.x(),
+              site_min.y(), site_max.y(), soil_cell);
+  out +=
+      line("  origin   local origin at %.4f, %.4f; W z = height - %.4f m", site_min.x(), site_min.y(), height_offset);
+  out += line("  heights  %.3f .. %.3f m", lowest, highest);
+  if (nodata.gaps == 0)
+    out += line("  nodata   %s, no such cell here", nodata_value.c_str());
+  else
+    out += line("  nodata   %s: %lld of %lld cells, filled from their neighbours (at most %d cells away)",
+                nodata_value.c_str(), static_cast<long long>(nodata.gaps), static_cast<long long>(source_cells),
+                nodata.farthest);
+  out += line("  slopes   %.1f .. %.1f deg, median %.1f; %.2f %% above the repose of %.1f deg", degrees(slope.least),
+              degrees(slope.most), degrees(slope.median), 100 * slope.share_above, degrees(repose));
+  for (const std::string& note : notes) out += "  note     " + note + "\n";
+  return out;
+}
+
+}  // namespace navvy::heightfield

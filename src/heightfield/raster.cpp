@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/raster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::heightfield {
+namespace {
+
+// A soil cell averages at most this many map cells a side; finer maps are sampled that densely.
+constexpr int kMostSamples = 16;
+
+// Mean of the known neighbours of a gap, diagonal ones by 1 / sqrt 2; NaN when there is none.
+float mean_of_neighbours(const HeightRaster& raster, int ix, int iy) {
+  double sum = 0, weights = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int x = ix + dx, y = iy + dy;
+      if (x < 0 || y < 0 || x >= raster.nx || y >= raster.ny || std::isnan(raster.at(x, y))) continue;
+      const double weight = dx != 0 && dy != 0 ? std::sqrt(0.5) : 1.0;
+      sum += weight * raster.at(x, y);
+      weights += weight;
+    }
+  return static_cast<float>(sum / weights);
+}
+
+}  // namespace
+
+double HeightRaster::sample(double x, double y) const {
+  const double gx = std::clamp((x - x0) / cell_x, 0.0, nx - 1.0), gy = std::clamp((y - y0) / cell_y, 0.0, ny - 1.0);
+  const int ix = static_cast<int>(gx), iy = static_cast<int>(gy);
+  const int jx = std::min(ix + 1, nx - 1), jy = std::min(iy + 1, ny - 1);
+  const double u = gx - ix, v = gy - iy;
+  return (1 - v) * ((1 - u) * at(ix, iy) + u * at(jx, iy)) + v * ((1 - u) * at(ix, jy) + u * at(jx, jy));
+}
+
+double HeightRaster::mean(double x, double y, double edge) const {
+  const int sx = static_cast<int>(std::clamp(std::ceil(edge / cell_x - 1e-9), 1.0, double{kMostSamples}));
+  const int sy = static_cast<int>(std::clamp(std::ceil(edge / cell_y - 1e-9), 1.0, double{kMostSamples}));
+  if (sx == 1 && sy == 1) return sample(x, y);
+  double sum = 0;
+  for (int j = 0; j < sy; ++j)
+    for (int i = 0; i < sx; ++i) sum += sample(x + ((i + 0.5) / sx - 0.5) * edge, y + ((j + 0.5) / sy - 0.5) * edge);
+  return sum / (sx * sy);
+}
+
+GapFill fill_gaps(HeightRaster& raster) {
+  GapFill result;
+  std::vector<std::int64_t> gaps;
+  for (std::size_t i = 0; i < raster.z.size(); ++i)
+    if (std::isnan(raster.z[i])) gaps.push_back(static_cast<std::int64_t>(i));
+  result.gaps = static_cast<std::int64_t>(gaps.size());
+  // Each ring sees only the ring before it, so the result does not depend on the order of the cells.
+  while (!gaps.empty()) {
+    std::vector<std::int64_t> filled, left;
+    std::vector<float> values;
+    for (const std::int64_t i : gaps) {
+      const float value = mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx));
+      if (std::isnan(value)) {
+        left.push_back(i);
+      } else {
+        filled.push_back(i);
+        values.push_back(value);
+      }
+    }
+    if (filled.empty()) break;
+    for (std::size_t k = 0; k < filled.size(); ++k) raster.z[static_cast<std::size_t>(filled[k])] = values[k];
+    gaps.swap(left);
+    ++result.farthest;
+  }
+  return result;
+}
+
+SlopeRange slopes(const HeightRaster& raster, double limit) {
+  std::vector<float> tangents;
+  for (int iy = 0; iy + 1 < raster.ny; ++iy)
+    for (int ix = 0; ix + 1 < raster.nx; ++ix) {
+      const double a = raster.at(ix, iy), b = raster.at(ix + 1, iy), c = raster.at(ix, iy + 1),
+                   d = raster.at(ix + 1, iy + 1);
+      tangents.push_back(
+          static_cast<float>(std::hypot((b - a + d - c) / (2 * raster.cell_x), (c - a + d - b) / (2 * raster.cell_y))));
+    }
+  SlopeRange range;
+  if (tangents.empty()) return range;
+  const auto middle = tangents.begin() + static_cast<std::ptrdiff_t>(tangents.size() / 2);
+  std::nth_element(tangents.begin(), middle, tangents.end());
+  range.median = std::atan(*middle);
+  const auto [least, most] = std::minmax_element(tangents.begin(), tangents.end());
+  range.least = std::atan(*least);
+  range.most = std::atan(*most);
+  const double steep = std::tan(limit);
+  const auto above = std::count_if(tangents.begin(), tangents.end(), [&](float t) { return t > steep; });
+  range.share_above = static_cast<double>(above) / static_cast<double>(tangents.size());
+  return range;
+}
+
+}  // namespace navvy::heightfield

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as a terrain map: the importer may refuse them with InputError, nothing else.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+#include "heightfield/site.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 1) return 0;
+  // The first byte chooses the place in the map and the cell; the driver is found by content.
+  const std::uint8_t choice = data[0];
+  const int file = ::memfd_create("map", 0);
+  if (file < 0) return 0;
+  const std::string path = "/proc/self/fd/" + std::to_string(file);
+  if (::write(file, data + 1, size - 1) != static_cast<ssize_t>(size - 1)) {
+    ::close(file);
+    return 0;
+  }
+  navvy::scene::World world;
+  world.soils.resize(1);
+  world.soils[0].name = "loam";
+  world.ground.layers = {{"loam", 1}};
+  world.ground.file = path;
+  world.ground.size = navvy::Vec2(2, 1);
+  world.solver.cell = (choice & 1) != 0 ? 0.5 : 0.1;
+  world.ground.has_at = world.ground.at_is_local = (choice & 2) != 0;
+  world.ground.at = navvy::Vec2(2, 1);
+  if ((choice & 4) != 0) world.ground.steep = navvy::scene::SteepGround::kSettle;
+  try {
+    const navvy::heightfield::Ground ground = navvy::heightfield::make_ground(world);
+    // What was let in must be usable.
+    for (int iy = 0; iy < ground.ny(); ++iy)
+      for (int ix = 0; ix < ground.nx(); ++ix)
+        if (!(ground.height(ix, iy) >= ground.datum())) __builtin_trap();
+  } catch (const navvy::InputError&) {
+  }
+  ::close(file);
+  return 0;
+}

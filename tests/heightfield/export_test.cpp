@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/esri_ascii.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include "core/error.h"
+#include "heightfield/file_rows.h"
+#include "heightfield/grounds.h"
+#include "heightfield/maps.h"
+#include "heightfield/site.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/export.h"
+#endif
+
+namespace navvy::heightfield {
+namespace {
+
+using testing::folder;
+using testing::has_tool;
+using testing::located;
+using testing::wavy_setup;
+
+// An asymmetric ground with a mark in one corner, far from the origin of its map.
+Ground marked(double easting, double northing, double offset) {
+  Ground::Setup setup = wavy_setup();
+  setup.easting = easting;
+  setup.northing = northing;
+  setup.height_offset = offset;
+  Ground ground(std::move(setup));
+  std::vector<Layer> taken;
+  ground.take_above(70, 3, -1, taken);
+  return ground;
+}
+
+using Writer = void (*)(const Ground&, const std::string&);
+struct Format {
+  const char* name;
+  Writer writer;
+};
+std::vector<Format> formats() {
+  std::vector<Format> all = {{"map.asc", write_esri_ascii}};
+#ifdef NAVVY_WITH_GDAL
+  all.push_back({"map.tif", write_geotiff});
+#endif
+  return all;
+}
+
+TEST(Export, IsReadByOthersAtTheRightPlace) {
+  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
+  const std::string dir = folder();
+  const Ground ground = marked(1540000.25, 5150000.5, 412);
+  std::vector<Vec2> points;
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix)
+      points.push_back(Vec2(1540000.25, 5150000.5) + 0.1 * Vec2(ix + 0.5, iy + 0.5));
+  for (const Format& format : formats()) {
+    format.writer(ground, dir + format.name);
+    const std::vector<double> values = located(dir + format.name, points);
+    ASSERT_EQ(values.size(), points.size()) << format.name;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const int nx = ground.nx();
+      const double height = ground.height(static_cast<int>(i) % nx, static_cast<int>(i) / nx) + 412;
+      ASSERT_NEAR(values[i], height, 3e-5) << format.name << " " << i;  // half an ulp of float at 412 m
+    }
+    EXPECT_FALSE(std::filesystem::exists(dir + format.name + ".part"));
+  }
+}
+
+#ifdef NAVVY_WITH_GDAL
+TEST(Export, ReturnsToTheSameGroundAtAnEastingOfAMillionAndAHalf) {
+  const std::string dir = folder();
+  const auto z = [](int c, int r) { return std::to_string(870 + 0.375 * c - 0.25 * r + 0.0625 * ((c * r) % 5)); };
+  const std::string header = "xllcorner 1540000.37\nyllcorner 5150000.81\ncellsize 1\n";
+  testing::write_text(dir + "source.asc", testing::ascii_grid(30, 20, header, z));
+  const Ground first = make_ground(testing::map_world(dir + "source.asc", 0.25, Vec2(20, 12)));
+  for (const Format& format : formats()) {
+    format.writer(first, dir + format.name);
+    std::string report;
+    const Ground second = make_ground(testing::map_world(dir + format.name, 0.25, Vec2(20, 12)), &report);
+    // 1e-6 m: coordinates stay double; in float they would be off by 0.125 m.
+    EXPECT_NEAR(second.setup().easting, first.setup().easting, 1e-6) << report;
+    EXPECT_NEAR(second.setup().northing, first.setup().northing, 1e-6);
+    for (int iy = 0; iy < first.ny(); ++iy)
+      for (int ix = 0; ix < first.nx(); ++ix)
+        // Half an ulp of float at 870 m, and interpolation between columns that are 1e-9 m off.
+        ASSERT_NEAR(second.height(ix, iy) + second.setup().height_offset,
+                    first.height(ix, iy) + first.setup().height_offset, 6e-5);
+  }
+}
+
+TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
+  if (!has_tool("gdal_translate") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
+  const std::string dir = folder();
+  const auto z = [](int c, int r) { return std::to_string(10 + 0.5 * c + r); };
+  testing::write_text(dir + "feet.asc",
+                      testing::ascii_grid(30, 20, "xllcorner 981000\nyllcorner 195000\ncellsize 1\n", z));
+  testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + dir + "feet.asc' '" + dir + "feet.tif'");
+  const double foot = 1200.0 / 3937.0;
+  const Ground ground = make_ground(testing::map_world(dir + "feet.tif", foot, Vec2(20 * foot, 12 * foot)));
+  write_geotiff(ground, dir + "out.tif");
+  const std::string info = testing::output_of("gdalinfo '" + dir + "out.tif'");
+  for (const char* part :
+       {"2263", "NoData Value=-9999", "COMPRESSION=DEFLATE", "PREDICTOR=3", "Type=Float32", "Size is 20, 12"})
+    EXPECT_NE(info.find(part), std::string::npos) << part << "\n" << info;
+  const std::vector<Vec2> points = {{981005.5, 195004.5}, {981024.5, 195015.5}};
+  const std::vector<double> before = located(dir + "feet.tif", points), after = located(dir + "out.tif", points);
+  ASSERT_EQ(after.size(), 2u);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
+}
+
+TEST(Export, WritesALayerOfARectangle) {
+  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
+  const std::string dir = folder();
+  const Ground ground = marked(100, 200, 0);
+  std::vector<float> values(3 * 70);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+  write_geotiff(ground, CellRect{10, 2, 13, 45 + 27}, values, dir + "layer.tif");
+  const std::vector<double> read = located(dir + "layer.tif", {{101.05, 200.25}, {101.25, 200.25}, {101.05, 207.15}});
+  EXPECT_EQ(read, (std::vector<double>{0, 2, 207}));
+  EXPECT_THROW(write_geotiff(ground, CellRect{0, 0, 2, 2}, values, dir + "layer.tif"), Error);
+}
+#endif
+
+TEST(Export, LeavesTheOldFileWhenTheDiskIsFull) {
+  const std::string dir = folder();
+  const Ground ground = marked(0, 0, 0);
+  for (const Format& format : formats()) {
+    const std::string path = dir + format.name;
+    testing::write_text(path, "old");
+    rlimit before;
+    ::getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit little{1000, before.rlim_max};
+    const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+    ::setrlimit(RLIMIT_FSIZE, &little);
+    std::string message;
+    try {
+      format.writer(ground, path);
+    } catch (const FileError& error) {
+      message = error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    ::signal(SIGXFSZ, handler);
+    EXPECT_NE(message.find(path), std::string::npos) << format.name << ": " << message;
+    EXPECT_EQ(std::filesystem::file_size(path), 3u);
+    EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+    EXPECT_THROW(format.writer(ground, dir + "no/such/folder/" + format.name), FileError);
+  }
+}
+
+}  // namespace
+}  // namespace navvy::heightfield

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/import.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "heightfield/maps.h"
+#include "heightfield/site.h"
+
+namespace navvy::heightfield {
+namespace {
+
+using testing::ascii_grid;
+using testing::folder;
+using testing::has_tool;
+using testing::located;
+using testing::map_world;
+using testing::output_of;
+using testing::write_text;
+
+// No symmetry in it: every mirror or transposition of a 13 x 7 map of this changes nearly all cells.
+double asymmetric(int column, int row) { return 100 + 1.25 * column + 7.5 * row + 0.5 * ((column * row * 5) % 7); }
+std::string asymmetric_text(int column, int row) { return std::to_string(asymmetric(column, row)); }
+
+std::string asymmetric_map(const std::string& path, const std::string& corner = "xllcorner 500\nyllcorner 8000\n") {
+  return write_text(path, ascii_grid(13, 7, corner + "cellsize 1\n", asymmetric_text));
+}
+
+std::string message_of(const scene::World& world) {
+  try {
+    make_ground(world);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Every column of a site whose columns coincide with the cells of the map, against gdallocationinfo.
+void expect_as_located(const std::string& file, const Ground& ground, double tolerance) {
+  const Ground::Setup& setup = ground.setup();
+  std::vector<Vec2> points;
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix)
+      points.push_back(Vec2(setup.easting, setup.northing) + setup.cell / setup.file_unit * Vec2(ix + 0.5, iy + 0.5));
+  const std::vector<double> values = located(file, points);
+  ASSERT_EQ(values.size(), points.size());
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix)
+      ASSERT_NEAR((ground.height(ix, iy) + setup.height_offset) / setup.file_height_unit,
+                  values[static_cast<std::size_t>(iy) * ground.nx() + ix], tolerance)
+          << ix << ", " << iy;
+}
+
+// Float of a height within 100 m of the offset, plus the mass quantum of a 1 m2 column.
+constexpr double kFloatHeight = 1e-5;
+
+TEST(Import, IsNeitherMirroredNorTransposed) {
+  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
+  const std::string file = asymmetric_map(folder() + "map.asc");
+  scene::World world = map_world(file, 1, Vec2(8, 4));
+  world.ground.has_at = true;
+  for (const Vec2& at : {Vec2(505, 8003), Vec2(508, 8004), Vec2(509, 8002)}) {
+    world.ground.at = at;
+    const Ground ground = make_ground(world);
+    EXPECT_EQ(ground.nx(), 8);
+    EXPECT_EQ(ground.ny(), 4);
+    EXPECT_EQ(Vec2(ground.setup().easting, ground.setup().northing), Vec2(at - Vec2(4, 2)));
+    expect_as_located(file, ground, kFloatHeight);
+  }
+  // local: counts from the lower-left corner and is the same place.
+  world.ground.at = Vec2(5, 3);
+  world.ground.at_is_local = true;
+  const Ground local = make_ground(world);
+  EXPECT_EQ(local.setup().easting, 501);
+  EXPECT_NEAR(local.height(0, 0) + local.setup().height_offset, asymmetric(1, 5), kFloatHeight);
+}
+
+TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
+  if (!has_tool("gdallocationinfo") || !has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
+  const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc");
+  for (const std::string kind : {"Area", "Point"}) {
+    const std::string file = dir + kind + ".tif";
+    output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 -mo AREA_OR_POINT=" + kind + " '" + ascii + "' '" + file +
+              "'");
+    scene::World world = map_world(file, 1, Vec2(8, 4));
+    world.ground.has_at = true;
+    world.ground.at = Vec2(506, 8004);
+    Ground::Setup setup;
+    setup.nx = 8, setup.ny = 4, setup.cell = 1;
+    const TerrainReport report = import_terrain(world, setup);
+    EXPECT_EQ(report.point_registered, kind == "Point");
+    EXPECT_TRUE(contains(report.crs, "UTM zone 15N")) << report.crs;
+    EXPECT_TRUE(contains(setup.crs_wkt, "PROJCRS"));
+    expect_as_located(file, make_ground(world), kFloatHeight);
+  }
+  // ESRI's own way to register at points: the corner lies half a cell lower.
+  const std::string centred = asymmetric_map(dir + "centre.asc", "xllcenter 500.5\nyllcenter 8000.5\n");
+  scene::World world = map_world(centred, 1, Vec2(8, 4));
+  world.ground.has_at = true;
+  world.ground.at = Vec2(506, 8004);
+  const Ground ground = make_ground(world);
+  EXPECT_NEAR(ground.height(0, 0) + ground.setup().height_offset, asymmetric(2, 4), kFloatHeight);
+}
+
+TEST(Import, ReadsCellsThatAreNotSquare) {
+  const std::string file =
+      write_text(folder() + "map.asc", ascii_grid(20, 6, "XLLCORNER 0\nYLLCORNER 0\nDX 0.5\nDY 2\n",
+                                                  [](int c, int r) { return std::to_string(0.5 * c + 3 * (5 - r)); }));
+  const Ground ground = make_ground(map_world(file, 0.1, Vec2(4, 4)));
+  // A plane of slope 1 along x and 1.5 along y, whatever the cells are.
+  const double left = ground.sample(-1.5, 0), right = ground.sample(1.5, 0);
+  EXPECT_NEAR(right - left, 3, 1e-5);
+  EXPECT_NEAR(ground.sample(0, 1.5) - ground.sample(0, -1.5), 4.5, 1e-5);
+}
+
+TEST(Import, KnowsEverySpellingOfNodata) {
+  const std::string dir = folder();
+  struct Case {
+    std::string name, header, cell;
+  };
+  const std::vector<Case> cases = {{"usual", "NODATA_value -9999\n", "-9999"},
+                                   {"odd", "NODATA_value -9999.005859375\n", "-9999.005859375"},
+                                   {"float", "NODATA_value -3.4028230607370965e+38\n", "-3.4028230607370965e+38"},
+                                   {"infinite", "NODATA_value -inf\n", "-inf"},
+                                   {"undeclared", "", "-9999"},
+                                   {"undeclared_float", "", "-3.4028230607370965e+38"},
+                                   {"nan", "", "nan"}};
+  for (const Case& c : cases) {
+    const auto z = [&](int column, int row) {
+      return column >= 9 && column < 12 && row == 10 ? c.cell : std::to_string(5.5 + 0.25 * column);
+    };
+    const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n" + c.header;
+    const std::string file = write_text(dir + c.name + ".asc", ascii_grid(21, 21, header, z));
+    scene::World world = map_world(file, 0.5, Vec2(12, 12));
+    Ground::Setup setup;
+    setup.nx = setup.ny = 24, setup.cell = 0.5;
+    const TerrainReport report = import_terrain(world, setup);
+    EXPECT_EQ(report.nodata.gaps, 3) << c.name;
+    EXPECT_EQ(report.nodata.farthest, 1) << c.name;
+    EXPECT_TRUE(contains(report.text(), "3 of ")) << report.text();
+    // The middle of the gap lies between its neighbours, rows above and below being complete.
+    EXPECT_NEAR(setup.surface(12, 12) + report.height_offset, 5.5 + 0.25 * 10, 0.2) << c.name;
+    EXPECT_LT(report.slope.most, radians(20)) << c.name;
+  }
+}
+
+TEST(Import, KeepsZeroNegativeAndHighHeights) {
+  const std::string dir = folder();
+  for (const double base : {0.0, -431.5, 4807.25}) {
+    const auto z = [&](int c, int r) { return std::to_string(base + (c + r == 0 ? 0.0 : 0.125 * (c % 3))); };
+    const std::string file = write_text(
+        dir + "map.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n", z));
+    const Ground ground = make_ground(map_world(file, 1, Vec2(16, 16)));
+    EXPECT_NEAR(ground.height(4, 5) + ground.setup().height_offset, base + 0.125, kFloatHeight) << base;
+    EXPECT_LT(std::abs(ground.height(4, 5)), 2) << base;  // W heights are small
+    EXPECT_EQ(ground.setup().height_offset, std::floor(ground.setup().height_offset));
+  }
+  // A map without any height is refused.
+  const std::string empty =
+      write_text(dir + "empty.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n",
+                                               [](int, int) { return "-9999"; }));
+  EXPECT_TRUE(contains(message_of(map_world(empty, 1, Vec2(8, 8))), "all is nodata"));
+}
+
+TEST(Import, SaysWhereTheMapIsWhenTheSiteIsOffIt) {
+  const std::string file = asymmetric_map(folder() + "map.asc");
+  scene::World world = map_world(file, 0.1, Vec2(4, 4));
+  world.ground.has_at = true;
+  world.ground.at = Vec2(5, 3);
+  const std::string message = message_of(world);
+  EXPECT_TRUE(contains(message, "500.000 .. 513.000")) << message;
+  EXPECT_TRUE(contains(message, "8000.000 .. 8007.000")) << message;
+  EXPECT_TRUE(contains(message, "local:")) << message;
+  world.ground.has_at = false;
+  world.ground.size = Vec2(14, 4);
+  EXPECT_TRUE(contains(message_of(world), "off the map"));
+  // The whole map, rounded up to blocks, is on the map.
+  world.ground.size = Vec2(13, 7);
+  EXPECT_EQ(make_ground(world).ny(), 72);
+}
+
+TEST(Import, RefusesDegreesWithTheRemedyAndSeesThroughFalseOnes) {
+  if (!has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
+  const std::string dir = folder();
+  const std::string small = write_text(
+      dir + "small.asc", ascii_grid(13, 7, "xllcorner -93.9\nyllcorner 46.5\ncellsize 0.00001\n", asymmetric_text));
+  output_of("gdal_translate -a_srs EPSG:4326 '" + small + "' '" + dir + "degrees.tif'");
+  const std::string message = message_of(map_world(dir + "degrees.tif", 0.1, Vec2(4, 4)));
+  EXPECT_TRUE(contains(message, "degrees")) << message;
+  EXPECT_TRUE(contains(message, "gdalwarp -t_srs EPSG:32615")) << message;
+  const std::string metres = asymmetric_map(dir + "map.asc");
+  output_of("gdal_translate -a_srs EPSG:4326 '" + metres + "' '" + dir + "false.tif'");
+  std::string report;
+  const Ground ground = make_ground(map_world(dir + "false.tif", 0.5, Vec2(4, 4)), &report);
+  EXPECT_TRUE(contains(report, "taken as metres, CRS dropped")) << report;
+  EXPECT_TRUE(ground.setup().crs_wkt.empty());
+}
+
+TEST(Import, ConvertsFeetOnAllThreeAxes) {
+  if (!has_tool("gdal_translate") || !has_tool("gdallocationinfo")) GTEST_SKIP() << "gdal-bin is missing";
+  const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc", "xllcorner 981000\nyllcorner 195000\n");
+  const std::string file = dir + "feet.tif";
+  output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + ascii + "' '" + file + "'");
+  const double foot = 1200.0 / 3937.0;  // US survey foot
+  scene::World world = map_world(file, foot, Vec2(8 * foot, 4 * foot));
+  world.ground.has_at = true;
+  world.ground.at = Vec2(981006, 195004);
+  std::string report;
+  const Ground ground = make_ground(world, &report);
+  EXPECT_TRUE(contains(report, "heights carry no unit")) << report;
+  EXPECT_NEAR(ground.height(0, 0) + ground.setup().height_offset, asymmetric(2, 4) * foot, kFloatHeight);
+  // One column of feet is 0.3048 m wide and 0.09 m2: the mass quantum stays below the float of a height.
+  expect_as_located(file, ground, 2 * kFloatHeight);
+}
+
+TEST(Import, ReportsSlopesAndRepose) {
+  // A face of 45 deg in a plane: 2 of 15 steps between rows.
+  const auto z = [](int, int r) { return std::to_string(r < 7 ? 2.0 : r == 7 ? 1.0 : 0.0); };
+  const std::string file =
+      write_text(folder() + "face.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  Ground::Setup setup;
+  setup.nx = setup.ny = 160, setup.cell = 0.1;
+  const TerrainReport report = import_terrain(map_world(file, 0.1, Vec2(16, 16)), setup);
+  EXPECT_NEAR(degrees(report.slope.most), 45, 1e-4);
+  EXPECT_EQ(report.slope.least, 0);
+  EXPECT_NEAR(report.slope.share_above, 2.0 / 15, 1e-12);
+  // Settled, it is no steeper than the friction angle.
+  scene::World world = map_world(file, 0.1, Vec2(16, 16));
+  world.ground.steep = scene::SteepGround::kSettle;
+  const Ground settled = make_ground(world);
+  double most = 0;
+  for (int iy = 0; iy + 1 < settled.ny(); ++iy)
+    most = std::max(most, std::abs(settled.height(80, iy + 1) - settled.height(80, iy)) / 0.1);
+  EXPECT_LT(degrees(std::atan(most)), 30);
+  // The finer soil grid has no slope that the map does not have.
+  const Ground held = make_ground(map_world(file, 0.1, Vec2(16, 16)));
+  for (int iy = 0; iy + 1 < held.ny(); ++iy)
+    EXPECT_LE(std::abs(held.height(80, iy + 1) - held.height(80, iy)), 0.1 + 1e-6);
+}
+
+TEST(Import, AveragesAMapFinerThanTheSoilCell) {
+  const auto z = [](int c, int r) { return std::to_string((c + r) % 2 == 0 ? 1.0 : 0.0); };
+  const std::string file =
+      write_text(folder() + "fine.asc", ascii_grid(80, 80, "xllcorner 0\nyllcorner 0\ncellsize 0.05\n", z));
+  const Ground ground = make_ground(map_world(file, 0.2, Vec2(4, 4)));
+  EXPECT_NEAR(ground.height(7, 9), 0.5, 1e-6);  // a chequerboard's mean, not one of its cells
+}
+
+TEST(Import, RefusesDamagedFilesQuietly) {
+  const std::string dir = folder();
+  const std::string junk = write_text(dir + "junk.tif", "II*\0 this is no map");
+  const std::string half =
+      write_text(dir + "half.asc", "ncols 13\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
+  const std::string huge =
+      write_text(dir + "huge.asc", "ncols 2000000000\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
+  const std::string zero =
+      write_text(dir + "zero.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4 5 6");
+  const std::string nowhere =
+      write_text(dir + "nowhere.asc", ascii_grid(13, 7, "xllcorner nan\nyllcorner 0\ncellsize 1\n", asymmetric_text));
+  ::testing::internal::CaptureStderr();
+  for (const std::string& file : {junk, half, huge, zero, nowhere, dir, dir + "missing.tif"}) {
+    const std::string message = message_of(map_world(file, 0.5, Vec2(4, 4)));
+    EXPECT_TRUE(contains(message, file)) << file << ": " << message;
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Import, ReadsTheLidarMapOfMinnesota) {
+  const std::string file = testing::shared_data() + "/terrain/lidar_hummocky_1m.tif";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+  Ground::Setup setup;
+  setup.nx = setup.ny = 4000, setup.cell = 0.1;
+  const TerrainReport report = import_terrain(map_world(file, 0.1, Vec2(400, 400)), setup);
+  std::printf("%s", report.text().c_str());
+  // From the NOTICE beside the file: heights 379.66 .. 410.76 m, slope median 11.4, at most 35.7 deg (by their method).
+  EXPECT_NEAR(report.lowest, 379.66, 0.01);
+  EXPECT_NEAR(report.highest, 410.76, 0.01);
+  EXPECT_NEAR(degrees(report.slope.median), 11.4, 0.5);
+  EXPECT_NEAR(degrees(report.slope.most), 35.7, 3);
+  EXPECT_EQ(report.nodata.gaps, 0);
+  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
+  // Cells of 1 m, aligned with the map's by an even size at a corner.
+  scene::World world = map_world(file, 1, Vec2(60, 20));
+  world.ground.has_at = world.ground.at_is_local = true;
+  world.ground.at = Vec2(200, 311);
+  const std::string dir = folder();
+  std::filesystem::copy_file(file, dir + "map.tif");
+  expect_as_located(dir + "map.tif", make_ground(world), kFloatHeight);
+}
+
+TEST(Import, ReadsTheChannelOfTheKootenai) {
+  const std::string file = testing::shared_data() + "/terrain/kootenai_channel_1m.asc";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+  Ground::Setup setup;
+  setup.nx = 500, setup.ny = 372, setup.cell = 0.1;
+  const TerrainReport report = import_terrain(map_world(file, 0.1, Vec2(50, 37)), setup);
+  std::printf("%s", report.text().c_str());
+  EXPECT_EQ(report.columns, 50);
+  EXPECT_EQ(report.rows, 37);
+  EXPECT_NEAR(report.lowest, 537.36, 0.01);
+  EXPECT_NEAR(report.highest, 543.81, 0.01);
+  EXPECT_NEAR(degrees(report.slope.most), 57.6, 4);  // theirs is another difference formula
+  EXPECT_TRUE(report.crs.empty());
+  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
+  scene::World world = map_world(file, 1, Vec2(40, 28));
+  world.ground.has_at = true;
+  world.ground.at = Vec2(556465, 5394950);
+  const std::string dir = folder();
+  std::filesystem::copy_file(file, dir + "map.asc");
+  expect_as_located(dir + "map.asc", make_ground(world), kFloatHeight);
+}
+
+}  // namespace
+}  // namespace navvy::heightfield
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Map files for tests, and gdallocationinfo as a reader that is not ours.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scene/world.h"
+
+namespace navvy::heightfield::testing {
+
+/// A folder of its own for each test, emptied first.
+inline std::string folder() {
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    (std::string("navvy_") + info->test_suite_name() + "_" + info->name());
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path);
+  return path.string() + "/";
+}
+
+inline std::string write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+/// ESRI ASCII text; `z(column, row from the north)` is printed as it is.
+inline std::string ascii_grid(int columns, int rows, const std::string& header,
+                              const std::function<std::string(int, int)>& z) {
+  std::ostringstream out;
+  out << "ncols " << columns << "\nnrows " << rows << "\n" << header;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) out << (c > 0 ? " " : "") << z(c, r);
+    out << "\n";
+  }
+  return out.str();
+}
+
+inline bool has_tool(const std::string& name) {
+  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// Runs a command line, returns its standard output.
+inline std::string output_of(const std::string& command) {
+  std::string out;
+  std::FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
+  if (pipe == nullptr) return out;
+  char buffer[4096];
+  std::size_t n;
+  while ((n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0) out.append(buffer, n);
+  ::pclose(pipe);
+  return out;
+}
+
+/// Values that gdallocationinfo reads from `file` at file coordinates; NaN where it answers nothing.
+inline std::vector<double> located(const std::string& file, const std::vector<Vec2>& points) {
+  const std::string list = file + ".points";
+  std::ofstream points_file(list);
+  points_file.precision(17);
+  for (const Vec2& p : points) points_file << p.x() << " " << p.y() << "\n";
+  points_file.close();
+  std::istringstream lines(output_of("gdallocationinfo -valonly -geoloc '" + file + "' < '" + list + "'"));
+  std::vector<double> values;
+  for (std::string line; std::getline(lines, line);)
+    values.push_back(line.empty() ? std::nan("") : std::strtod(line.c_str(), nullptr));
+  return values;
+}
+
+/// A world on a map with one soil of 30 deg.
+inline scene::World map_world(const std::string& file, double cell, Vec2 size) {
+  scene::World world;
+  world.soils.resize(1);
+  world.soils[0].name = "loam";
+  world.soils[0].friction_angle = radians(30);
+  world.ground.layers = {{"loam", 1}};
+  world.ground.file = file;
+  world.ground.size = size;
+  world.solver.cell = cell;
+  return world;
+}
+
+inline std::string shared_data() {
+  const char* given = std::getenv("NAVVY_SHARED_DATA");
+  return given != nullptr ? given : std::string(NAVVY_SOURCE_DIR) + "/../shared/data";
+}
+
+}  // namespace navvy::heightfield::testing
