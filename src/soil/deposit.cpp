@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/deposit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::soil {
+namespace {
+
+// At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [evidence, section 3: 10 and 60 mm/s; its 0.3
+// s asleep and 0.5 s more before deposit are one wait here].
+constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
+/// A tool this far above the soil leaves it free to settle [cells] [evidence, section 4].
+constexpr double kToolAbove = 2;
+/// Densest state the columns store [evidence, section 4: a tighter clamp creates volume].
+constexpr double kDensest = 0.88;
+/// Columns' shares of a block's volume are counted in this fraction of a cell.
+constexpr double kShareUnit = 1.0 / (1 << 20);
+
+double square_speed(const Particle& p) {
+  double sum = 0;
+  for (const float v : p.v) sum += static_cast<double>(v) * static_cast<double>(v);
+  return sum;
+}
+
+bool at_rest(const ColumnIndex& index, int block) {
+  double mass = 0, sum = 0, most = 0;
+  for (const std::uint32_t i : index.block(block)) {
+    const double square = square_speed(index[i]);
+    mass += index[i].mass;
+    sum += index[i].mass * square;
+    most = std::max(most, square);
+  }
+  // Written so that a NaN is not at rest.
+  return sum < kRestRms * kRestRms * mass && most < kRestMost * kRestMost;
+}
+
+bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
+  const int x0 = kBlockCells * key.second, y0 = kBlockCells * key.first;
+  const auto meets = [&](const heightfield::CellRect& r) {
+    return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
+  };
+  for (const ToolZone& tool : zones) {
+    if (top + kToolAbove < tool.low) continue;
+    // What rule A would wake again at once is not booked back either.
+    if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
+  }
+  const int b = index.find(key);
+  for (const std::uint32_t i : index.block(b))
+    if (index[i].side != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
+  RestTimes now;
+  for (std::size_t b = 0; b < index.blocks().size(); ++b) {
+    if (!at_rest(index, static_cast<int>(b))) continue;
+    const auto found = rest.find(index.blocks()[b]);
+    now.emplace(index.blocks()[b], found == rest.end() ? 0.0 : found->second + elapsed);
+  }
+  rest.swap(now);
+}
+
+bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
+                 const RestTimes& rest, int block) {
+  const PlanKey key = index.blocks()[static_cast<std::size_t>(block)];
+  const auto found = rest.find(key);
+  if (found == rest.end() || found->second < kRestTime) return false;
+  const int x0 = kBlockCells * key.second, y0 = kBlockCells * key.first;
+  double top = 0;
+  for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+    const int ix = x0 + c % kBlockCells, iy = y0 + c / kBlockCells;
+    const auto column = index.column(ix, iy);
+    if (column.empty()) continue;
+    if (!ground.contains(ix, iy)) return false;
+    top = std::max(top, height_in_cells(index[column.back()]));
+  }
+  if (tool_holds_off(index, zones, key, top)) return false;
+  // Nothing may move in the columns around it either.
+  for (int iy = y0 - 1; iy <= y0 + kBlockCells; ++iy)
+    for (int ix = x0 - 1; ix <= x0 + kBlockCells; ++ix)
+      for (const std::uint32_t i : index.column(ix, iy))
+        if (!(square_speed(index[i]) < kRestMost * kRestMost)) return false;
+  return true;
+}
+
+std::vector<Depositor::Share> Depositor::shares(int block) const {
+  std::vector<Share> out;
+  for (const std::uint32_t i : index_.block(block)) {
+    const Particle& p = index_[i];
+    auto share = std::find_if(out.begin(), out.end(), [&](const Share& s) { return s.soil == p.soil; });
+    if (share == out.end()) {
+      out.push_back({p.soil});
+      share = out.end() - 1;
+    }
+    share->mass += p.mass;
+    share->volume += static_cast<double>(p.mass) * static_cast<double>(p.j0);
+    share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
+    share->height += static_cast<double>(p.mass) * height_in_cells(p);
+  }
+  std::sort(out.begin(), out.end(), [](const Share& a, const Share& b) {
+    const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
+    return za != zb ? za < zb : a.soil < b.soil;
+  });
+  return out;
+}
+
+// Integer shares of the block's columns; at least one is positive.
+std::array<std::int64_t, 16> Depositor::weights(const BlockShape& shape, int block) const {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  std::array<std::int64_t, 16> out{};
+  std::int64_t sum = 0;
+  for (std::size_t c = 0; c < 16; ++c) {
+    if (!ground_.contains(kBlockCells * key.second + static_cast<int>(c % 4),
+                          kBlockCells * key.first + static_cast<int>(c / 4)))
+      continue;
+    out[c] = std::llround((shape.surface[c] - shape.ground[c]) / kShareUnit);
+    sum += out[c];
+  }
+  if (sum > 0) return out;
+  // A few grains that do not show in the surface stay in their columns.
+  for (std::size_t c = 0; c < 16; ++c)
+    for (const std::uint32_t i : index_.column(kBlockCells * key.second + static_cast<int>(c % 4),
+                                               kBlockCells * key.first + static_cast<int>(c / 4)))
+      out[c] += index_[i].mass;
+  return out;
+}
+
+std::vector<int> Depositor::deposit(std::span<const int> blocks) {
+  ShapeFinder finder(ground_, index_);
+  std::vector<int> taken;
+  std::vector<BlockShape> shapes;
+  for (const int block : blocks) {
+    const BlockShape shape = finder.find(index_.blocks()[static_cast<std::size_t>(block)]);
+    if (shape.hollow) continue;
+    taken.push_back(block);
+    shapes.push_back(shape);
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i) book(shapes[i], taken[i]);
+  return taken;
+}
+
+void Depositor::book(const BlockShape& shape, int block) {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  const std::array<std::int64_t, 16> weight = weights(shape, block);
+  const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  std::int64_t sum = 0;
+  for (const std::int64_t w : weight) sum += w;
+
+  for (const Share& share : shares(block)) {
+    const double mass = static_cast<double>(share.mass);
+    heightfield::Layer layer;
+    layer.soil = share.soil;
+    layer.specific_volume =
+        static_cast<float>(std::clamp(share.volume / mass, kDensest, ground_.setup().soils[share.soil].swell));
+    layer.plastic_shear = static_cast<float>(share.shear / mass);
+    std::array<std::int64_t, 16> part{};
+    std::int64_t left = share.mass;
+    for (std::size_t c = 0; c < 16; ++c) {
+      __extension__ using Wide = __int128;
+      part[c] = static_cast<std::int64_t>(static_cast<Wide>(share.mass) * weight[c] / sum);
+      left -= part[c];
+    }
+    part[largest] += left;
+    for (std::size_t c = 0; c < 16; ++c) {
+      layer.mass = part[c];
+      if (layer.mass > 0)
+        ground_.put(kBlockCells * key.second + static_cast<int>(c % 4),
+                    kBlockCells * key.first + static_cast<int>(c / 4), layer);
+    }
+  }
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/exchange_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace navvy::soil {
+namespace {
+
+/// Between centres, past which soil does not rest on what is below: one empty cell [evidence, section 4] and half a
+/// particle above and below it.
+constexpr double kMostGap = 1.5;
+constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;
+
+std::uint64_t packed(const PlanKey& key) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.first)) << 32 |
+         static_cast<std::uint32_t>(key.second);
+}
+
+int column_coordinate(const Particle& p, int axis) {
+  return kBlockCells * p.block[axis] + static_cast<int>(std::floor(p.x[axis]));
+}
+
+std::size_t place_in_block(int ix, int iy) {
+  const PlanKey block = block_of(ix, iy);
+  return static_cast<std::size_t>((iy - kBlockCells * block.first) * kBlockCells + ix - kBlockCells * block.second);
+}
+
+}  // namespace
+
+ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground)
+    : particles_(particles), ground_(ground) {
+  group();
+  sort_columns();
+  build_piles();
+}
+
+void ColumnIndex::group() {
+  // Blocks in order of first sight, then renumbered in rising order, so that the input's order leaves no trace.
+  std::vector<std::uint32_t> home(particles_.size());
+  std::vector<PlanKey> seen;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const int ix = column_coordinate(particles_[i], 0), iy = column_coordinate(particles_[i], 1);
+    const PlanKey key = block_of(ix, iy);
+    const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
+    if (is_new) seen.push_back(key);
+    home[i] =
+        static_cast<std::uint32_t>(static_cast<std::size_t>(found->second) * kColumnsPerBlock + place_in_block(ix, iy));
+  }
+  keys_ = seen;
+  std::sort(keys_.begin(), keys_.end());
+  std::vector<std::size_t> rank(seen.size());
+  for (std::size_t b = 0; b < keys_.size(); ++b) {
+    int& place = place_[packed(keys_[b])];
+    rank[static_cast<std::size_t>(place)] = b;
+    place = static_cast<int>(b);
+  }
+  // Counting sort by column.
+  begin_.assign(keys_.size() * kColumnsPerBlock + 1, 0);
+  for (std::uint32_t& h : home) {
+    h = static_cast<std::uint32_t>(rank[h / kColumnsPerBlock] * kColumnsPerBlock + h % kColumnsPerBlock);
+    ++begin_[h + 1];
+  }
+  for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+  order_.resize(particles_.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
+  for (std::size_t i = 0; i < home.size(); ++i) order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
+}
+
+void ColumnIndex::sort_columns() {
+  const auto rank = [&](std::uint32_t i) {
+    const Particle& p = particles_[i];
+    return std::tuple(height_in_cells(p), p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
+  };
+  for (std::size_t c = 0; c + 1 < begin_.size(); ++c)
+    std::sort(order_.begin() + begin_[c], order_.begin() + begin_[c + 1],
+              [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+}
+
+void ColumnIndex::build_piles() {
+  const double cell = ground_.cell();
+  const auto& soils = ground_.setup().soils;
+  piles_.resize(keys_.size() * kColumnsPerBlock);
+  for (std::size_t c = 0; c < piles_.size(); ++c) {
+    const PlanKey block = keys_[c / kColumnsPerBlock];
+    const int ix = kBlockCells * block.second + static_cast<int>(c % kBlockCells);
+    const int iy = kBlockCells * block.first + static_cast<int>(c % kColumnsPerBlock / kBlockCells);
+    Pile& pile = piles_[c];
+    pile.top = (ground_.height(ix, iy) - ground_.datum()) / cell;
+    for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o) {
+      const Particle& p = particles_[order_[o]];
+      const double z = height_in_cells(p);
+      if (z - pile.top > kMostGap) break;
+      pile.top = std::max(pile.top, z);
+      pile.mass += p.mass;
+      pile.volume += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
+    }
+  }
+}
+
+int ColumnIndex::find(const PlanKey& block) const {
+  const auto found = place_.find(packed(block));
+  return found == place_.end() ? -1 : found->second;
+}
+
+int ColumnIndex::slot(int ix, int iy) const {
+  const int b = find(block_of(ix, iy));
+  return b < 0 ? -1 : b * static_cast<int>(kColumnsPerBlock) + static_cast<int>(place_in_block(ix, iy));
+}
+
+std::span<const std::uint32_t> ColumnIndex::column(int ix, int iy) const {
+  const int c = slot(ix, iy);
+  if (c < 0) return {};
+  const auto at = static_cast<std::size_t>(c);
+  return std::span(order_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
+}
+
+std::span<const std::uint32_t> ColumnIndex::block(int b) const {
+  const std::size_t first = static_cast<std::size_t>(b) * kColumnsPerBlock;
+  return std::span(order_).subspan(begin_[first], begin_[first + kColumnsPerBlock] - begin_[first]);
+}
+
+Pile ColumnIndex::pile(int ix, int iy) const {
+  const int c = slot(ix, iy);
+  if (c >= 0) return piles_[static_cast<std::size_t>(c)];
+  Pile none;
+  none.top = (ground_.height(ix, iy) - ground_.datum()) / ground_.cell();
+  return none;
+}
+
+double ColumnIndex::pile_height(int ix, int iy) const {
+  const int c = slot(ix, iy);
+  return c < 0 ? 0.0 : piles_[static_cast<std::size_t>(c)].volume;
+}
+
+}  // namespace navvy::soil

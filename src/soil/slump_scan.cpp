@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/slump_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::soil {
+namespace {
+
+/// A drop must have grown by this since the start to count on ground that holds [cells]. tuned: above the mass
+/// quantum's and the float heights' rounding, below the shallowest rut that matters.
+constexpr double kGrown = 0.01;
+constexpr int kDirections[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+
+}  // namespace
+
+void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
+  x0_ = tx * kTile - SlumpTable::kReach;
+  y0_ = ty * kTile - SlumpTable::kReach;
+  ground_.copy_heights({x0_, y0_, x0_ + kSide, y0_ + kSide}, rest_);
+  for (float& h : rest_) h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
+  top_ = rest_;
+  // Blocks never straddle the window: its corner and side are multiples of a block's.
+  for (int by = y0_; by < y0_ + kSide; by += kBlockCells)
+    for (int bx = x0_; bx < x0_ + kSide; bx += kBlockCells) {
+      if (index.find(block_of(bx, by)) < 0) continue;
+      for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+        const int ix = bx + c % kBlockCells, iy = by + c / kBlockCells;
+        top_[at(ix, iy)] += static_cast<float>(index.pile_height(ix, iy));
+      }
+    }
+}
+
+bool SlumpScan::held_by_tool(const OverSteep& found, std::span<const ToolZone> zones, double high) const {
+  for (const ToolZone& tool : zones) {
+    if (tool.low >= high || tool.high <= found.low) continue;
+    for (int l = 0; l <= found.steps; ++l)
+      if (tool.touches(found.ix + l * found.dx, found.iy + l * found.dy)) return true;
+  }
+  return false;
+}
+
+// Whether the resting column (ix, iy) stands too high above the one `steps` away.
+bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
+                     std::vector<OverSteep>& out) {
+  const int lx = ix + dx * steps, ly = iy + dy * steps;
+  const bool diagonal = dx != 0 && dy != 0;
+  const double high = static_cast<double>(rest_[at(ix, iy)]), low = static_cast<double>(top_[at(lx, ly)]);
+  if (high - low <= limit_[diagonal][steps]) return false;
+  if (!ground_.contains(ix, iy) || !ground_.contains(lx, ly)) return false;
+  const double cell = ground_.cell();
+  if (hold_) {
+    const double start = (ground_.start_height(ix, iy) - ground_.start_height(lx, ly)) / cell;
+    if (high - low <= start + kGrown) return false;
+  }
+  ground_.column(ix, iy, layers_);
+  if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal)) return false;
+  const OverSteep found{ix, iy, dx, dy, steps, low};
+  if (held_by_tool(found, zones, high)) return false;
+  out.push_back(found);
+  return true;
+}
+
+void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
+                     std::vector<OverSteep>& out) {
+  read_window(tx, ty, index);
+  const auto [least, unused] = std::minmax_element(top_.begin(), top_.end());
+  const double range = static_cast<double>(*std::max_element(rest_.begin(), rest_.end()) - *least);
+  int reach = 0;
+  for (int l = 1; l <= SlumpTable::kReach; ++l)
+    for (const bool diagonal : {false, true}) {
+      limit_[diagonal][l] = table_.weakest(l, diagonal) / ground_.cell();
+      if (range > limit_[diagonal][l]) reach = l;
+    }
+  if (reach == 0) return;
+
+  const int tile_x = tx * kTile, tile_y = ty * kTile;
+  const auto inside = [&](int ix, int iy) {
+    return ix >= tile_x && ix < tile_x + kTile && iy >= tile_y && iy < tile_y + kTile;
+  };
+  for (int iy = tile_y; iy < tile_y + kTile; ++iy)
+    for (int ix = tile_x; ix < tile_x + kTile; ++ix)
+      for (const auto& direction : kDirections) {
+        const int dx = direction[0], dy = direction[1];
+        for (int l = 1; l <= reach; ++l)
+          if (look(ix, iy, dx, dy, l, zones, out)) break;
+        // From outside, this column being the low one.
+        for (int l = 1; l <= reach; ++l)
+          if (!inside(ix - l * dx, iy - l * dy) && look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out)) break;
+      }
+}
+
+}  // namespace navvy::soil
