@@ -10,6 +10,12 @@ namespace navvy::scene_io {
 
 namespace {
 
+std::string shortest(double value) {
+  char text[40];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return std::string(text, result.ptr);
+}
+
 /// One part of a key: `soil[loam]` has name "soil" and which "loam".
 struct Part {
   std::string name, which;
@@ -84,7 +90,7 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     words.resize(6, "0");
     double number = 0;
     words[i] = value;
-    if (i == 5 && !in_degrees && to_number(value, number)) words[i] = std::to_string(number * kDegree);
+    if (i == 5 && !in_degrees && to_number(value, number)) words[i] = shortest(number * kDegree);
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
     if (pose) machine.DeleteChild(pose);
@@ -138,12 +144,6 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
         if (Element* old = target->FirstChildElement(other)) target->DeleteChild(old);
     set_value(*target, leaf, value);
   }
-}
-
-std::string shortest(double value) {
-  char text[40];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  return std::string(text, result.ptr);
 }
 
 std::string shortest(const Vec2& v) { return shortest(v.x()) + " " + shortest(v.y()); }

@@ -2,7 +2,7 @@
 #include "scene_io/world_reader.h"
 
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
@@ -214,11 +214,10 @@ scene::World read_world(Document& document, Faults& faults) {
   if (Element* e = element->FirstChildElement("gravity"); e && read_numbers(*e, 3, {-100, 100}, v, seen))
     world.gravity = Vec3(v[0], v[1], v[2]);
   if (Element* e = element->FirstChildElement("navvy:seed")) {
-    double seed = 0;
-    if (!to_number(text_of(*e), seed) || seed < 0 || seed > 9e15 || seed != std::floor(seed))
-      faults.error(*e, text_of(*e), "must be a whole number from 0 to 9e15");
-    else
-      world.seed = static_cast<std::uint64_t>(seed);
+    const std::string text = text_of(*e);
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), world.seed);
+    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
+      faults.error(*e, text, "must be a whole number from 0 to 18446744073709551615");
   }
   read_soils(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:solver")) read_solver(*e, world.solver, faults);

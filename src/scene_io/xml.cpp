@@ -166,7 +166,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   // Long words come from broken files; their distance is of no use and would be slow.
   const std::string head = word.substr(0, 64);
   const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(2, head.size() / 2);
+  std::size_t least = std::max<std::size_t>(2, head.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
     std::size_t distance = edit_distance(head, candidate);
     // A forgotten unit ("cohesion" for "cohesion_pa") is the likeliest slip.

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/loader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/file.h"
+#include "core/log.h"
+
+namespace navvy::scene_io {
+namespace {
+
+const std::string kScene = std::string(NAVVY_SOURCE_DIR) + "/scenarios/mine.sdf";  // named only, never written
+
+std::string world_text(const std::string& body) {
+  return "<sdf version=\"1.9\" xmlns:navvy=\"navvy\">\n<world name=\"w\">\n" + body + "\n</world>\n</sdf>\n";
+}
+
+const char* kBody = R"(<navvy:soil ref="loam"><cohesion_pa>7000</cohesion_pa></navvy:soil>
+<navvy:soil name="fill"><friction_angle_deg>35</friction_angle_deg><cohesion_pa>0</cohesion_pa></navvy:soil>
+<navvy:ground>
+  <size_m>24 20</size_m>
+  <surface_m>1.5</surface_m>
+  <layer><soil>fill</soil><thickness_m>0.5</thickness_m></layer>
+  <layer><soil>loam</soil></layer>
+  <patch><min_m>1 2</min_m><max_m>3 4</max_m><layer><soil>loam</soil></layer></patch>
+  <hills><height_m>0.4</height_m><wavelength_m>9</wavelength_m><seed>5</seed></hills>
+  <bank><center_m>0 8</center_m><height_m>2</height_m><angle_deg>60</angle_deg></bank>
+  <hills><height_m>0.1</height_m></hills>
+</navvy:ground>
+<navvy:solver><cell_m>0.2</cell_m></navvy:solver>
+<include>
+  <uri>model://test_bucket</uri><name>first</name><pose degrees="true">1 2 0.5 0 0 90</pose>
+  <navvy:joint name="curl"><initial_deg>-30</initial_deg></navvy:joint>
+  <navvy:program>
+    <wait><duration_s>2</duration_s></wait>
+    <trajectory>
+      <times_s>0 1</times_s>
+      <joint name="curl"><positions_deg>0 90</positions_deg></joint>
+      <joint name="slide_x"><positions_m>1 2</positions_m></joint>
+    </trajectory>
+  </navvy:program>
+</include>
+<include><uri>model://test_bucket</uri><name>second</name><navvy:on_ground>false</navvy:on_ground></include>
+<light name="sun" type="directional"><direction>0 0 -2</direction><diffuse>1 0.5 0.25 1</diffuse></light>
+<navvy:camera name="still"><position_m>1 2 3</position_m></navvy:camera>
+<navvy:camera name="follow"><machine>first</machine><fov_deg>90</fov_deg></navvy:camera>
+<navvy:camera name="mounted"><machine>first</machine><link>bucket</link></navvy:camera>
+<navvy:seed>42</navvy:seed>)";
+
+scene::World load(const std::string& body, const Overrides& overrides = {}) {
+  return load_world_from_string(world_text(body), kScene, overrides);
+}
+
+std::string failure(const std::string& body, const Overrides& overrides = {}) {
+  try {
+    load(body, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+Overrides set(const std::string& setting) {
+  Overrides overrides;
+  overrides.set.push_back(parse_setting(setting));
+  return overrides;
+}
+
+TEST(Loader, ReadsSoilsWithUnitsConvertedOnce) {
+  const scene::World world = load(kBody);
+  ASSERT_EQ(world.soils.size(), 2u);
+  EXPECT_EQ(world.soils[0].name, "loam");
+  EXPECT_EQ(world.soils[0].cohesion, 7000);
+  EXPECT_EQ(world.soils[0].swell, 1.23);
+  EXPECT_DOUBLE_EQ(world.soils[1].friction_angle, radians(35));
+  // A residual cohesion that nobody stated must not exceed the cohesion.
+  EXPECT_EQ(world.soils[1].residual_cohesion, 0);
+}
+
+TEST(Loader, ReadsGroundShapesInFileOrderAndLayersFromTheSurfaceDown) {
+  const scene::Ground ground = load(kBody).ground;
+  EXPECT_EQ(ground.size, Vec2(24, 20));
+  EXPECT_EQ(ground.origin, Vec2(-12, -10));
+  EXPECT_EQ(ground.surface, 1.5);
+  ASSERT_EQ(ground.features.size(), 3u);
+  EXPECT_EQ(ground.features[0].kind, scene::GroundFeature::Kind::kHills);
+  EXPECT_EQ(ground.features[0].length, 9);
+  EXPECT_EQ(ground.features[0].seed, 5u);
+  EXPECT_EQ(ground.features[1].kind, scene::GroundFeature::Kind::kBank);
+  EXPECT_DOUBLE_EQ(ground.features[1].angle, radians(60));
+  EXPECT_EQ(ground.features[2].height, 0.1);
+  ASSERT_EQ(ground.layers.size(), 2u);
+  EXPECT_EQ(ground.layers[0].soil, "fill");
+  EXPECT_EQ(ground.layers[0].thickness, 0.5);
+  ASSERT_EQ(ground.patches.size(), 1u);
+  EXPECT_EQ(ground.patches[0].max, Vec2(3, 4));
+}
+
+TEST(Loader, ReadsMachinesWithPoseJointsAndProgram) {
+  const scene::World world = load(kBody);
+  ASSERT_EQ(world.machines.size(), 2u);
+  const scene::MachineInWorld& first = world.machines[0];
+  EXPECT_EQ(first.name, "first");
+  EXPECT_TRUE(first.on_ground);
+  EXPECT_FALSE(world.machines[1].on_ground);
+  EXPECT_EQ(Vec3(first.X_WM.translation()), Vec3(1, 2, 0.5));
+  // 1e-12: rounding of the rotation by 90 degrees.
+  EXPECT_LT((first.X_WM.linear() * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-12);
+  const int curl = first.machine.joint_index("curl");
+  ASSERT_GE(curl, 0);
+  EXPECT_DOUBLE_EQ(first.machine.joints[static_cast<std::size_t>(curl)].initial, radians(-30));
+  ASSERT_EQ(first.program.steps.size(), 2u);
+  EXPECT_EQ(std::get<scene::Wait>(first.program.steps[0]).duration, 2);
+  const auto& path = std::get<scene::Trajectory>(first.program.steps[1]);
+  ASSERT_EQ(path.positions.size(), 2u);
+  EXPECT_DOUBLE_EQ(path.positions[1][0], radians(90));
+  EXPECT_EQ(path.positions[1][1], 2);
+  EXPECT_EQ(first.program.lines[0], 20);
+}
+
+TEST(Loader, ReadsCamerasLightAndSeed) {
+  const scene::World world = load(kBody);
+  ASSERT_EQ(world.cameras.size(), 3u);
+  EXPECT_EQ(world.cameras[0].kind, scene::Camera::Kind::kFixed);
+  EXPECT_EQ(world.cameras[1].kind, scene::Camera::Kind::kChase);
+  EXPECT_DOUBLE_EQ(world.cameras[1].fov, radians(90));
+  EXPECT_EQ(world.cameras[2].kind, scene::Camera::Kind::kOnLink);
+  ASSERT_EQ(world.lights.size(), 1u);
+  EXPECT_EQ(world.lights[0].direction, Vec3(0, 0, -1));
+  EXPECT_EQ(world.lights[0].color.g, 0.5f);
+  EXPECT_EQ(world.seed, 42u);
+}
+
+TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
+  const char* text = R"(<sdf version="1.9" xmlns:navvy="navvy"><model name="m">
+<navvy:engine>kinematic</navvy:engine>
+<link name="tip"><pose relative_to="hinge">0 0 0 0 0 0</pose></link>
+<link name="arm"><pose>1 0 2 0 0 1.5707963267948966</pose></link>
+<link name="base"/>
+<joint name="hinge" type="revolute"><pose relative_to="arm">3 0 0 0 0 0</pose><parent>arm</parent><child>tip</child>
+<axis><xyz expressed_in="__model__">0 0 1</xyz><limit><lower>-1</lower><upper>2</upper><effort>50</effort></limit></axis></joint>
+<joint name="turn" type="continuous"><parent>base</parent><child>arm</child><axis><xyz>0 0 5</xyz></axis></joint>
+</model></sdf>)";
+  const std::string file = std::string(NAVVY_BINARY_DIR) + "/order_model.sdf";
+  write_file_atomically(file, text);
+  const scene::Machine machine = load_machine(file);
+  ASSERT_EQ(machine.links.size(), 3u);
+  EXPECT_EQ(machine.links[0].name, "base");
+  EXPECT_EQ(machine.links[1].name, "arm");
+  EXPECT_EQ(machine.links[2].name, "tip");
+  EXPECT_EQ(machine.joints[0].name, "turn");
+  EXPECT_EQ(machine.joints[1].parent, 1);
+  EXPECT_EQ(machine.joints[1].child, 2);
+  EXPECT_FALSE(machine.joints[0].has_limits);
+  EXPECT_EQ(machine.joints[0].axis, Vec3::UnitZ());
+  EXPECT_TRUE(machine.joints[1].has_limits);
+  EXPECT_EQ(machine.joints[1].upper, 2);
+  EXPECT_EQ(machine.joints[1].effort, 50);
+  EXPECT_EQ(machine.joints[0].effort, scene::Joint().effort);
+  // The arm lies at (1, 0, 2) turned left; its hinge is 3 m along it. 1e-9: rounding of the rotation.
+  EXPECT_LT((machine.links[2].X_ML.translation() - Vec3(1, 3, 2)).norm(), 1e-9);
+}
+
+TEST(Loader, WarningsAreLoggedAndDoNotStopLoading) {
+  std::string logged;
+  set_log_sink([&](LogLevel, const std::string& line) { logged += line + "\n"; });
+  load(std::string(kBody) + "\n<physics name=\"p\" type=\"ode\"/>");
+  set_log_sink({});
+  EXPECT_NE(logged.find("warning: world/physics[p]: is ignored"), std::string::npos) << logged;
+}
+
+TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
+  const std::string digger =
+      R"(<navvy:soil ref="loam"/><navvy:ground/><model name="d">
+<navvy:engine>kinematic</navvy:engine><link name="a"/><link name="b"/><link name="c"/><link name="e"/>
+<joint name="boom" type="continuous"><parent>a</parent><child>b</child><axis><xyz>0 -1 0</xyz></axis></joint>
+<joint name="stick" type="continuous"><parent>b</parent><child>c</child><axis><xyz>0 -1 0</xyz></axis></joint>
+<joint name="bucket" type="continuous"><parent>c</parent><child>e</child><axis><xyz>0 -1 0</xyz></axis></joint>
+<navvy:arm><boom_joint>boom</boom_joint><stick_joint>stick</stick_joint><bucket_joint>bucket</bucket_joint></navvy:arm>
+<navvy:shell name="s"><link>e</link><vertices_m>0 0 0 1 0 0 0 1 0</vertices_m><triangles>0 1 2</triangles></navvy:shell>
+<navvy:bucket><link>e</link><shell>s</shell><tip_m>1 0 0</tip_m><width_m>0.6</width_m><opening>0 0 -3</opening></navvy:bucket>
+<navvy:cylinder name="c"><joint>boom</joint><base_link>a</base_link><rod_link>b</rod_link><base_pin_m>0 0 1</base_pin_m>
+<linkage><rocker_pin_m>1 0 0</rocker_pin_m><rocker_to_rod_m>0.4</rocker_to_rod_m><rocker_to_coupler_m>0.5</rocker_to_coupler_m>
+<coupler_length_m>0.6</coupler_length_m><coupler_pin_m>0 0 0.3</coupler_pin_m></linkage><count>2</count></navvy:cylinder>
+<navvy:program><dig><from_m>3 0</from_m><to_m>5 0</to_m><depth_m>0.5</depth_m><dump_at_m>0 3</dump_at_m></dig></navvy:program>
+</model>)";
+  const scene::World world = load(digger);
+  const auto& machine = world.machines.at(0);
+  EXPECT_EQ(std::get<scene::Dig>(machine.program.steps.at(0)).width, 0.6);
+  EXPECT_EQ(machine.machine.buckets.at(0).opening, Vec3(0, 0, -1));
+  const scene::Cylinder& cylinder = machine.machine.cylinders.at(0);
+  EXPECT_TRUE(cylinder.has_linkage);
+  EXPECT_EQ(cylinder.coupler, 0.6);
+  EXPECT_EQ(cylinder.count, 2);
+}
+
+TEST(Overrides, ChangeOneOrAllObjects) {
+  EXPECT_EQ(load(kBody, set("soil.swell=1.5")).soils[1].swell, 1.5);
+  const scene::World one = load(kBody, set("soil[loam].cohesion_pa=8000"));
+  EXPECT_EQ(one.soils[0].cohesion, 8000);
+  EXPECT_EQ(one.soils[1].cohesion, 0);
+  EXPECT_EQ(load(kBody, set("soil[2].swell=1.4")).soils[1].swell, 1.4);
+  EXPECT_EQ(load(kBody, set("solver.cell_m=0.05")).solver.cell, 0.05);
+  EXPECT_EQ(load(kBody, set("recording.duration_s=3")).recording.duration, 3);
+  EXPECT_EQ(load(kBody, set("ground.hills[2].height_m=0.7")).ground.features[2].height, 0.7);
+  EXPECT_EQ(load(kBody, set("ground.layer[1].thickness_m=0.9")).ground.layers[0].thickness, 0.9);
+  EXPECT_EQ(load(kBody, set("camera[follow].rate_hz=9")).cameras[1].rate, 9);
+}
+
+TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
+  const scene::World moved = load(kBody, set("machine[first].x_m=-3.25"));
+  EXPECT_EQ(Vec3(moved.machines[0].X_WM.translation()), Vec3(-3.25, 2, 0.5));
+  EXPECT_EQ(Vec3(moved.machines[1].X_WM.translation()), Vec3(0, 0, 0));
+  const scene::World turned = load(kBody, set("machine[second].yaw_deg=180"));
+  // 1e-12: rounding of the rotation by 180 degrees.
+  EXPECT_LT((turned.machines[1].X_WM.linear() * Vec3::UnitX() + Vec3::UnitX()).norm(), 1e-12);
+  const scene::World longer = load(kBody, set("machine[first].program.wait.duration_s=9"));
+  EXPECT_EQ(std::get<scene::Wait>(longer.machines[0].program.steps[0]).duration, 9);
+}
+
+TEST(Overrides, SeedDurationRenderTerrainAndSize) {
+  Overrides overrides;
+  overrides.seed = 7;
+  overrides.duration = 12.5;
+  overrides.render = false;
+  overrides.terrain = std::string(NAVVY_SOURCE_DIR) + "/LICENSE";  // any file: the loader does not open maps
+  overrides.at = Vec2(410000.25, 5100000.5);
+  overrides.size = Vec2(30, 26);
+  const scene::World world = load(kBody, overrides);
+  EXPECT_EQ(world.seed, 7u);
+  EXPECT_EQ(world.recording.duration, 12.5);
+  EXPECT_FALSE(world.recording.render);
+  EXPECT_EQ(world.ground.file, *overrides.terrain);
+  EXPECT_TRUE(world.ground.has_at);
+  EXPECT_EQ(world.ground.at, *overrides.at);
+  EXPECT_EQ(world.ground.origin, Vec2(-15, -13));
+  EXPECT_TRUE(world.ground.features.empty());
+}
+
+TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
+  const std::string unknown = failure(kBody, set("soil.cohesion=8000"));
+  EXPECT_NE(unknown.find("command line: error: world/navvy:soil[loam]/cohesion"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("did you mean 'cohesion_pa'?"), std::string::npos) << unknown;
+  EXPECT_NE(failure(kBody, set("solver.cell_m=0")).find("'0': must be a number from 0.005"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("sole.swell=1")).find("did you mean 'soil'?"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("soil[clay].swell=1")).find("no 'soil[clay]'"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].xm=1")).find("did you mean 'x_m'?"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("soil=1")).find("object.element=value"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].x_m=900")).find("must stand on the site"), std::string::npos);
+  EXPECT_THROW(parse_setting("soil.swell"), InputError);
+}
+
+}  // namespace
+}  // namespace navvy::scene_io
