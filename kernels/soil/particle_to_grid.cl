@@ -39,6 +39,33 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   *inv_density = value[SOIL_INV_DENSITY];
 }
 
+// Volume, bank-density volume and their ratio per cell of base nodes -1..4: opening of soil is a matter of the cell, not
+// of one particle. Where half the particles of a cell are open and half closed, the closed ones would carry the heap on
+// and it would rest too loose; so J / J0 relaxes towards the cell's mean, which keeps the sum of volumes.
+#define CELLS 216
+static inline int16 cell_of(real x, real y, real z) {
+  return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) + 36 * (convert_int16(base_node(z)) + 1);
+}
+static inline void cell_openings(global const float* state, int capacity, int start, int end, float* opening) {
+  float closed[CELLS];
+  int open[CELLS];
+  for (int i = 0; i < CELLS; ++i) opening[i] = closed[i] = open[i] = 0;
+  for (int at = start; at < end; at += 16) {
+    int cells[16];
+    float volume[16], bank[16];
+    const real mass = convert_float16(as_int16(LOAD(FIELD_MASS)));
+    vstore16(cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)), 0, cells);
+    vstore16(mass * LOAD(FIELD_J), 0, volume);
+    vstore16(mass * LOAD(FIELD_J0), 0, bank);
+    for (int l = 0; l < min(16, end - at); ++l) {
+      opening[cells[l]] += volume[l];
+      closed[cells[l]] += bank[l];
+      open[cells[l]] |= volume[l] > bank[l];
+    }
+  }
+  for (int i = 0; i < CELLS; ++i) opening[i] = open[i] ? opening[i] / fmax(closed[i], 1.0f) : 0.0f;
+}
+
 // Adds one particle's nine rows of four nodes; q holds its turned components (momentum at the base node and mass, then
 // the change of momentum per node in x, y, z).
 static inline void scatter(global float* tile, int node, float4 start, float4 ax, float4 ay, float4 az, float4 wx,
@@ -60,12 +87,14 @@ static inline void scatter(global float* tile, int node, float4 start, float4 ax
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant float* soils, global const int4* restrict homes,
-    global float* restrict tiles, global int* restrict bad, const float dt, const float dx) {
+    global float* restrict tiles, global int* restrict bad, const float dt, const float dx, const float mixing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];  // start, count, first tile, near
   global float* tile = tiles + (size_t)home.z * (4 * TILE_NODES);
   for (int i = 0; i < (home.w ? 3 : 1) * TILE_NODES * 4; i += 16) vstore16((float16)(0.0f), 0, tile + i);
 
+  float openings[CELLS];
+  cell_openings(state, capacity, home.x, home.x + home.y, openings);
   float wxs[4 * 16], wy[3 * 16], wz[3 * 16], turned_parts[4][64];
   int nodes[16];
   int broken = 0;
@@ -85,6 +114,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     for (int k = 0; k < 9; ++k) c[k] = LOAD(FIELD_C + k);
     for (int k = 0; k < 6; ++k) s[k] = LOAD(FIELD_S + k);
     real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0), shear = LOAD(FIELD_SHEAR);
+    const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
+    float mean[16];
+    vstore16(cell_of(x, y, z), 0, nodes);
+    for (int l = 0; l < 16; ++l) mean[l] = openings[nodes[l]];
+    const real opening = vload16(0, mean);
+    j += select((real)(0.0f), mixing * (j0 * opening - j), opening > 0.0f);
     law_update(c, dt, &soil, s, &j, &j0, &shear, sigma);
     for (int k = 0; k < 6; ++k) STORE(FIELD_S + k, s[k]);
     STORE(FIELD_J, j);
@@ -92,7 +127,6 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     STORE(FIELD_SHEAR, shear);
 
     // Weights and the affine momentum field A = (m C dx - dt 4/dx V sigma) per node step.
-    const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
     const real vx = LOAD(FIELD_V), vy = LOAD(FIELD_V + 1), vz = LOAD(FIELD_V + 2);
     const real bx = base_node(x), by = base_node(y), bz = base_node(z);
     const real fx = x - bx, fy = y - by, fz = z - bz;

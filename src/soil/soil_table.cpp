@@ -14,6 +14,9 @@ namespace {
 constexpr double kViscosityShare = 0.05;
 /// Pressure that loosening soil can push with [Pa]. tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell.
 constexpr double kLooseningPush = 0;
+/// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of bank instead of 1.23;
+/// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22.
+constexpr double kMixingTime = 0.02;
 
 void require(bool ok, const scene::Soil& soil, const std::string& element, double value, const std::string& rule,
              std::vector<Fault>& faults) {
@@ -44,6 +47,8 @@ void check(const scene::Soil& s, std::vector<Fault>& faults) {
 }
 
 }  // namespace
+
+double mixing_time() { return kMixingTime; }
 
 LawConstants law_constants(const scene::Soil& soil, double cell) {
   LawConstants k;

@@ -11,6 +11,9 @@ namespace navvy::soil {
 /// Speed of compression waves [m/s].
 double sound_speed(const scene::Soil& soil);
 
+/// Time over which J / J0 of particles in one cell relaxes to the cell's mean [s].
+double mixing_time();
+
 /// SOIL_WORDS floats per soil (kernels/soil/layout.h). `cell` in m.
 /// @throws InputError for soils the law cannot compute: every fault is listed.
 std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell);

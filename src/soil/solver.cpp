@@ -273,7 +273,9 @@ void Solver::State::fail(double speed) const {
 }
 
 void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {
-  state_->add(state_->exchange.wake(rect, z_bottom));
+  std::vector<Particle> resting = state_->store.records();
+  for (Particle& p : resting) p = in_cell_block(p);
+  state_->add(state_->exchange.wake(rect, z_bottom, resting));
 }
 
 void Solver::insert(const std::vector<Particle>& particles) {

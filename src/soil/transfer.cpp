@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "soil/layout.h"
+#include "soil/soil_table.h"
 
 namespace navvy::soil {
 
@@ -45,7 +46,9 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   const Vec3 dv = gravity * dt;
   const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
                                      0.0f};
-  scatter_.args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, bad_, dt_f, cell_f)
+  scatter_
+      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, bad_, dt_f, cell_f,
+            static_cast<float>(std::min(1.0, dt / mixing_time())))
       .enqueue(store.homes().size(), 1);
   grid_.args(far_list_, around_, store.homes_buffer(), tiles_, floor_, velocity_, dv_f).enqueue(far_, 1);
   if (near.count == 0) return;

@@ -53,6 +53,8 @@ Point from_particle(const Particle& particle) {
   p.shear = static_cast<double>(particle.shear);
   p.mass = kilograms(particle.mass);
   p.soil = particle.soil;
+  for (std::size_t a = 0; a < 3; ++a)
+    p.home[a] = static_cast<int>(std::floor(std::floor(p.x[static_cast<int>(a)] - 0.5) / kBlockCells));
   return p;
 }
 
@@ -60,7 +62,32 @@ ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, co
                                  std::function<double(int, int)> held)
     : soils_(std::move(soils)), cell_(cell), gravity_(gravity), held_(std::move(held)) {}
 
+void ReferenceSolver::mix(double dt) {
+  // In a cell with open soil J / J0 relaxes to the cell's mean; see particle_to_grid.cl.
+  struct Cell {
+    double volume = 0, closed = 0;
+    bool open = false;
+  };
+  std::map<std::array<int, 6>, Cell> cells;
+  const auto key = [](const Point& p) {
+    const Weights at = weights_at(p.x);
+    return std::array<int, 6>{p.home[0], p.home[1], p.home[2], at.base[0], at.base[1], at.base[2]};
+  };
+  for (const Point& p : points) {
+    Cell& cell = cells[key(p)];
+    cell.volume += p.mass * p.j;
+    cell.closed += p.mass * p.j0;
+    cell.open = cell.open || p.j > p.j0;
+  }
+  const double share = std::min(1.0, dt / mixing_time());
+  for (Point& p : points) {
+    const Cell& cell = cells.at(key(p));
+    if (cell.open) p.j += share * (p.j0 * cell.volume / cell.closed - p.j);
+  }
+}
+
 void ReferenceSolver::step(double dt) {
+  mix(dt);
   // Stress, then mass and momentum to the nodes.
   nodes_.clear();
   for (Point& p : points) {

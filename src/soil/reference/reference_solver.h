@@ -20,6 +20,8 @@ struct Point {
   std::array<double, 6> s{};
   double j = 1, j0 = 1, shear = 0, mass = 0;
   int soil = 0;
+  /// Home block: that of the base node floor(x - 0.5) at the start. Cells are mixed within a home, as in the kernels.
+  std::array<int, 3> home{};
 };
 
 Point from_particle(const Particle& particle);
@@ -39,6 +41,7 @@ class ReferenceSolver {
   Vec3 momentum() const;
 
  private:
+  void mix(double dt);
   struct Node {
     double mass = 0;
     Vec3 momentum = Vec3::Zero();
