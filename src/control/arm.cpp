@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/arm.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace navvy::control {
+namespace {
+
+int require_joint(const scene::Machine& machine, const std::string& name, const char* role) {
+  const int index = name.empty() ? -1 : machine.joint_index(name);
+  if (index < 0)
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:arm", name,
+                           std::string("the machine has no ") + role + " joint, which a digging program needs",
+                           "name it in the model, or leave dig, swing and dump out of the program"});
+  return index;
+}
+
+}  // namespace
+
+Arm::Arm(const scene::Machine& machine) {
+  swing_ = require_joint(machine, machine.swing_joint, "swing");
+  joints_ = {require_joint(machine, machine.boom_joint, "boom"), require_joint(machine, machine.stick_joint, "stick"),
+             require_joint(machine, machine.bucket_joint, "bucket")};
+  if (machine.buckets.empty())
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:bucket", "",
+                           "the machine has no bucket", "describe one in the model"});
+  bucket_data_ = machine.buckets.front();
+  const auto joint = [&](int i) -> const scene::Joint& { return machine.joints[static_cast<std::size_t>(i)]; };
+  const auto link = [&](int i) -> const scene::Link& { return machine.links[static_cast<std::size_t>(i)]; };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const scene::Joint& j = joint(joints_[i]);
+    lower_[i] = j.has_limits ? j.lower : -kPi;
+    upper_[i] = j.has_limits ? j.upper : kPi;
+  }
+  const scene::Joint& swing = joint(swing_);
+  swing_limited_ = swing.has_limits;
+  swing_lower_ = swing.lower;
+  swing_upper_ = swing.upper;
+  upper_link_ = swing.child;
+  base_link_ = swing.parent;
+  // All joints at zero: pins lie in the swing plane, at the joints' frames.
+  const auto pin = [&](int j) { return Vec3((link(joint(j).child).X_ML * joint(j).X_LcJ).translation()); };
+  const Pose X_MS = link(swing.child).X_ML * swing.X_LcJ;
+  X_BS_ = link(swing.parent).X_ML.inverse() * X_MS;
+  const Vec3 p0 = X_MS.inverse() * pin(joints_[0]), p1 = X_MS.inverse() * pin(joints_[1]),
+             p2 = X_MS.inverse() * pin(joints_[2]);
+  const int bucket_link = machine.link_index(bucket_data_.link);
+  const Vec3 tip = X_MS.inverse() * (link(bucket_link).X_ML * bucket_data_.p_tip);
+  pin_reach_ = p0.x();
+  pin_height_ = p0.z();
+  boom_ = (p1 - p0).norm();
+  stick_ = (p2 - p1).norm();
+  bucket_ = (tip - p2).norm();
+  tip_angle_ = std::atan2(tip.z() - p2.z(), tip.x() - p2.x());
+  const Vec3 cut = X_MS.linear().transpose() * (link(bucket_link).X_ML.linear() * bucket_data_.cut_direction);
+  cut_angle_ = std::atan2(cut.z(), cut.x()) - tip_angle_;
+}
+
+BucketPose Arm::forward(const ArmAngles& q) const {
+  const double a = q[0], b = a + q[1], c = b + q[2] + tip_angle_;
+  return {pin_reach_ + boom_ * std::cos(a) + stick_ * std::cos(b) + bucket_ * std::cos(c),
+          pin_height_ + boom_ * std::sin(a) + stick_ * std::sin(b) + bucket_ * std::sin(c), c};
+}
+
+bool Arm::inverse(const BucketPose& pose, ArmAngles& q) const {
+  const double x = pose.reach - bucket_ * std::cos(pose.angle) - pin_reach_;
+  const double z = pose.height - bucket_ * std::sin(pose.angle) - pin_height_;
+  const double c = (x * x + z * z - boom_ * boom_ - stick_ * stick_) / (2 * boom_ * stick_);
+  if (!(c > -1 && c < 1)) return false;
+  const double elbow = std::acos(c);
+  q[1] = -elbow;
+  q[0] = std::atan2(z, x) + std::atan2(stick_ * std::sin(elbow), boom_ + stick_ * c);
+  q[2] = pose.angle - tip_angle_ - q[0] - q[1];
+  // The bucket's angle may be given a turn off.
+  while (q[2] > upper_[2]) q[2] -= 2 * kPi;
+  while (q[2] < lower_[2]) q[2] += 2 * kPi;
+  constexpr double kSlack = 1e-9;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (q[i] < lower_[i] - kSlack || q[i] > upper_[i] + kSlack) return false;
+  return true;
+}
+
+bool Arm::inverse_nearest(BucketPose& pose, ArmAngles& q) const {
+  const double wish = pose.angle, step = radians(2);
+  for (int i = 0; i <= 60; ++i)
+    for (const double sign : {1.0, -1.0}) {
+      pose.angle = wish + sign * i * step;
+      if (inverse(pose, q)) return true;
+    }
+  pose.angle = wish;
+  return false;
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Geometry of an excavator's arm in the plane of its swing.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "core/math.h"
+#include "scene/machine.h"
+
+namespace navvy::control {
+
+/// Where the bucket is in the swing plane: frame S of the swing axis (origin on the axis, z along it).
+struct BucketPose {
+  double reach = 0;   ///< tip's distance from the swing axis [m]
+  double height = 0;  ///< tip above S's origin [m]
+  double angle = 0;   ///< of the line pin to tip above the horizontal, outward positive [rad]; -pi/2 points down
+};
+
+/// Joint angles of boom, stick and bucket [rad].
+using ArmAngles = std::array<double, 3>;
+
+/// Inverse and forward kinematics of boom, stick and bucket; elbow up. Pitch joints turn about -y.
+class Arm {
+ public:
+  /// @throws InputError naming the missing joint role.
+  explicit Arm(const scene::Machine& machine);
+
+  BucketPose forward(const ArmAngles& q) const;
+  /// False when out of reach or limits.
+  bool inverse(const BucketPose& pose, ArmAngles& q) const;
+  /// Same with the bucket angle nearest to the wish that is possible; `pose.angle` is changed to it.
+  bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
+  /// Farthest the tip can be from the boom's pin [m].
+  double longest() const { return boom_ + stick_ + bucket_; }
+
+  int swing_joint() const { return swing_; }
+  const std::array<int, 3>& joints() const { return joints_; }
+  int upper_link() const { return upper_link_; }
+  int base_link() const { return base_link_; }
+  /// Pose of S in the base link at zero swing.
+  const Pose& X_BS() const { return X_BS_; }
+  /// Direction of the cutting edge relative to the line pin to tip [rad].
+  double cut_angle() const { return cut_angle_; }
+  const scene::Bucket& bucket() const { return bucket_data_; }
+  double lower(int i) const { return lower_[static_cast<std::size_t>(i)]; }
+  double upper(int i) const { return upper_[static_cast<std::size_t>(i)]; }
+  bool swing_limited() const { return swing_limited_; }
+  double swing_lower() const { return swing_lower_; }
+  double swing_upper() const { return swing_upper_; }
+
+ private:
+  int swing_ = -1, upper_link_ = -1, base_link_ = -1;
+  std::array<int, 3> joints_{};
+  std::array<double, 3> lower_{}, upper_{};
+  bool swing_limited_ = false;
+  double swing_lower_ = 0, swing_upper_ = 0;
+  Pose X_BS_ = Pose::Identity();
+  double pin_reach_ = 0, pin_height_ = 0;  // boom foot in S
+  double boom_ = 0, stick_ = 0, bucket_ = 0;
+  double cut_angle_ = 0, tip_angle_ = 0;
+  scene::Bucket bucket_data_;
+};
+
+}  // namespace navvy::control
