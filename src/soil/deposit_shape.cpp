@@ -21,6 +21,9 @@ double spline(double t) {
   return t < 0.5 ? 0.75 - t * t : t < 1.5 ? 0.5 * (1.5 - t) * (1.5 - t) : 0.0;
 }
 
+// Its mean over the particles of a column `d` columns away.
+double column_weight(int d) { return 0.5 * (spline(d - 0.25) + spline(d + 0.25)); }
+
 // Its integral from -infinity to t.
 double spline_sum(double t) {
   if (t <= -1.5) return 0;
@@ -67,7 +70,8 @@ BlockShape ShapeFinder::find(const PlanKey& block) {
 void ShapeFinder::sample_columns(int ix, int iy) {
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      const double weight = spline(dx) * spline(dy);
+      // A column weighs as the 2 x 2 particles it would wake to, so that seams between the two do not show.
+      const double weight = column_weight(dx) * column_weight(dy);
       const double h = around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)];
       for (std::size_t k = 0; k < fraction_.size(); ++k)
         fraction_[k] += weight * spline_sum(h - (bottom_ + static_cast<double>(k) / kSamples));
