@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lock-step control over standard input and output: any language can drive.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/world.h"
+
+namespace navvy::cli {
+
+/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line {"inputs": {name:
+/// value}} (only the inputs that change). {"end": true} or end of file ends the run.
+class ControlStdio {
+ public:
+  ControlStdio(sim::World& world, double rate);
+  /// Exchanges when a control step is due. Returns false when the controller wants to end.
+  /// @throws InputError naming line and key when the line is not as described.
+  bool exchange();
+
+ private:
+  sim::World& world_;
+  std::uint64_t interval_;  ///< base steps per control step
+  std::uint64_t lines_ = 0;
+};
+
+}  // namespace navvy::cli

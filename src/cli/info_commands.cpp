@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navvy check`, `devices`, `soils`, `channels`: commands that only tell.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/scene_options.h"
+#include "core/math.h"
+#include "device/device.h"
+#include "scene_io/loader.h"
+#include "sim/session.h"
+
+namespace navvy::cli {
+namespace {
+
+int check(const std::vector<std::string>& files) {
+  int errors = 0, warnings = 0;
+  for (const std::string& file : files) {
+    for (const Fault& fault : scene_io::check(file)) {
+      std::cout << fault.text() << "\n";
+      ++(fault.severity == Fault::Severity::kError ? errors : warnings);
+    }
+  }
+  std::printf("%zu file%s checked: %d error%s, %d warning%s\n", files.size(), files.size() == 1 ? "" : "s", errors,
+              errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
+  return errors > 0 ? kBadInput : kOk;
+}
+
+int devices() {
+  const auto list = device::list_devices();
+  for (const auto& info : list) std::cout << info.text() << "\n";
+  if (!list.empty()) return kOk;
+  // Picking from an empty list says what to install.
+  device::Device none;
+  return kDevice;
+}
+
+int soils() {
+  const std::string directory = scene_io::find_data("terrain/soils");
+  if (directory.empty())
+    throw InputError(Fault{Fault::Severity::kError, "terrain/soils", 0, "", "", "the shipped soils were not found",
+                           "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
+  std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg", "c kPa", "c_r kPa",
+              "E MPa", "source");
+  for (const scene::Soil& soil : scene_io::load_soils(directory))
+    std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(), soil.bank_density / 1000,
+                soil.swell, degrees(soil.friction_angle), soil.cohesion / 1000, soil.residual_cohesion / 1000,
+                soil.young_modulus / 1e6, soil.source.c_str());
+  return kOk;
+}
+
+int channels(const SceneOptions& options) {
+  device::Device device(options.device);
+  const sim::World world(options.load(), device);
+  std::puts("inputs:");
+  for (const sim::Channel& channel : world.inputs())
+    std::printf("  %-44s [%s]  %s\n", channel.name.c_str(), channel.unit.c_str(), channel.meaning.c_str());
+  std::puts("outputs:");
+  for (const sim::Channel& channel : world.outputs())
+    std::printf("  %-44s [%s]  %s\n", channel.name.c_str(), channel.unit.c_str(), channel.meaning.c_str());
+  return kOk;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand("check", "validate scene, machine or soil files without running them");
+  command->add_option("files", *files, "SDF files")->required();
+  command->callback([files, &action] { action = [files] { return check(*files); }; });
+}
+
+void add_devices(CLI::App& app, Action& action) {
+  app.add_subcommand("devices", "list OpenCL devices")->callback([&action] { action = devices; });
+}
+
+void add_soils(CLI::App& app, Action& action) {
+  app.add_subcommand("soils", "list the shipped soils")->callback([&action] { action = soils; });
+}
+
+void add_channels(CLI::App& app, Action& action) {
+  auto options = std::make_shared<SceneOptions>();
+  CLI::App* command = app.add_subcommand("channels", "list the named inputs and outputs of a scene (--control stdio)");
+  options->add_to(*command);
+  command->callback([options, &action] { action = [options] { return channels(*options); }; });
+}
+
+}  // namespace navvy::cli

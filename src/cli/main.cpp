@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `navvy` program: a thin client of the library.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "device/error.h"
+
+namespace {
+
+using namespace navvy;
+
+void install_log_sink() {
+  // stderr, so that results on stdout stay clean for pipes.
+  auto logger = spdlog::stderr_color_mt("navvy");
+  logger->set_pattern("%^%l%$: %v");
+  set_log_sink([logger](LogLevel level, const std::string& text) {
+    switch (level) {
+      case LogLevel::kDebug:
+        logger->debug(text);
+        break;
+      case LogLevel::kInfo:
+        logger->info(text);
+        break;
+      case LogLevel::kWarning:
+        logger->warn(text);
+        break;
+      case LogLevel::kError:
+        logger->error(text);
+        break;
+    }
+  });
+}
+
+int guarded(const cli::Action& action) {
+  try {
+    return action();
+  } catch (const InputError& error) {
+    std::cerr << error.what() << "\n";
+    return cli::kBadInput;
+  } catch (const device::DeviceError& error) {
+    std::cerr << error.what() << "\n";
+    return cli::kDevice;
+  } catch (const FileError& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return cli::kFile;
+  } catch (const SimulationError& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return cli::kSimulation;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a smaller site\n";
+    return cli::kInternal;
+  } catch (const std::exception& error) {
+    std::cerr << "internal error: " << error.what() << "\n";
+    return cli::kInternal;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Navvy: terrain and excavation simulator on OpenCL.\n"
+      "Start with: navvy run scenarios/trench.sdf");
+  app.set_version_flag("--version", NAVVY_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
+      "written, 5 the simulation stopped itself (failed.snapshot is left), 130 interrupted.\n"
+      "scenarios/README.md explains scene files from the first line on.");
+  cli::Action action;
+  cli::add_run(app, action);
+  cli::add_check(app, action);
+  cli::add_devices(app, action);
+  cli::add_soils(app, action);
+  cli::add_channels(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
+  }
+  install_log_sink();
+  return guarded(action);
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/scene_options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace navvy::cli {
+namespace {
+
+Vec2 parse_pair(const std::string& option, const std::string& text) {
+  std::size_t used = 0, rest = 0;
+  try {
+    const double x = std::stod(text, &used);
+    if (used < text.size() && text[used] == ',') {
+      const double y = std::stod(text.substr(used + 1), &rest);
+      if (used + 1 + rest == text.size()) return Vec2(x, y);
+    }
+  } catch (const std::exception&) {
+    // falls through to the message below
+  }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, option, text, "two numbers in metres, separated by a comma",
+                         "for example " + option + " 120,80"});
+}
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& command) {
+  command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
+      ->required();
+  command.add_option("--device", device, "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`)");
+  command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated");
+  command.add_option("--seed", seed, "seed of everything random");
+  command.add_option("--duration", duration, "most simulated time [s]")->check(CLI::PositiveNumber);
+  command.add_flag("--no-render", no_render, "draw no pictures");
+  command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
+  command.add_option("--at", at,
+                     "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
+                     "corner; default its centre");
+  command.add_option("--size", size, "X,Y extent of the site [m]");
+}
+
+scene_io::Overrides SceneOptions::overrides() const {
+  scene_io::Overrides out;
+  for (const std::string& setting : set) out.set.push_back(scene_io::parse_setting(setting));
+  if (seed != 0) out.seed = seed;
+  if (duration > 0) out.duration = duration;
+  if (no_render) out.render = false;
+  if (!terrain.empty()) out.terrain = terrain;
+  if (!at.empty()) {
+    const std::string local = "local:";
+    out.at_is_local = at.rfind(local, 0) == 0;
+    out.at = parse_pair("--at", out.at_is_local ? at.substr(local.size()) : at);
+  }
+  if (!size.empty()) out.size = parse_pair("--size", size);
+  return out;
+}
+
+scene::World SceneOptions::load() const {
+  std::string path = file;
+  if (!std::filesystem::exists(path)) {
+    for (const std::string& candidate : {file, "scenarios/" + file, "scenarios/" + file + ".sdf"}) {
+      const std::string found = scene_io::find_data(candidate);
+      if (!found.empty()) {
+        path = found;
+        break;
+      }
+    }
+  }
+  return scene_io::load_world(path, overrides());
+}
+
+}  // namespace navvy::cli

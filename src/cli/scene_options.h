@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that every command on a scene shares.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_io/loader.h"
+
+namespace CLI {
+class App;
+}
+
+namespace navvy::cli {
+
+struct SceneOptions {
+  std::string file;
+  std::string device;
+  std::vector<std::string> set;
+  std::string terrain, at, size;
+  std::uint64_t seed = 0;
+  double duration = 0;
+  bool no_render = false;
+
+  /// Adds the options to a subcommand; the struct must outlive parsing.
+  void add_to(CLI::App& command);
+  /// @throws InputError for a malformed value.
+  scene_io::Overrides overrides() const;
+  /// The scene with its overrides. @throws InputError.
+  scene::World load() const;
+};
+
+}  // namespace navvy::cli

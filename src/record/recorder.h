@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a run leaves behind, written so that a kill at any moment leaves the old or the new file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "record/summary.h"
+#include "sim/session.h"
+
+namespace navvy::record {
+
+struct Options {
+  std::string directory;  ///< results go here; one that holds an earlier run is kept as "<directory>.previous"
+  bool render = true;
+  double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
+};
+
+/// What a progress line shows.
+struct Progress {
+  double time = 0, duration = 0;  ///< simulated, most it may take [s]
+  double real_time_factor = 0;
+  double remaining = 0;  ///< wall time left if the run takes its full duration [s]
+  int particles = 0, cycles = 0, frames = 0;
+  std::string phase;
+};
+
+/// Writes summary.json, telemetry.csv, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png and, after a
+/// failure, failed.snapshot. Not thread-safe; draws on the calling thread.
+class Recorder {
+ public:
+  /// Makes the directory and writes what is known at the start. @throws FileError.
+  Recorder(sim::Session& session, Options options);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
+  void observe();
+  /// Final files; status "finished", "interrupted" or "failed". After a failure also the snapshot of the last state.
+  void finish(const std::string& status, const std::string& message = "");
+  Progress progress() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace navvy::record

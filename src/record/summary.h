@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// summary.json: what a run came to. Its keys are an interface, documented in scenarios/README.md.
+#pragma once
+
+#include <string>
+
+#include "sim/session.h"
+
+namespace navvy::record {
+
+inline constexpr int kSummarySchemaVersion = 1;
+
+/// How the run stands: "running", "finished", "interrupted" or "failed".
+struct RunStatus {
+  std::string status = "running";
+  std::string message;     ///< cause of a failure
+  double wall_time = 0;    ///< [s], without rendering
+  double render_time = 0;  ///< [s]
+  double record_time = 0;  ///< [s]
+  int frames = 0;
+};
+
+/// The file's text: JSON, keys sorted, SI units in the names.
+std::string summary_json(const sim::Session& session, const RunStatus& status);
+
+/// Earth moved by digging and dumping, wheel ruts apart: columns whose mass changed.
+struct Earthwork {
+  double bank_volume = 0;   ///< mass taken out of columns / bank density [m3]
+  double loose_volume = 0;  ///< rise of the columns that gained mass [m3]
+};
+Earthwork measure_earthwork(const heightfield::Ground& ground);
+
+}  // namespace navvy::record

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/frame_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::sim {
+namespace {
+
+constexpr int kWindow = 1024;  // columns along one side of the drawn ground
+
+/// OpenGL camera at `eye` looking at `target`, z of the world up.
+Pose look_at(const Vec3& eye, const Vec3& target) {
+  Vec3 back = eye - target;
+  if (back.norm() < 1e-9) back = Vec3(1, 0, 0);
+  back.normalize();
+  Vec3 right = Vec3::UnitZ().cross(back);
+  if (right.norm() < 1e-6) right = Vec3::UnitY();
+  right.normalize();
+  Pose X = Pose::Identity();
+  X.linear().col(0) = right;
+  X.linear().col(1) = back.cross(right);
+  X.linear().col(2) = back;
+  X.translation() = eye;
+  return X;
+}
+
+}  // namespace
+
+FrameBuilder::FrameBuilder(const World& world) : world_(world) {
+  for (const scene::Soil& soil : world.description().soils)
+    frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
+  frame_.lights = world.description().lights;
+  if (frame_.lights.empty()) frame_.lights.push_back({});
+  frame_.ground.cell = world.ground().cell();
+}
+
+const scene::Frame& FrameBuilder::build() {
+  frame_.time = world_.time();
+  frame_.shapes.clear();
+  frame_.cylinders.clear();
+  place_window();
+  update_ground();
+  add_machines();
+  add_particles();
+  return frame_;
+}
+
+void FrameBuilder::place_window() {
+  const heightfield::Ground& ground = world_.ground();
+  const int nx = std::min(ground.nx(), kWindow), ny = std::min(ground.ny(), kWindow);
+  Vec2 low = ground.origin() + 0.5 * ground.cell() * Vec2(ground.nx(), ground.ny()), high = low;
+  for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
+    const Vec2 p = world_.link(static_cast<int>(m), 0).X_WL.translation().head<2>();
+    low = m == 0 ? p : Vec2(low.cwiseMin(p));
+    high = m == 0 ? p : Vec2(high.cwiseMax(p));
+  }
+  const Vec2i center = ground.column_at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
+  const bool placed = !window_.empty();
+  const bool near_edge = std::abs(center.x() - (window_.x0 + window_.x1) / 2) > nx / 4 ||
+                         std::abs(center.y() - (window_.y0 + window_.y1) / 2) > ny / 4;
+  const bool whole = nx == ground.nx() && ny == ground.ny();
+  if (placed && (whole || !near_edge)) return;
+  const int x0 = std::clamp(center.x() - nx / 2, 0, ground.nx() - nx);
+  const int y0 = std::clamp(center.y() - ny / 2, 0, ground.ny() - ny);
+  if (placed && x0 == window_.x0 && y0 == window_.y0) return;
+  window_ = {x0, y0, x0 + nx, y0 + ny};
+  scene::FrameGround& out = frame_.ground;
+  out.nx = nx;
+  out.ny = ny;
+  out.origin = ground.origin() + ground.cell() * Vec2(x0, y0);
+  const std::size_t n = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+  out.height.assign(n, 0);
+  out.change.assign(n, 0);
+  out.soil.assign(n, 0);
+  sequence_ = 0;
+  out.revision = 0;
+}
+
+void FrameBuilder::update_ground() {
+  const heightfield::Ground& ground = world_.ground();
+  scene::FrameGround& out = frame_.ground;
+  const bool first = out.revision == 0;
+  heightfield::CellRect rect = window_;
+  if (!first) {
+    const heightfield::CellRect changed = ground.changed_since(sequence_);
+    rect = {std::max(window_.x0, changed.x0), std::max(window_.y0, changed.y0), std::min(window_.x1, changed.x1),
+            std::min(window_.y1, changed.y1)};
+  }
+  sequence_ = ground.sequence();
+  out.dirty_x0 = out.dirty_y0 = out.dirty_x1 = out.dirty_y1 = 0;
+  if (rect.empty()) return;
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      const std::size_t i = static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
+                            static_cast<std::size_t>(ix - window_.x0);
+      const double height = ground.height(ix, iy);
+      out.height[i] = static_cast<float>(height);
+      out.change[i] = static_cast<float>(height - ground.start_height(ix, iy));
+      out.soil[i] = static_cast<std::uint8_t>(ground.surface_soil(ix, iy));
+    }
+  out.dirty_x0 = rect.x0 - window_.x0;
+  out.dirty_y0 = rect.y0 - window_.y0;
+  out.dirty_x1 = rect.x1 - window_.x0;
+  out.dirty_y1 = rect.y1 - window_.y0;
+  ++out.revision;
+}
+
+void FrameBuilder::add_machines() {
+  for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
+    const scene::Machine& machine = world_.description().machines[m].machine;
+    const int index = static_cast<int>(m);
+    for (std::size_t l = 0; l < machine.links.size(); ++l) {
+      const Pose X_WL = world_.link(index, static_cast<int>(l)).X_WL;
+      for (const scene::Visual& visual : machine.links[l].visuals)
+        frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
+    }
+    for (const scene::Cylinder& cylinder : machine.cylinders) {
+      const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link);
+      if (joint < 0 || base < 0) continue;
+      const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(index, joint).position);
+      const Pose X_WL = world_.link(index, base).X_WL;
+      scene::FrameCylinder drawn;
+      drawn.p_base = X_WL * geometry.p_base;
+      drawn.p_rod = X_WL * geometry.p_rod;
+      drawn.radius = 0.6 * cylinder.bore;  // bore and wall
+      drawn.barrel_length = 0.55 * geometry.length;
+      frame_.cylinders.push_back(drawn);
+    }
+  }
+}
+
+void FrameBuilder::add_particles() {
+  const heightfield::Ground& ground = world_.ground();
+  const std::vector<soil::Particle> particles = world_.soil().particles();
+  scene::FrameParticles& out = frame_.particles;
+  out.position.clear();
+  out.soil.clear();
+  out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
+  if (particles.empty()) return;
+  const Vec3 corner(ground.origin().x(), ground.origin().y(), ground.datum());
+  const auto& first = particles.front().block;
+  const double block = soil::kBlockCells * ground.cell();
+  out.origin = corner + block * Vec3(first[0], first[1], first[2]);
+  out.position.reserve(3 * particles.size());
+  out.soil.reserve(particles.size());
+  for (const soil::Particle& p : particles) {
+    for (int i = 0; i < 3; ++i)
+      out.position.push_back(static_cast<float>(block * (p.block[i] - first[i]) + ground.cell() * p.x[i]));
+    out.soil.push_back(static_cast<std::uint8_t>(p.soil));
+  }
+}
+
+scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
+  scene::FrameCamera out;
+  out.fov = camera.fov;
+  out.width = camera.width;
+  out.height = camera.height;
+  Pose X = Pose::Identity();
+  if (camera.kind != scene::Camera::Kind::kFixed) {
+    const int m = world_.description().machine_index(camera.machine);
+    if (m < 0)
+      throw InputError(Fault{Fault::Severity::kError, world_.description().file, 0, "camera[" + camera.name + "]",
+                             camera.machine, "there is no machine of this name", "name a machine of the scene"});
+    const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
+    const int link = camera.kind == scene::Camera::Kind::kOnLink ? std::max(0, machine.link_index(camera.link)) : 0;
+    X = world_.link(m, link).X_WL;
+    if (camera.kind == scene::Camera::Kind::kChase) {
+      const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
+      X.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
+    }
+  }
+  out.X_WC = look_at(X * camera.position, X * camera.target);
+  // Never below the ground it looks over.
+  const Vec3 eye = out.X_WC.translation();
+  const double floor = world_.ground().sample(eye.x(), eye.y()) + 0.3;
+  if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink) out.X_WC.translation().z() = floor;
+  return out;
+}
+
+}  // namespace navvy::sim

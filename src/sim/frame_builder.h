@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns the state of a world into a Frame to draw, and scene cameras into poses.
+#pragma once
+
+#include "scene/frame.h"
+#include "sim/world.h"
+
+namespace navvy::sim {
+
+/// Fills frames of one world; keeps the dense ground between calls and rewrites only what changed.
+///
+/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, else the part around the machines,
+/// moved when one comes within a quarter of its edge.
+class FrameBuilder {
+ public:
+  explicit FrameBuilder(const World& world);
+  /// The frame of this instant; valid until the next call.
+  const scene::Frame& build();
+  /// Pose of a scene camera now; a chasing camera follows heading only.
+  scene::FrameCamera camera(const scene::Camera& camera) const;
+
+ private:
+  void place_window();
+  void update_ground();
+  void add_machines();
+  void add_particles();
+
+  const World& world_;
+  scene::Frame frame_;
+  heightfield::CellRect window_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace navvy::sim

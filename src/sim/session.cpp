@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/stopwatch.h"
+
+namespace navvy::sim {
+namespace {
+
+/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the particles.
+constexpr std::uint64_t kPayloadInterval = 12;
+
+}  // namespace
+
+struct Session::State {
+  State(scene::World description, device::Device& device) : world(std::move(description), device) {
+    device_name = device.info().name;
+  }
+
+  /// A machine with a program and what its operator sees.
+  struct Crew {
+    int machine = 0;
+    int tool = -1;  ///< index into Coupling::tools of the bucket, -1 without
+    control::Operator op;
+    control::Observation seen;
+    std::optional<Cycle> open;
+  };
+
+  World world;
+  std::string device_name;
+  std::vector<Crew> crews;
+  std::vector<Cycle> cycles;
+  ForceStatistics force;
+  double idle = 0;  ///< [s] since every program has ended
+  double control_time = 0;
+
+  void enlist(int machine);
+  void observe(Crew& crew);
+  void command(Crew& crew);
+  void note_event(Crew& crew);
+  void note_forces();
+};
+
+void Session::State::enlist(int machine) {
+  const scene::MachineInWorld& placed = world.description().machines[static_cast<std::size_t>(machine)];
+  if (placed.program.steps.empty()) return;
+  Crew crew{machine, -1, control::Operator(placed.machine, placed.program), {}, {}};
+  const auto& tools = world.coupling().tools();
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const bool mine = tools[t].machine == machine;
+    if (mine && !placed.machine.buckets.empty() &&
+        placed.machine.shells[static_cast<std::size_t>(tools[t].shell)].name == placed.machine.buckets[0].shell)
+      crew.tool = static_cast<int>(t);
+  }
+  crew.seen.joints.resize(placed.machine.joints.size());
+  crew.seen.ground = &world.ground();
+  crews.push_back(std::move(crew));
+}
+
+void Session::State::observe(Crew& crew) {
+  for (std::size_t j = 0; j < crew.seen.joints.size(); ++j)
+    crew.seen.joints[j] = world.joint(crew.machine, static_cast<int>(j));
+  const vehicle::LinkState base = world.link(crew.machine, 0);
+  crew.seen.X_WB = base.X_WL;
+  crew.seen.v_WB = base.v_WL;
+  if (crew.tool < 0) return;
+  const coupling::ToolLoad& tool = world.coupling().tools()[static_cast<std::size_t>(crew.tool)];
+  crew.seen.force = tool.smooth_W.norm();
+  if (world.steps() % kPayloadInterval == 0) crew.seen.payload = world.coupling().payload(tool);
+}
+
+void Session::State::command(Crew& crew) {
+  const control::Command command = crew.op.update(crew.seen, world.time(), world.dt());
+  for (std::size_t j = 0; j < command.joints.size(); ++j)
+    if (command.joints[j]) world.set_joint(crew.machine, static_cast<int>(j), *command.joints[j]);
+  if (command.drive) world.set_drive(crew.machine, *command.drive);
+}
+
+void Session::State::note_event(Crew& crew) {
+  using control::CycleEvent;
+  const CycleEvent event = crew.op.event();
+  if (event == CycleEvent::kScoopStart) {
+    crew.open = Cycle{};
+    crew.open->machine = crew.machine;
+    crew.open->start = world.time();
+  }
+  if (!crew.open) return;
+  crew.open->force_peak = std::max(crew.open->force_peak, crew.seen.force);
+  const auto payload = [&] {
+    return world.coupling().payload(world.coupling().tools()[static_cast<std::size_t>(crew.tool)]);
+  };
+  if (event == CycleEvent::kLiftOut) {
+    crew.open->lift_out = world.time();
+    crew.open->payload_lift_out = payload();
+  } else if (event == CycleEvent::kDumpStart) {
+    crew.open->dump_start = world.time();
+    crew.open->payload_dump = payload();
+  } else if (event == CycleEvent::kCycleEnd) {
+    crew.open->end = world.time();
+    cycles.push_back(*crew.open);
+    crew.open.reset();
+  }
+}
+
+void Session::State::note_forces() {
+  for (const coupling::ToolLoad& tool : world.coupling().tools()) {
+    const soil::ToolImpulse& impulse = tool.impulse;
+    if (!(impulse.scale > 0)) continue;
+    force.peak = std::max(force.peak, tool.smooth_W.norm());
+    force.sum += tool.force_W.norm();
+    ++force.steps;
+    force.residual_max = std::max(force.residual_max, impulse.residual.cwiseAbs().maxCoeff() / impulse.scale);
+    if (impulse.scale_moment > 0)
+      force.residual_max =
+          std::max(force.residual_max, impulse.residual_moment.cwiseAbs().maxCoeff() / impulse.scale_moment);
+  }
+}
+
+Session::Session(scene::World description, device::Device& device)
+    : state_(std::make_unique<State>(std::move(description), device)) {
+  State& s = *state_;
+  std::vector<Fault> faults;
+  for (std::size_t m = 0; m < s.world.description().machines.size(); ++m) {
+    const scene::MachineInWorld& placed = s.world.description().machines[m];
+    s.enlist(static_cast<int>(m));
+    const std::vector<Fault> more =
+        control::check_reach(placed.machine, placed.program, s.world.link(static_cast<int>(m), 0).X_WL,
+                             s.world.ground(), s.world.description().file);
+    faults.insert(faults.end(), more.begin(), more.end());
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+Session::~Session() = default;
+
+void Session::step() {
+  State& s = *state_;
+  {
+    const Lap lap(s.control_time);
+    bool busy = false;
+    for (State::Crew& crew : s.crews) {
+      s.observe(crew);
+      s.command(crew);
+      s.note_event(crew);
+      busy = busy || !crew.op.done();
+    }
+    s.idle = busy || s.crews.empty() ? 0 : s.idle + s.world.dt();
+  }
+  s.world.step();
+  s.note_forces();
+}
+
+bool Session::done() const {
+  const scene::Recording& recording = state_->world.description().recording;
+  const bool programs_over = !state_->crews.empty() && state_->idle >= recording.settle;
+  return programs_over || state_->world.time() >= recording.duration - 0.5 * state_->world.dt();
+}
+
+World& Session::world() { return state_->world; }
+const World& Session::world() const { return state_->world; }
+const std::string& Session::device_name() const { return state_->device_name; }
+
+std::string Session::phase(int machine) const {
+  for (const State::Crew& crew : state_->crews)
+    if (crew.machine == machine) return crew.op.phase();
+  return "idle";
+}
+
+const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
+const ForceStatistics& Session::force() const { return state_->force; }
+double Session::control_time() const { return state_->control_time; }
+
+double Session::energy() const {
+  double sum = 0;
+  for (std::size_t m = 0; m < state_->world.description().machines.size(); ++m)
+    sum += state_->world.work(static_cast<int>(m));
+  return sum;
+}
+
+std::string Session::state_hash() const {
+  StateHash sum;
+  state_->world.hash(sum);
+  for (const State::Crew& crew : state_->crews) crew.op.hash(sum);
+  return sum.hex();
+}
+
+void Session::save(StateWriter& writer) const {
+  static_assert(std::is_trivially_copyable_v<Cycle>);
+  state_->world.save(writer);
+  writer.begin("session", 1);
+  writer.vector(state_->cycles);
+  writer.value(state_->force);
+  writer.value(state_->idle);
+  writer.value(static_cast<std::uint64_t>(state_->crews.size()));
+  for (const State::Crew& crew : state_->crews) {
+    writer.value(crew.seen.payload);
+    writer.value(static_cast<std::uint8_t>(crew.open.has_value()));
+    writer.value(crew.open.value_or(Cycle{}));
+  }
+  writer.end();
+  for (const State::Crew& crew : state_->crews) crew.op.save(writer);
+}
+
+void Session::load(StateReader& reader) {
+  state_->world.load(reader);
+  reader.begin("session", 1);
+  state_->cycles = reader.vector<Cycle>();
+  state_->force = reader.value<ForceStatistics>();
+  state_->idle = reader.value<double>();
+  if (reader.value<std::uint64_t>() != state_->crews.size())
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "session", "",
+                           "the snapshot has another number of programs than the scene",
+                           "use the scene it was made with"});
+  for (State::Crew& crew : state_->crews) {
+    crew.seen.payload = reader.value<double>();
+    const bool open = reader.value<std::uint8_t>() != 0;
+    const auto cycle = reader.value<Cycle>();
+    crew.open = open ? std::optional<Cycle>(cycle) : std::nullopt;
+  }
+  reader.end();
+  for (State::Crew& crew : state_->crews) crew.op.load(reader);
+}
+
+void Session::save(const std::string& path) const {
+  StateWriter writer;
+  save(writer);
+  write_file_atomically(path, writer.bytes());
+}
+
+void Session::load(const std::string& path) {
+  StateReader reader(read_file(path));
+  load(reader);
+}
+
+}  // namespace navvy::sim
