@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/arm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/digger.h"
+#include "core/error.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::control {
+namespace {
+
+TEST(Arm, ForwardAgreesWithTheTreesKinematics) {
+  const scene::Machine machine = make_digger();
+  const Arm arm(machine);
+  const ArmAngles q{0.4, -1.7, -0.9};
+  const auto links = vehicle::forward_kinematics(machine, Pose::Identity(), {0, q[0], q[1], q[2]});
+  const Vec3 tip = links[4] * machine.buckets[0].p_tip - Vec3(1.25, 0, 1.18);
+  const BucketPose pose = arm.forward(q);
+  EXPECT_NEAR(pose.reach, tip.x(), 1e-12);  // same closed form, rounding only
+  EXPECT_NEAR(pose.height, tip.z(), 1e-12);
+  EXPECT_NEAR(pose.angle, q[0] + q[1] + q[2], 1e-12);
+}
+
+TEST(Arm, InverseReturnsToEveryPoseThatForwardGives) {
+  const Arm arm(make_digger());
+  int tried = 0;
+  for (double boom = -0.8; boom <= 1.0; boom += 0.15)
+    for (double stick = -2.7; stick <= -0.65; stick += 0.2)
+      for (double bucket = -2.5; bucket <= 0.35; bucket += 0.3) {
+        const BucketPose pose = arm.forward({boom, stick, bucket});
+        ArmAngles q;
+        ASSERT_TRUE(arm.inverse(pose, q)) << boom << " " << stick << " " << bucket;
+        EXPECT_NEAR(q[0], boom, 1e-7);  // acos near its ends loses half the digits
+        EXPECT_NEAR(q[1], stick, 1e-7);
+        EXPECT_NEAR(q[2], bucket, 1e-7);
+        ++tried;
+      }
+  EXPECT_GT(tried, 1000);
+}
+
+TEST(Arm, InverseRefusesWhatIsOutOfReachAndNearestTurnsTheBucket) {
+  const Arm arm(make_digger());
+  ArmAngles q;
+  BucketPose far{12, 0, -kPi / 2};
+  EXPECT_FALSE(arm.inverse_nearest(far, q));
+  // Too far for a bucket pointing down, possible with it stretched out.
+  BucketPose pose{7.9, -1.2, -kPi / 2};
+  EXPECT_FALSE(arm.inverse(pose, q));
+  ASSERT_TRUE(arm.inverse_nearest(pose, q));
+  EXPECT_GT(pose.angle, -kPi / 2);
+  EXPECT_NEAR(arm.forward(q).reach, 7.9, 1e-9);
+}
+
+TEST(Arm, NamesTheRoleThatIsMissing) {
+  scene::Machine machine = make_digger();
+  machine.stick_joint.clear();
+  try {
+    const Arm arm(machine);
+    FAIL() << "a machine without a stick was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("stick"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace navvy::control
