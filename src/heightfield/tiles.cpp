@@ -9,8 +9,8 @@
 namespace navvy::heightfield {
 namespace {
 
-// The cache holds a window of 16 x 16 tiles without collision: 51 m at 0.1 m cells, a machine and all it reaches.
-constexpr int kCacheSide = 16;
+// The cache holds a window of 32 x 32 tiles without collision, the 1024 x 1024 columns of a picture.
+constexpr int kCacheSide = 32;
 
 int index_in_tile(int ix, int iy) { return (iy % kTileSide) * kTileSide + ix % kTileSide; }
 

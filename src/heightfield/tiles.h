@@ -25,7 +25,7 @@ struct Tile {
 };
 
 /// The untouched site and the tiles that differ from it. Reading the height of an untouched column fills one slot of a
-/// small cache (at most 2 MiB), never a tile.
+/// bounded cache (at most 8 MiB), never a tile.
 class Tiles {
  public:
   explicit Tiles(const Ground::Setup& setup);
