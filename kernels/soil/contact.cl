@@ -42,15 +42,15 @@ static inline float3 impulse(const Node* node, float3 spin, float3 speed, bool* 
 // Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
 static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float dx, Reach reach,
                              global const float4* field, global const int* split, global const int* node_tool,
-                             global const float8* shell, global const float* friction, global const int4* windows,
-                             global const float* tools) {
+                             global const float8* shell, global const float* friction, global const float* tools,
+                             int only) {
   const int i = slot * BLOCK_NODES + n;
   if (split[i] == 0) return false;
   const float4 v = field[i];
   if (!(v.w > MASS_QUANTUM)) return false;
   const int tool = node_tool[i];
   global const float* at = tools + TOOL_WORDS * tool;
-  if (at[TOOL_ACTIVE] == 0.0f) return false;
+  if (at[TOOL_ACTIVE] == 0.0f || (only >= 0 && only != tool)) return false;
   const float sign = s == 0 ? 1.0f : -1.0f;
   const float8 q = shell[i];
   node->b = weight(sign * q.s3 - at[TOOL_HALF], q.s4, reach);
@@ -59,23 +59,24 @@ static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float
   node->m = v.w;
   node->n = sign * q.s012;
   node->mu = friction[i];
-  const int3 p = 4 * (key - windows[tool].xyz) + (int3)(n & 3, (n >> 2) & 3, n >> 4);
+  const int3 p = 4 * (key - as_int3(vload3(0, at + TOOL_WINDOW))) + (int3)(n & 3, (n >> 2) & 3, n >> 4);
   node->r = dx * (convert_float3(p) - vload3(0, at + TOOL_ORIGIN));
   return true;
 }
 
-#define NODE_ARGS                                                                                              \
-  global const int *restrict near_list, global const int4 *restrict keys, global const float4 *restrict before0, \
+#define NODE_ARGS                                                                                                   \
+  global const int *restrict near_list, global const int4 *restrict keys, global const float4 *restrict before0,    \
       global const float4 *restrict before1, global const int *restrict split, global const int *restrict node_tool, \
-      global const float8 *restrict shell, global const float *restrict friction, global const int4 *restrict windows, \
-      global const float *restrict tools, const Reach reach, const float dx
-#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, windows, tools
+      global const float8 *restrict shell, global const float *restrict friction, global const float4 *restrict frame, \
+      const int first_tool, const int only, const Reach reach, const float dx
+#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, tools, only
 
 // Out: per near block the wrench sum of J (angular about the tool's origin, linear) and sum of G^T b m P G, where P is
 // what of the node's velocity the contact holds: the normal, or everything when it sticks.
 kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
   const int slot = get_global_id(0);
   const int3 key = keys[near_list[slot]].xyz;
+  global const float* tools = (global const float*)(frame + first_tool);
   float out[CONTACT_SUMS];
   for (int i = 0; i < CONTACT_SUMS; ++i) out[i] = 0.0f;
   for (int n = 0; n < BLOCK_NODES; ++n)
@@ -106,15 +107,59 @@ kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
   for (int i = 0; i < CONTACT_SUMS; ++i) sums[CONTACT_SUMS * slot + i] = out[i];
 }
 
+// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the inverse mass.
+kernel void contact_twist(global float4* restrict frame, const int first_tool, const int tool,
+                          global const float* restrict sums, const int slots) {
+  global float* at = (global float*)(frame + first_tool) + TOOL_WORDS * tool;
+  float total[CONTACT_SUMS], a[6][7], stiff[6][6];
+  for (int i = 0; i < CONTACT_SUMS; ++i) total[i] = 0.0f;
+  for (int slot = 0; slot < slots; ++slot)
+    for (int i = 0; i < CONTACT_SUMS; ++i) total[i] += sums[CONTACT_SUMS * slot + i];
+  for (int i = 0, k = 6; i < 6; ++i)
+    for (int j = i; j < 6; ++j) stiff[i][j] = stiff[j][i] = total[k++];
+  for (int i = 0; i < 6; ++i) {
+    const float now = i < 3 ? at[TOOL_SPIN + i] : at[TOOL_SPEED + i - 3];
+    a[i][6] = now - at[TOOL_START + i];
+    for (int j = 0; j < 6; ++j) {
+      a[i][j] = i == j ? 1.0f : 0.0f;
+      a[i][6] += at[TOOL_YIELD + 6 * i + j] * total[j];
+      for (int k = 0; k < 6; ++k) a[i][j] += at[TOOL_YIELD + 6 * i + k] * stiff[k][j];
+    }
+  }
+  // Gauss with row pivots.
+  for (int c = 0; c < 6; ++c) {
+    int p = c;
+    for (int r = c + 1; r < 6; ++r)
+      if (fabs(a[r][c]) > fabs(a[p][c])) p = r;
+    for (int k = 0; k < 7; ++k) {
+      const float swap = a[c][k];
+      a[c][k] = a[p][k];
+      a[p][k] = swap;
+    }
+    for (int r = 0; r < 6; ++r) {
+      const float share = r == c ? 0.0f : a[r][c] / a[c][c];
+      for (int k = c; k < 7; ++k) a[r][k] -= share * a[c][k];
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    const float change = a[i][6] / a[i][i];
+    if (i < 3) at[TOOL_SPIN + i] -= change;
+    else at[TOOL_SPEED + i - 3] -= change;
+  }
+}
+
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
-// Out: after0/1 = velocity after contact, before the floor (w = |normal impulse|), for the books; velocity0 (per active
-// block) and velocity1 (per near block) = what particles will feel.
-kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global float4* restrict after0,
-                          global float4* restrict after1, global float4* restrict velocity0,
+// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel. For the books: touched[slot]
+// = 1 when any node changed; books per node and field float8 (v before, m, v after contact and before the floor, normal
+// impulse), valid in touched blocks.
+kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
+                          global float8* restrict books, global float4* restrict velocity0,
                           global float4* restrict velocity1) {
   const int slot = get_global_id(0);
   const int block = near_list[slot];
   const int3 key = keys[block].xyz;
+  global const float* tools = (global const float*)(frame + first_tool);
+  int changed = 0;
   for (int n = 0; n < BLOCK_NODES; ++n) {
     const int i = slot * BLOCK_NODES + n;
     const bool held = (float)(n >> 4) <= floor_height[16 * block + (n & 15)];
@@ -126,16 +171,16 @@ kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, 
         global const float* at = tools + TOOL_WORDS * node_tool[i];
         bool pushing, sticking;
         const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
-        if (pushing) after = (float4)(v.xyz + j / node.m, dot(j, node.n));
+        if (pushing) {
+          after = (float4)(v.xyz + j / node.m, dot(j, node.n));
+          changed = 1;
+        }
       }
+      books[2 * i + s] = (float8)(v, after);
       const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w);
-      if (s == 0) {
-        after0[i] = after;
-        velocity0[(size_t)block * BLOCK_NODES + n] = felt;
-      } else {
-        after1[i] = after;
-        velocity1[i] = felt;
-      }
+      if (s == 0) velocity0[(size_t)block * BLOCK_NODES + n] = felt;
+      else velocity1[i] = felt;
     }
   }
+  touched[slot] = changed;
 }

@@ -4,7 +4,7 @@
 // In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], m [kg]), BLOCK_NODES per active block;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C and x of the particles; speed[block] = largest |component| of velocity [m/s], INFINITY for a NaN.
+// Out: v, C and x of the particles; REPORT_SPEED, INFINITY for a NaN.
 // One work-item per home block, no shared writes. Host: src/soil/transfer.cpp.
 #include "soil/lanes.h"
 
@@ -62,7 +62,7 @@ static inline void gather(const float* tile, int node, float4 wx, const float* w
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global float* restrict state, const int capacity, global const int4* restrict homes,
     global const int* restrict neighbours, global const float* restrict velocity0, global const float* restrict velocity1,
-    global const int* restrict near_slot, global const int* restrict node_split, global float* restrict speed,
+    global const int* restrict near_slot, global const int* restrict node_split, global float* restrict report,
     const float dt, const float dx) {
   const int block = get_global_id(0);
   const int4 home = homes[block];
@@ -140,5 +140,5 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   }
   const float8 f8 = fmax(fastest.lo, fastest.hi);
   const float4 f4 = fmax(f8.lo, f8.hi);
-  speed[block] = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
+  report[REPORT_WORDS * block + REPORT_SPEED] = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
 }

@@ -43,13 +43,25 @@
 #define SOIL_TOOL_FRICTION 12
 #define SOIL_WORDS 16
 
-// One tool in the table of contact.cl.
-#define TOOL_ORIGIN 0   // 3: frame origin from the window's corner [cells]
-#define TOOL_SPIN 3     // 3: angular velocity [rad/s]
-#define TOOL_SPEED 6    // 3: velocity of the origin [m/s]
-#define TOOL_HALF 9     // half thickness [cells]
-#define TOOL_ACTIVE 10  // 1 when the tool takes part in this launch
-#define TOOL_WORDS 16
+// The frame: what changes every step about the tools, one buffer of float4. Triangles first, SHELL_WORDS each (see
+// shell_query.h), then the free edges, two each, then the tools from float4 number `first_tool` on, TOOL_WORDS floats:
+#define TOOL_WINDOW 0   // 3 ints: block from whose corner the tool's float coordinates count
+#define TOOL_ORIGIN 4   // 3: origin of the tool's frame [cells]
+#define TOOL_HALF 7     // half thickness [cells]
+#define TOOL_SPIN 8     // 3: angular velocity, axes of W [rad/s]; the two-way solve changes it
+#define TOOL_ACTIVE 11  // 1 when the tool moves or stands in this step
+#define TOOL_SPEED 12   // 3: velocity of the origin [m/s]; the two-way solve changes it
+#define TOOL_START 16   // 6: twist before soil acts
+#define TOOL_YIELD 22   // 36: inverse mass, row major, angular first
+#define TOOL_WORDS 60
+
+// Report of one home block after a step: 1 when a value was not finite, fastest velocity component [m/s], farthest push
+// out of a plate [cells], particles on the wrong side of a shell.
+#define REPORT_BAD 0
+#define REPORT_SPEED 1
+#define REPORT_PUSH 2
+#define REPORT_CROSSED 3
+#define REPORT_WORDS 4
 
 // Sums of one near block in the two-way solve: 6 wrench, 21 upper triangle of the stiffness, 1 unused.
 #define CONTACT_SUMS 28

@@ -4,7 +4,7 @@
 // In:  state (SoA words, layout.h), soils (SOIL_WORDS floats each), home blocks: start and count in slots, tile = first
 //      tile of the block, near = 1 when it has three tiles (0 neutral, 1 front, 2 back of a shell).
 // Out: tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; stress, J, J0 and plastic
-//      shear of the particles; bad[block] = 1 when a value is not finite.
+//      shear of the particles; REPORT_BAD.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit.
 // Host: src/soil/transfer.cpp. Reference: src/soil/reference/reference_solver.cpp.
 #include "soil/lanes.h"
@@ -87,7 +87,7 @@ static inline void scatter(global float* tile, int node, float4 start, float4 ax
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant float* soils, global const int4* restrict homes,
-    global float* restrict tiles, global int* restrict bad, const float dt, const float dx, const float mixing) {
+    global float* restrict tiles, global float* restrict report, const float dt, const float dx, const float mixing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];  // start, count, first tile, near
   global float* tile = tiles + (size_t)home.z * (4 * TILE_NODES);
@@ -170,5 +170,6 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
               vload4(t, turned_parts[3]), vload4(t, wxs), wy + l, wz + l);
     }
   }
-  bad[block] = broken;
+  report[REPORT_WORDS * block + REPORT_BAD] = broken ? 1.0f : 0.0f;
+  if (!home.w) report[REPORT_WORDS * block + REPORT_PUSH] = report[REPORT_WORDS * block + REPORT_CROSSED] = 0.0f;
 }

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
 //
-// In:  triangles (shell_query.h), tools: per tool int4 (window block x y z, unused), half thickness [cells];
-//      first / list: candidate triangles per near block (compressed rows). Band [cells]: how far a side reaches.
+// In:  frame (layout.h): triangles, free edges, tools; first / list: candidate triangles per near block (compressed rows). Band [cells]: how far a side reaches.
 // One work-item per near block, nothing shared. Host: src/soil/contact.cpp.
 #include "soil/lanes.h"
 #include "soil/shell_query.h"
 
-static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const int4* windows,
+static inline int3 window_of(global const float* tools, int tool) {
+  return as_int3(vload3(0, tools + TOOL_WORDS * tool + TOOL_WINDOW));
+}
+
+static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const float* tools,
                          global const int* list, int begin, int end, Closest* best) {
   best->distance2 = INFINITY;
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;
   for (int i = begin; i < end; ++i) {
     const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
-    const float3 shift = convert_float3(4 * (key - windows[tool].xyz));
+    const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
     closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], best);
   }
 }
@@ -36,9 +39,10 @@ static inline bool resolve(global const float4* triangles, int feature, float3 a
 // Out per near node: split (0 none, 1 in front, 2 behind), tool, and float8 (normal, phi, inset, 0 0 0) [cells].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     global const int* restrict near_list, global const int4* restrict keys, global const float4* restrict triangles,
-    global const int4* restrict windows, global const int* restrict first, global const int* restrict list,
-    global const float4* restrict rims, const int rim_count, const float band, global int* restrict node_split,
-    global int* restrict node_tool, global float8* restrict node_shell) {
+    const int first_rim, const int first_tool, global const int* restrict first, global const int* restrict list,
+    const float band, global int* restrict node_split, global int* restrict node_tool,
+    global float8* restrict node_shell) {
+  global const float* tools = (global const float*)(triangles + first_tool);
   const int slot = get_global_id(0);
   const int3 key = keys[near_list[slot]].xyz;
   const real step_x = (real)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
@@ -46,19 +50,19 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   for (int layer = 0; layer < 4; ++layer) {
     Closest best;
     const real step_z = (float)layer;
-    query(step_x, step_y, step_z, key, triangles, windows, list, first[slot], first[slot + 1], &best);
+    query(step_x, step_y, step_z, key, triangles, tools, list, first[slot], first[slot + 1], &best);
     // Distance along the plate to its free edge; only plates of the same tool count.
     real inset2 = INFINITY;
     float d2[16], cx[16], cy[16], cz[16], inset[16];
-    int feature[16], tools[16];
+    int feature[16], tool_of[16];
     vstore16(best.feature, 0, feature);
     for (int l = 0; l < 16; ++l)
-      tools[l] = feature[l] < 0 ? -1 : as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
-    const int16 tool_of = vload16(0, tools);
+      tool_of[l] = feature[l] < 0 ? -1 : as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
+    const int16 tool_lanes = vload16(0, tool_of);
     if (any(best.distance2 < band * band))
-      for (int r = 0; r < rim_count; ++r) {
-        const real e2 = segment_distance2(best.x, best.y, best.z, rims[2 * r].xyz, rims[2 * r + 1].xyz);
-        inset2 = select(inset2, fmin(inset2, e2), tool_of == as_int(rims[2 * r].w));
+      for (int r = first_rim; r < first_tool; r += 2) {
+        const real e2 = segment_distance2(best.x, best.y, best.z, triangles[r].xyz, triangles[r + 1].xyz);
+        inset2 = select(inset2, fmin(inset2, e2), tool_lanes == as_int(triangles[r].w));
       }
     vstore16(best.distance2, 0, d2);
     vstore16(best.x, 0, cx);
@@ -68,9 +72,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     for (int l = 0; l < 16; ++l) {
       const int node = slot * BLOCK_NODES + 16 * layer + l;
       node_split[node] = 0;
-      node_tool[node] = tools[l];
-      if (tools[l] < 0) continue;
-      const float3 at = convert_float3(4 * (key - windows[tools[l]].xyz) + (int3)(l & 3, l >> 2, layer));
+      node_tool[node] = tool_of[l];
+      if (tool_of[l] < 0) continue;
+      const float3 at = convert_float3(4 * (key - window_of(tools, tool_of[l])) + (int3)(l & 3, l >> 2, layer));
       float phi;
       float3 normal;
       bool rim;
@@ -82,13 +86,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
 }
 
 // Gives particles their side, keeps it, and puts those that sank into a plate back on its surface (position only).
-// Out: moved[near home] = farthest push [cells]; crossed[near home] = particles found on the wrong side.
+// Out: REPORT_PUSH and REPORT_CROSSED of the near homes.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const int4* restrict homes, global const int4* restrict keys, global const float4* restrict triangles,
-    global const int4* restrict windows, global const float* restrict half_thickness, global const int* restrict first,
-    global const int* restrict list, const float band, const float longest_push, global float* restrict moved,
-    global int* restrict crossed) {
+    const int first_tool, global const int* restrict first, global const int* restrict list, const float band,
+    const float longest_push, global float* restrict report) {
+  global const float* tools = (global const float*)(triangles + first_tool);
   const int near = get_global_id(0);
   const int home = near_list[near];
   const int3 key = keys[home].xyz;
@@ -98,7 +102,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     const int count = min(16, homes[home].x + homes[home].y - at);
     Closest best;
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    query(x, y, z, key, triangles, windows, list, first[near], first[near + 1], &best);
+    query(x, y, z, key, triangles, tools, list, first[near], first[near + 1], &best);
     float d2[16], cx[16], cy[16], cz[16], px[16], py[16], pz[16];
     int feature[16], tag[16];
     vstore16(best.feature, 0, feature);
@@ -119,7 +123,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
       int tool = -1;
       if (feature[l] >= 0 && d2[l] < 4.0f * band * band) {
         tool = as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
-        const float3 here = convert_float3(4 * (key - windows[tool].xyz)) + (float3)(px[l], py[l], pz[l]);
+        const float3 here = convert_float3(4 * (key - window_of(tools, tool))) + (float3)(px[l], py[l], pz[l]);
         resolve(triangles, feature[l], here - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal, &rim);
       }
       const bool behind_before = (old_side & 1) == 0;  // side = 1 + 2 tool + behind
@@ -127,14 +131,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
       if (!rim && fabs(phi) < band) {
         side = same_tool ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
         const float s = (side & 1) == 0 ? -1.0f : 1.0f;
-        const float depth = half_thickness[tool] - s * phi;
+        const float depth = tools[TOOL_WORDS * tool + TOOL_HALF] - s * phi;
         if (depth > 0.0f) {
           const float push = fmin(depth, longest_push);
           px[l] += s * push * normal.x;
           py[l] += s * push * normal.y;
           pz[l] += s * push * normal.z;
           far_push = fmax(far_push, push);
-          crossings += depth - push > half_thickness[tool];  // still behind the plate's middle
+          crossings += s * phi + push < 0.0f;  // still behind the plate's middle
         }
       } else if (!rim && same_tool && d2[l] < 4.0f * band * band) {
         crossings += (phi < 0.0f) != behind_before;  // left the band on the side where it never was
@@ -146,6 +150,6 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     STORE(FIELD_X + 2, vload16(0, pz));
     STORE(FIELD_TAG, as_float16(vload16(0, tag)));
   }
-  moved[near] = far_push;
-  crossed[near] = crossings;
+  report[REPORT_WORDS * home + REPORT_PUSH] = far_push;
+  report[REPORT_WORDS * home + REPORT_CROSSED] = (float)crossings;
 }

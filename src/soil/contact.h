@@ -27,7 +27,7 @@ struct ContactSettings {
   double reference = 0.4;     ///< the step for which the weights hold, as a share of cell / sound speed
   double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
   double longest_push = 0.2;  ///< position correction per step
-  int sweeps = 4;             ///< of the two-way solve
+  int sweeps = 3;             ///< of the two-way solve
 };
 
 /// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
@@ -47,11 +47,13 @@ class Contact {
   const std::vector<int>& near_slot() const { return near_slot_; }
   NearNodes& nodes() { return nodes_; }
 
-  /// Signed distances of nodes, sides of particles, particles pushed out of plates. Waits. Returns the farthest push
-  /// [cells]; adds to `crossings`.
-  double classify(ParticleStore& store, Transfer& transfer, std::uint64_t& crossings);
-  /// The two-way solve and its impulses; `impulses` parallel to the motions. Waits.
-  void solve(Transfer& transfer, double dt, std::span<ToolImpulse> impulses);
+  /// Queues: signed distances of nodes, sides of particles, particles pushed out of plates (the push and the crossings
+  /// go into the transfer's report).
+  void classify(ParticleStore& store, Transfer& transfer);
+  /// Queues the two-way solve and the impulses on the nodes.
+  void solve(Transfer& transfer, double dt);
+  /// Waits and sums what the tools felt; `impulses` parallel to the motions.
+  void book(std::span<ToolImpulse> impulses) const;
 
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
@@ -66,19 +68,14 @@ class Contact {
     Pose X = Pose::Identity();
     BlockKey window;  ///< block its float coordinates count from
   };
-  struct Rows {  ///< compressed rows of candidate triangles
-    std::vector<int> first, list;
-  };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
-  void find_candidates(const BlockTable& table, std::vector<std::vector<int>>& nodes,
-                       std::vector<std::vector<int>>& homes) const;
-  void upload_triangles();
-  void write_tools(std::span<const ToolMotion> motions, const std::vector<Vec6>& twists, int only);
-  Vec6 solve_twist(Transfer& transfer, std::span<const ToolMotion> motions, std::vector<Vec6>& twists, std::size_t at);
-  void book(const Transfer& transfer, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) const;
+  void find_candidates(const BlockTable& table, std::vector<std::array<int, 2>>& nodes,
+                       std::vector<std::array<int, 2>>& homes) const;
+  void upload_frame();
+  void append_tool(std::size_t tool, std::vector<float>& words) const;
   template <class... Tail>
-  void launch(device::Kernel& kernel, Transfer& transfer, const Tail&... tail);
+  void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
 
   device::Device& device_;
   double cell_;
@@ -88,17 +85,16 @@ class Contact {
   std::vector<Tool> tools_;
   std::vector<ToolMotion> motions_;
   device::Program shell_program_, contact_program_;
-  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, apply_kernel_;
+  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
   std::vector<std::uint8_t> near_homes_;
   std::vector<int> near_slot_, near_home_list_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;
   std::array<float, 5> reach_{};
-  device::Buffer<float> triangles_, rims_, half_thickness_, tools_buffer_, sums_, shell_, after0_, after1_, moved_;
+  device::Buffer<float> frame_, sums_, shell_, books_;
   device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
-      crossed_;
-  device::Buffer<std::array<std::int32_t, 4>> windows_;
-  int rim_count_ = 0;
+      touched_;
+  int first_rim_ = 0, first_tool_ = 0;  ///< float4 numbers in the frame
 };
 
 }  // namespace navvy::soil

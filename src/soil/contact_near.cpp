@@ -20,25 +20,23 @@ void put(std::vector<float>& out, const Vec3& v, float w) {
 
 int floor_div(double cells) { return static_cast<int>(std::floor(cells / kBlockCells)); }
 
-/// Adds `triangle` to the list of every block of `index` whose box [low, high] (cells from its corner) meets the box.
+/// Adds (block, triangle) for every block of `index` whose box [low, high] (cells from its corner) meets the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,
-           std::vector<std::vector<int>>& lists) {
-  BlockKey from, to;
-  from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1, floor_div(box_low.z() - high) + 1};
-  to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low), floor_div(box_high.z() - low)};
+           std::vector<std::array<int, 2>>& pairs) {
+  const BlockKey from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1,
+                         floor_div(box_low.z() - high) + 1};
+  const BlockKey to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low), floor_div(box_high.z() - low)};
   for (int z = from.z; z <= to.z; ++z)
     for (int y = from.y; y <= to.y; ++y)
       for (int x = from.x; x <= to.x; ++x) {
         const int block = index.find({x, y, z});
-        if (block < 0) continue;
-        std::vector<int>& list = lists[static_cast<std::size_t>(block)];
-        if (list.empty() || list.back() != triangle) list.push_back(triangle);
+        if (block >= 0) pairs.push_back({block, triangle});
       }
 }
 
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+void sort_unique(std::vector<std::array<int, 2>>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace
@@ -71,12 +69,12 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     }
     list_near(table);
   }
-  if (nodes_.count > 0) upload_triangles();
+  if (nodes_.count > 0) upload_frame();
   return again;
 }
 
-void Contact::find_candidates(const BlockTable& table, std::vector<std::vector<int>>& nodes,
-                              std::vector<std::vector<int>>& homes) const {
+void Contact::find_candidates(const BlockTable& table, std::vector<std::array<int, 2>>& nodes,
+                              std::vector<std::array<int, 2>>& homes) const {
   const double far = settings_.band + settings_.margin;
   for (const Tool& tool : tools_) {
     if (!tool.listed) continue;
@@ -94,49 +92,54 @@ void Contact::find_candidates(const BlockTable& table, std::vector<std::vector<i
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
     }
   }
-  for (auto& list : nodes) sort_unique(list);
-  for (auto& list : homes) sort_unique(list);
+  sort_unique(nodes);
+  sort_unique(homes);
 }
 
 void Contact::list_near(const BlockTable& table) {
-  std::vector<std::vector<int>> node_lists(table.active.size()), home_lists(table.homes.size());
-  find_candidates(table, node_lists, home_lists);
+  std::vector<std::array<int, 2>> node_pairs, home_pairs;
+  find_candidates(table, node_pairs, home_pairs);
   near_slot_.assign(table.active.size(), -1);
   near_homes_.assign(table.homes.size(), 0);
   near_home_list_.clear();
   near_keys_.clear();
-  Rows node_rows, home_rows;
-  std::vector<std::int32_t> near_list;
-  for (std::size_t b = 0; b < table.active.size(); ++b) {
-    if (node_lists[b].empty()) continue;
-    near_slot_[b] = static_cast<int>(near_list.size());
-    near_list.push_back(static_cast<std::int32_t>(b));
-    near_keys_.push_back(table.active[b]);
-    node_rows.first.push_back(static_cast<int>(node_rows.list.size()));
-    node_rows.list.insert(node_rows.list.end(), node_lists[b].begin(), node_lists[b].end());
+  // Compressed rows of candidate triangles per near block, in ascending order of blocks.
+  std::vector<std::int32_t> near_list, node_first, node_list, home_first, home_list;
+  for (const auto& [block, triangle] : node_pairs) {
+    const auto b = static_cast<std::size_t>(block);
+    if (near_slot_[b] < 0) {
+      near_slot_[b] = static_cast<int>(near_list.size());
+      near_list.push_back(block);
+      near_keys_.push_back(table.active[b]);
+      node_first.push_back(static_cast<std::int32_t>(node_list.size()));
+    }
+    node_list.push_back(triangle);
   }
-  node_rows.first.push_back(static_cast<int>(node_rows.list.size()));
+  node_first.push_back(static_cast<std::int32_t>(node_list.size()));
   nodes_.count = static_cast<int>(near_list.size());
+  if (nodes_.count == 0) return;
+  std::size_t next = 0;
   for (std::size_t h = 0; h < table.homes.size(); ++h) {
-    bool near = !home_lists[h].empty();
+    const std::size_t begin = next;
+    while (next < home_pairs.size() && home_pairs[next][0] == static_cast<int>(h)) ++next;
+    bool near = next > begin;
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
     if (!near) continue;
     near_homes_[h] = 1;
     near_home_list_.push_back(static_cast<int>(h));
-    home_rows.first.push_back(static_cast<int>(home_rows.list.size()));
-    home_rows.list.insert(home_rows.list.end(), home_lists[h].begin(), home_lists[h].end());
+    home_first.push_back(static_cast<std::int32_t>(home_list.size()));
+    for (std::size_t i = begin; i < next; ++i) home_list.push_back(home_pairs[i][1]);
   }
-  home_rows.first.push_back(static_cast<int>(home_rows.list.size()));
-  if (nodes_.count == 0) return;
+  home_first.push_back(static_cast<std::int32_t>(home_list.size()));
 
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
-  upload(device_, node_first_, node_rows.first);
-  upload(device_, node_candidates_, node_rows.list);
+  upload(device_, node_first_, node_first);
+  upload(device_, node_candidates_, node_list);
   upload(device_, home_list_, near_home_list_);
-  upload(device_, home_first_, home_rows.first);
-  upload(device_, home_candidates_, home_rows.list);
+  upload(device_, home_first_, home_first);
+  upload(device_, home_candidates_, home_list);
   const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_.split, nodes);
   ensure(device_, nodes_.before0, 4 * nodes);
@@ -145,16 +148,39 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, nodes_.friction, nodes);
   ensure(device_, node_tool_, nodes);
   ensure(device_, shell_, 8 * nodes);
-  ensure(device_, after0_, 4 * nodes);
-  ensure(device_, after1_, 4 * nodes);
+  ensure(device_, books_, 16 * nodes);
   ensure(device_, sums_, near_list.size() * CONTACT_SUMS);
-  ensure(device_, moved_, near_home_list_.size());
-  ensure(device_, crossed_, near_home_list_.size());
+  ensure(device_, touched_, near_list.size());
 }
 
-void Contact::upload_triangles() {
-  std::vector<float> words, rims, halves;
-  std::vector<std::array<std::int32_t, 4>> windows;
+void Contact::append_tool(std::size_t index, std::vector<float>& words) const {
+  const std::size_t at = words.size();
+  words.resize(at + TOOL_WORDS, 0.0f);
+  const Tool& tool = tools_[index];
+  const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
+  const Vec3 origin = to_grid(tool.X.translation()) - corner;
+  const std::int32_t window[3] = {tool.window.x, tool.window.y, tool.window.z};
+  words[at + TOOL_HALF] = static_cast<float>(tool.geometry->shell().half_thickness / cell_);
+  words[at + TOOL_ACTIVE] = tool.present ? 1.0f : 0.0f;
+  for (std::size_t a = 0; a < 3; ++a) {
+    words[at + TOOL_WINDOW + a] = std::bit_cast<float>(window[a]);
+    words[at + TOOL_ORIGIN + a] = static_cast<float>(origin[static_cast<int>(a)]);
+  }
+  for (const ToolMotion& motion : motions_) {
+    if (motion.tool != static_cast<int>(index)) continue;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto i = static_cast<int>(a);
+      words[at + TOOL_SPIN + a] = words[at + TOOL_START + a] = static_cast<float>(motion.w_WT[i]);
+      words[at + TOOL_SPEED + a] = words[at + TOOL_START + 3 + a] = static_cast<float>(motion.v_WT[i]);
+    }
+    for (int r = 0; r < 6; ++r)
+      for (int c = 0; c < 6; ++c)
+        words[at + TOOL_YIELD + static_cast<std::size_t>(6 * r + c)] = static_cast<float>(motion.inverse_mass(r, c));
+  }
+}
+
+void Contact::upload_frame() {
+  std::vector<float> words, rims, tools;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Tool& tool = tools_[t];
     const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
@@ -171,37 +197,26 @@ void Contact::upload_triangles() {
       put(rims, place(rim[0]), index);
       put(rims, R * (rim[1] - rim[0]) / cell_, 0.0f);
     }
-    halves.push_back(static_cast<float>(tool.geometry->shell().half_thickness / cell_));
-    windows.push_back({tool.window.x, tool.window.y, tool.window.z, 0});
+    append_tool(t, tools);
   }
-  rim_count_ = static_cast<int>(rims.size() / 8);
-  upload(device_, triangles_, words);
-  upload(device_, rims_, rims);
-  upload(device_, half_thickness_, halves);
-  upload(device_, windows_, windows);
+  first_rim_ = static_cast<int>(words.size() / 4);
+  words.insert(words.end(), rims.begin(), rims.end());
+  first_tool_ = static_cast<int>(words.size() / 4);
+  words.insert(words.end(), tools.begin(), tools.end());
+  upload(device_, frame_, words);
 }
 
-double Contact::classify(ParticleStore& store, Transfer& transfer, std::uint64_t& crossings) {
-  if (nodes_.count == 0) return 0;
+void Contact::classify(ParticleStore& store, Transfer& transfer) {
+  if (nodes_.count == 0) return;
   const auto band = static_cast<float>(settings_.band);
   nodes_kernel_
-      .args(nodes_.list, transfer.active_keys(), triangles_, windows_, node_first_, node_candidates_, rims_, rim_count_,
-            band, nodes_.split, node_tool_, shell_)
+      .args(nodes_.list, transfer.active_keys(), frame_, first_rim_, first_tool_, node_first_, node_candidates_, band,
+            nodes_.split, node_tool_, shell_)
       .enqueue(static_cast<std::size_t>(nodes_.count), 1);
-  const std::size_t homes = near_home_list_.size();
   particles_kernel_
-      .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_, windows_,
-            half_thickness_, home_first_, home_candidates_, band, static_cast<float>(settings_.longest_push), moved_,
-            crossed_)
-      .enqueue(homes, 1);
-  double farthest = 0;
-  const auto moved = moved_.map_read(0, homes);
-  const auto crossed = crossed_.map_read(0, homes);
-  for (std::size_t h = 0; h < homes; ++h) {
-    farthest = std::max(farthest, static_cast<double>(moved[h]));
-    crossings += static_cast<std::uint64_t>(crossed[h]);
-  }
-  return farthest;
+      .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), frame_, first_tool_,
+            home_first_, home_candidates_, band, static_cast<float>(settings_.longest_push), transfer.report())
+      .enqueue(near_home_list_.size(), 1);
 }
 
 void Contact::save(StateWriter& writer) const {

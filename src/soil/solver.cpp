@@ -129,19 +129,23 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
   }
   if (store.count() > 0) {
     {
-      StageClock clock(times, "shell");
-      drift += contact.classify(store, transfer, stats.shell_crossings);
-    }
-    {
-      StageClock clock(times, "contact");
+      StageClock clock(times, "queue");
+      contact.classify(store, transfer);
       transfer.scatter(store, contact.nodes(), dt, cell, world.gravity);
-      contact.solve(transfer, dt, impulses);
+      contact.solve(transfer, dt);
+      transfer.gather(store, contact.nodes(), dt, cell);
     }
-    StageClock clock(times, "particles");
-    const double speed = transfer.gather(store, contact.nodes(), dt, cell);
-    if (!(speed * dt / cell < 1 - kMostDrift / 4)) fail(speed);
-    drift += speed * dt / cell;
-    stats.max_speed = speed;
+    Transfer::Report report;
+    {
+      StageClock clock(times, "particles");
+      report = transfer.read_report(store.homes().size());
+    }
+    if (!(report.speed * dt / cell < 1 - kMostDrift / 4)) fail(report.speed);
+    drift += report.push + report.speed * dt / cell;
+    stats.max_speed = report.speed;
+    stats.shell_crossings += report.crossed;
+    StageClock clock(times, "books");
+    contact.book(impulses);
   }
   time += dt;
   ++stats.steps;

@@ -35,8 +35,7 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   upload(device_, active_keys_, keys);
   ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
   ensure(device_, velocity_, active_ * 4 * BLOCK_NODES);
-  ensure(device_, speed_, table.homes.size());
-  ensure(device_, bad_, table.homes.size());
+  ensure(device_, report_, table.homes.size() * REPORT_WORDS);
 }
 
 void Transfer::set_floor(const std::vector<float>& heights) { upload(device_, floor_, heights); }
@@ -47,7 +46,7 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
                                      0.0f};
   scatter_
-      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, bad_, dt_f, cell_f,
+      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, report_, dt_f, cell_f,
             static_cast<float>(std::min(1.0, dt / mixing_time())))
       .enqueue(store.homes().size(), 1);
   grid_.args(far_list_, around_, store.homes_buffer(), tiles_, floor_, velocity_, dv_f).enqueue(far_, 1);
@@ -58,20 +57,24 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
       .enqueue(static_cast<std::size_t>(near.count), 1);
 }
 
-double Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
-  const std::size_t homes = store.homes().size();
+void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
   gather_
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity_, near.velocity1, near.slot,
-            near.split, speed_, static_cast<float>(dt), static_cast<float>(cell))
-      .enqueue(homes, 1);
-  double fastest = 0;
-  const auto speed = speed_.map_read(0, homes);
-  const auto bad = bad_.map_read(0, homes);
+            near.split, report_, static_cast<float>(dt), static_cast<float>(cell))
+      .enqueue(store.homes().size(), 1);
+}
+
+Transfer::Report Transfer::read_report(std::size_t homes) const {
+  Report out;
+  const auto words = report_.map_read(0, homes * REPORT_WORDS);
   for (std::size_t h = 0; h < homes; ++h) {
-    fastest = std::max(fastest, static_cast<double>(speed[h]));
-    if (bad[h] != 0) fastest = std::numeric_limits<double>::infinity();
+    const float* at = words.data() + h * REPORT_WORDS;
+    out.speed = std::max(out.speed, static_cast<double>(at[REPORT_SPEED]));
+    if (at[REPORT_BAD] != 0) out.speed = std::numeric_limits<double>::infinity();
+    out.push = std::max(out.push, static_cast<double>(at[REPORT_PUSH]));
+    out.crossed += static_cast<std::uint64_t>(at[REPORT_CROSSED]);
   }
-  return fastest;
+  return out;
 }
 
 }  // namespace navvy::soil

@@ -34,10 +34,18 @@ class Transfer {
 
   /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in near ones.
   void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity);
-  /// Gather and motion. Waits. Returns the largest velocity component [m/s]; infinite when a value was not finite.
-  double gather(ParticleStore& store, NearNodes& near, double dt, double cell);
+  /// Queues gather and motion.
+  void gather(ParticleStore& store, NearNodes& near, double dt, double cell);
+  /// Largest values over the home blocks after a step; waits.
+  struct Report {
+    double speed = 0;  ///< velocity component [m/s]; infinite when a value was not finite
+    double push = 0;   ///< out of a plate [cells]
+    std::uint64_t crossed = 0;
+  };
+  Report read_report(std::size_t homes) const;
 
   device::Buffer<float>& velocity() { return velocity_; }
+  device::Buffer<float>& report() { return report_; }
   device::Buffer<float>& floor() { return floor_; }
   device::Buffer<std::array<std::int32_t, 4>>& active_keys() { return active_keys_; }
   std::size_t active() const { return active_; }
@@ -47,8 +55,8 @@ class Transfer {
   device::Program scatter_program_, grid_program_, gather_program_;
   device::Kernel scatter_, grid_, grid_near_, gather_;
   std::size_t active_ = 0, far_ = 0;
-  device::Buffer<float> tiles_, velocity_, floor_, speed_;
-  device::Buffer<std::int32_t> neighbours_, around_, far_list_, bad_;
+  device::Buffer<float> tiles_, velocity_, floor_, report_;
+  device::Buffer<std::int32_t> neighbours_, around_, far_list_;
   device::Buffer<std::array<std::int32_t, 4>> active_keys_;
 };
 
