@@ -24,8 +24,8 @@ struct JointInput {
 
 /// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering.
 struct DriveInput {
-  double speed = 0;  ///< forward [m/s]
-  double steer = 0;  ///< bicycle angle at the middle of the front axle, positive to the left [rad]
+  double speed = 0;   ///< forward [m/s]
+  double steer = 0;   ///< bicycle angle at the middle of the front axle, positive to the left [rad]
   bool brake = true;  ///< hold the place
 };
 
@@ -77,6 +77,8 @@ class Engine {
   virtual int add_machine(const scene::Machine& machine, const Pose& X_WM) = 0;
   virtual int machine_count() const = 0;
 
+  /// Until commanded, a joint holds its initial position (wheels of a machine without a drive and ball joints turn
+  /// freely). A wheel's or steering joint taken by set_joint is the drive's again with the next set_drive.
   virtual void set_joint(int machine, int joint, const JointInput& input) = 0;
   virtual void set_drive(int machine, const DriveInput& input) = 0;
 
@@ -91,7 +93,8 @@ class Engine {
   virtual void step(double dt, const GroundQuery& ground) = 0;
   /// Heights for contacts of rigid bodies (not wheels): a dense patch, x fastest, node (0,0) at `corner` [m]. Called
   /// again whenever ground changed or the machine nears the patch's edge.
-  virtual void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner, const std::vector<float>& height) = 0;
+  virtual void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner,
+                                const std::vector<float>& height) = 0;
 
   virtual JointState joint(int machine, int joint) const = 0;
   virtual LinkState link(int machine, int link) const = 0;
@@ -103,6 +106,11 @@ class Engine {
   virtual double work(int machine) const = 0;
   /// Sum of ground impulses (tyres and contacts) on a machine in the last step [N s].
   virtual Vec3 ground_impulse(int machine) const = 0;
+  /// Sum of all impulses of apply_impulse and add_force on a machine since the start [N s].
+  virtual Vec3 external_impulse(int machine) const {
+    (void)machine;
+    return Vec3::Zero();
+  }
 
   virtual void hash(StateHash& hash) const = 0;
   virtual void save(StateWriter& writer) const = 0;

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/body.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "vehicle/bullet/convert.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::vehicle {
+namespace {
+
+using JointType = scene::Joint::Type;
+
+[[noreturn]] void refuse(const std::string& element, const std::string& value, const std::string& rule) {
+  Fault fault;
+  fault.element = element;
+  fault.value = value;
+  fault.rule = rule;
+  throw InputError(fault);
+}
+
+/// Frame at the centre of mass along the principal axes; `moments` gets the principal moments.
+Pose principal_frame(const scene::Link& link, Vec3& moments) {
+  Pose X = Pose::Identity();
+  X.translation() = link.p_LCom;
+  if (link.inertia.isDiagonal(1e-12)) {
+    moments = link.inertia.diagonal();
+    return X;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(link.inertia);
+  moments = solver.eigenvalues();
+  Mat3 R = solver.eigenvectors();
+  if (R.determinant() < 0) R.col(0) = -R.col(0);
+  X.linear() = R;
+  return X;
+}
+
+}  // namespace
+
+TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
+  if (machine.links.empty()) refuse("machine[" + machine.name + "]", "", "needs at least one link");
+  build(machine);
+  const Pose X_WI = X_WM * machine.links[0].X_ML * X_LI_[0];
+  body_->setBasePos(to_bt(Vec3(X_WI.translation())));
+  body_->setWorldToBaseRot(to_bt(Mat3(X_WI.linear())).inverse());
+  for (std::size_t j = 0; j < machine.joints.size(); ++j) set_position(static_cast<int>(j), machine.joints[j].initial);
+}
+
+void TreeBody::build(const scene::Machine& machine) {
+  const std::size_t links = machine.links.size();
+  bullet_of_link_.assign(links, -2);
+  bullet_of_joint_.assign(machine.joints.size(), -1);
+  bullet_of_link_[0] = -1;
+  X_LI_.resize(links);
+  mass_.resize(links);
+  inertia_.resize(links);
+  bool fixed = machine.fixed_base;
+  std::vector<Vec3> moments(links);
+  for (std::size_t i = 0; i < links; ++i) {
+    const scene::Link& link = machine.links[i];
+    X_LI_[i] = principal_frame(link, moments[i]);
+    mass_[i] = link.mass;
+    inertia_[i] = link.inertia;
+    if (!(link.mass > 0) || !(moments[i].minCoeff() > 0))
+      refuse("link[" + link.name + "]", std::to_string(link.mass), "a moving link needs mass and inertia above zero");
+  }
+  // Outward from the base, in the order of the joints.
+  std::vector<int> order;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      const scene::Joint& joint = machine.joints[j];
+      if (joint.parent < 0) {
+        fixed = fixed || (joint.type == JointType::kFixed && joint.child == 0);
+        continue;
+      }
+      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2) continue;
+      bullet_of_link_[index(joint.child)] = bullet_of_joint_[j] = static_cast<int>(order.size());
+      order.push_back(static_cast<int>(j));
+      grown = true;
+    }
+  }
+  for (std::size_t i = 0; i < links; ++i)
+    if (bullet_of_link_[i] == -2)
+      refuse("link[" + machine.links[i].name + "]", "", "no joint connects this link to the base");
+
+  body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]), fixed, false);
+  link_of_bullet_.assign(order.size(), 0);
+  joint_of_bullet_ = order;
+  pivot_I_.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    link_of_bullet_[k] = machine.joints[index(order[k])].child;
+    add_joint(machine, order[k], static_cast<int>(k));
+  }
+  body_->finalizeMultiDof();
+  body_->setHasSelfCollision(false);
+  body_->setCanSleep(false);
+  body_->setLinearDamping(0);
+  body_->setAngularDamping(0);
+  body_->setUseGyroTerm(true);
+  body_->setMaxCoordinateVelocity(1e9);
+  body_->setMaxAppliedImpulse(1e12);
+  outward_.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (int up = static_cast<int>(k); up >= 0; up = body_->getParent(up))
+      outward_[index(up)].push_back(link_of_bullet_[k]);
+  frames_.resize(links);
+  for (std::size_t i = 0; i < links; ++i)
+    if (!fixed || i > 0) total_mass_ += mass_[i];
+}
+
+void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
+  const scene::Joint& joint = machine.joints[index(j)];
+  const std::size_t child = index(joint.child), parent = index(joint.parent);
+  const Pose X_PI = X_LI_[parent].inverse();
+  const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];  // child's frame in the parent's
+  const Vec3 pivot_c = X_LI_[child].inverse() * Vec3(joint.X_LcJ.translation());
+  const Vec3 axis_c = X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
+  pivot_I_[index(k)] = pivot_c;
+  const Vec3 pivot_p = X_IpIc * pivot_c;
+  const btQuaternion turn = to_bt(Mat3(X_IpIc.linear())).inverse();
+  const int up = bullet_of_link_[parent];
+  Vec3 moments;
+  principal_frame(machine.links[child], moments);
+  const btVector3 inertia = to_bt(moments), e = to_bt(pivot_p), d = to_bt(Vec3(-pivot_c));
+  const double mass = mass_[child];
+  switch (joint.type) {
+    case JointType::kFixed:
+      body_->setupFixed(k, mass, inertia, up, turn, e, d);
+      break;
+    case JointType::kRevolute:
+      body_->setupRevolute(k, mass, inertia, up, turn, to_bt(axis_c), e, d, true);
+      break;
+    case JointType::kPrismatic:
+      body_->setupPrismatic(k, mass, inertia, up, turn, to_bt(axis_c), e, d, true);
+      break;
+    case JointType::kBall:
+      body_->setupSpherical(k, mass, inertia, up, turn, e, d, true);
+      break;
+  }
+}
+
+double TreeBody::position(int joint) const {
+  const int k = bullet_of_joint_[index(joint)];
+  return k >= 0 && body_->getLink(k).m_dofCount == 1 ? body_->getJointPos(k) : 0;
+}
+
+double TreeBody::velocity(int joint) const {
+  const int k = bullet_of_joint_[index(joint)];
+  return k >= 0 && body_->getLink(k).m_dofCount == 1 ? body_->getJointVel(k) : 0;
+}
+
+void TreeBody::set_position(int joint, double q) {
+  const int k = bullet_of_joint_[index(joint)];
+  if (k < 0 || body_->getLink(k).m_dofCount != 1) return;
+  body_->setJointPos(k, q);
+  moved();
+}
+
+void TreeBody::update_kinematics() const {
+  if (kinematics_valid_) return;
+  Frame& base = frames_[0];
+  base.X_WI.linear() = to_eigen(btMatrix3x3(body_->getWorldToBaseRot().inverse()));
+  base.X_WI.translation() = to_eigen(body_->getBasePos());
+  base.v_W = to_eigen(body_->getBaseVel());
+  base.w_W = to_eigen(body_->getBaseOmega());
+  for (int k = 0; k < body_->getNumLinks(); ++k) {
+    const int up = body_->getParent(k);
+    const Frame& p = frames_[up < 0 ? 0 : index(link_of_bullet_[index(up)])];
+    Frame& c = frames_[index(link_of_bullet_[index(k)])];
+    const Mat3 R_pc = to_eigen(btMatrix3x3(body_->getParentToLocalRot(k).inverse()));
+    const Mat3 R = p.X_WI.linear() * R_pc;
+    const Vec3 r = R * to_eigen(body_->getRVector(k));
+    c.X_WI.linear() = R;
+    c.X_WI.translation() = p.X_WI.translation() + r;
+    c.w_W = p.w_W;
+    c.v_W = p.v_W + p.w_W.cross(r);
+    const btMultibodyLink& link = body_->getLink(k);
+    for (int d = 0; d < link.m_dofCount; ++d) {
+      const double qd = body_->getJointVelMultiDof(k)[d];
+      c.w_W += qd * (R * to_eigen(link.getAxisTop(d)));
+      c.v_W += qd * (R * to_eigen(link.getAxisBottom(d)));
+    }
+  }
+  kinematics_valid_ = true;
+}
+
+void TreeBody::update_factors() const {
+  if (factors_valid_) return;
+  // A step of zero length refreshes the articulated inertias and moves nothing.
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_, false, false,
+                                                              false);
+  factors_valid_ = true;
+}
+
+LinkState TreeBody::link(int link) const {
+  update_kinematics();
+  const Frame& frame = frames_[index(link)];
+  LinkState state;
+  state.X_WL = frame.X_WI * X_LI_[index(link)].inverse();
+  state.w_WL = frame.w_W;
+  state.v_WL = frame.v_W + frame.w_W.cross(state.X_WL.translation() - frame.X_WI.translation());
+  return state;
+}
+
+Vec3 TreeBody::center(int link) const {
+  update_kinematics();
+  return frames_[index(link)].X_WI.translation();
+}
+
+Vec3 TreeBody::momentum() const {
+  update_kinematics();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    if (i > 0 || !body_->hasFixedBase()) sum += mass_[i] * frames_[i].v_W;
+  return sum;
+}
+
+Vec3 TreeBody::joint_origin(int joint) const {
+  update_kinematics();
+  const int k = bullet_of_joint_[index(joint)];
+  return frames_[index(link_of_bullet_[index(k)])].X_WI * pivot_I_[index(k)];
+}
+
+Vec3 TreeBody::joint_axis(int joint) const {
+  update_kinematics();
+  const int k = bullet_of_joint_[index(joint)];
+  const btMultibodyLink& link = body_->getLink(k);
+  const bool turns = link.m_jointType == btMultibodyLink::eRevolute;
+  const btVector3& axis = turns ? link.getAxisTop(0) : link.getAxisBottom(0);
+  return frames_[index(link_of_bullet_[index(k)])].X_WI.linear() * to_eigen(axis);
+}
+
+double TreeBody::outward_inertia(int joint) const {
+  const int k = bullet_of_joint_[index(joint)];
+  if (k < 0) return 0;
+  const bool turns = body_->getLink(k).m_jointType == btMultibodyLink::eRevolute;
+  const Vec3 axis = joint_axis(joint), origin = joint_origin(joint);
+  double sum = 0;
+  for (const int link : outward_[index(k)]) {
+    if (!turns) {
+      sum += mass_[index(link)];
+      continue;
+    }
+    const Frame& frame = frames_[index(link)];
+    const Mat3 R = frame.X_WI.linear() * X_LI_[index(link)].linear().transpose();
+    const Vec3 axis_L = R.transpose() * axis;
+    sum += axis_L.dot(inertia_[index(link)] * axis_L) +
+           mass_[index(link)] * axis.cross(frame.X_WI.translation() - origin).squaredNorm();
+  }
+  return sum;
+}
+
+void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W) {
+  const Vec3 moment = m_W + (p_W - center(link)).cross(f_W);
+  const int k = bullet_of_link_[index(link)];
+  if (k < 0) {
+    body_->addBaseForce(to_bt(f_W));
+    body_->addBaseTorque(to_bt(moment));
+  } else {
+    body_->addLinkForce(k, to_bt(f_W));
+    body_->addLinkTorque(k, to_bt(moment));
+  }
+}
+
+void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
+  update_kinematics();
+  update_factors();
+  const std::size_t size = 6 + index(body_->getNumDofs());
+  // Virtual work of the impulse on each freedom.
+  std::vector<double> force(size, 0.0);
+  const Vec3 base = L_W + (p_W - frames_[0].X_WI.translation()).cross(J_W);
+  for (int a = 0; a < 3; ++a) {
+    force[index(a)] = base[a];
+    force[index(3 + a)] = J_W[a];
+  }
+  for (int k = bullet_of_link_[index(link)]; k >= 0; k = body_->getParent(k)) {
+    const Frame& frame = frames_[index(link_of_bullet_[index(k)])];
+    const Vec3 moment = L_W + (p_W - frame.X_WI.translation()).cross(J_W);
+    const btMultibodyLink& part = body_->getLink(k);
+    for (int d = 0; d < part.m_dofCount; ++d)
+      force[index(6 + part.m_dofOffset + d)] = (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
+                                               (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
+  }
+  delta.assign(size, 0.0);
+  body_->calcAccelerationDeltasMultiDof(force.data(), delta.data(), scratch_r_, scratch_v_);
+}
+
+void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) {
+  std::vector<double> delta;
+  respond(link, J_W, L_W, p_W, delta);
+  body_->applyDeltaVeeMultiDof(delta.data(), 1);
+  kinematics_valid_ = false;  // velocities; the articulated inertia depends on the pose only
+}
+
+Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
+  const Frame& frame = frames_[index(link)];
+  const Vec3 origin = (frame.X_WI * X_LI_[index(link)].inverse()).translation();
+  const Vec3 w0(velocity[0], velocity[1], velocity[2]), v0(velocity[3], velocity[4], velocity[5]);
+  Vec3 w = w0, v = v0 + w0.cross(origin - frames_[0].X_WI.translation());
+  for (int k = bullet_of_link_[index(link)]; k >= 0; k = body_->getParent(k)) {
+    const Frame& at = frames_[index(link_of_bullet_[index(k)])];
+    const btMultibodyLink& part = body_->getLink(k);
+    for (int d = 0; d < part.m_dofCount; ++d) {
+      const double rate = velocity[index(6 + part.m_dofOffset + d)];
+      const Vec3 top = rate * (at.X_WI.linear() * to_eigen(part.getAxisTop(d)));
+      w += top;
+      v += rate * (at.X_WI.linear() * to_eigen(part.getAxisBottom(d))) + top.cross(origin - at.X_WI.translation());
+    }
+  }
+  Vec6 twist;
+  twist << w, v;
+  return twist;
+}
+
+Mat6 TreeBody::inverse_mass(int link) const {
+  update_kinematics();
+  const Vec3 origin = this->link(link).X_WL.translation();
+  Mat6 result;
+  std::vector<double> delta;
+  for (int c = 0; c < 6; ++c) {
+    const Vec3 unit = Vec3::Unit(c % 3);
+    respond(link, c < 3 ? Vec3::Zero() : unit, c < 3 ? unit : Vec3::Zero(), origin, delta);
+    result.col(c) = twist_of(link, delta);
+  }
+  return 0.5 * (result + result.transpose());  // symmetric up to rounding
+}
+
+void TreeBody::step_velocities(const Vec3& gravity, double dt) {
+  body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
+  for (int k = 0; k < body_->getNumLinks(); ++k) body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
+                                                              false);
+  kinematics_valid_ = false;
+}
+
+void TreeBody::step_positions(double dt) {
+  body_->processDeltaVeeMultiDof2();
+  body_->stepPositionsMultiDof(dt);
+  body_->clearConstraintForces();
+  body_->clearForcesAndTorques();
+  moved();
+}
+
+void TreeBody::place_colliders() {
+  btAlignedObjectArray<btQuaternion> turns;
+  btAlignedObjectArray<btVector3> places;
+  body_->updateCollisionObjectWorldTransforms(turns, places);
+}
+
+void TreeBody::hash(StateHash& hash) const {
+  const btVector3 p = body_->getBasePos();
+  const btQuaternion q = body_->getWorldToBaseRot();
+  for (int a = 0; a < 3; ++a) hash.value(p[a]);
+  for (int a = 0; a < 4; ++a) hash.value(q[a]);
+  for (int k = 0; k < body_->getNumLinks(); ++k)
+    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) hash.value(body_->getJointPosMultiDof(k)[i]);
+  for (int i = 0; i < 6 + body_->getNumDofs(); ++i) hash.value(body_->getVelocityVector()[i]);
+}
+
+void TreeBody::save(StateWriter& writer) const {
+  const btVector3 p = body_->getBasePos();
+  const btQuaternion q = body_->getWorldToBaseRot();
+  for (int a = 0; a < 3; ++a) writer.value(p[a]);
+  for (int a = 0; a < 4; ++a) writer.value(q[a]);
+  for (int k = 0; k < body_->getNumLinks(); ++k)
+    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) writer.value(body_->getJointPosMultiDof(k)[i]);
+  for (int i = 0; i < 6 + body_->getNumDofs(); ++i) writer.value(body_->getVelocityVector()[i]);
+}
+
+void TreeBody::load(StateReader& reader) {
+  btVector3 p(0, 0, 0), w(0, 0, 0), v(0, 0, 0);
+  btQuaternion q;
+  for (int a = 0; a < 3; ++a) p[a] = reader.value<double>();
+  for (int a = 0; a < 4; ++a) q[a] = reader.value<double>();
+  body_->setBasePos(p);
+  body_->setWorldToBaseRot(q);
+  for (int k = 0; k < body_->getNumLinks(); ++k) {
+    btScalar position[7] = {};
+    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) position[i] = reader.value<double>();
+    body_->setJointPosMultiDof(k, position);
+  }
+  for (int a = 0; a < 3; ++a) w[a] = reader.value<double>();
+  for (int a = 0; a < 3; ++a) v[a] = reader.value<double>();
+  body_->setBaseOmega(w);
+  body_->setBaseVel(v);
+  for (int k = 0; k < body_->getNumLinks(); ++k) {
+    btScalar rate[6] = {};
+    for (int d = 0; d < body_->getLink(k).m_dofCount; ++d) rate[d] = reader.value<double>();
+    body_->setJointVelMultiDof(k, rate);
+  }
+  body_->clearForcesAndTorques();
+  body_->clearConstraintForces();
+  moved();
+  place_colliders();
+}
+
+}  // namespace navvy::vehicle

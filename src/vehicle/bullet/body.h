@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// One machine as a Featherstone tree of Bullet, seen in the machine's own link frames.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "scene/machine.h"
+#include "vehicle/engine.h"
+
+namespace navvy::vehicle {
+
+/// Owns the btMultiBody of a machine.
+///
+/// Bullet wants link frames at the centres of mass along the principal axes; this class keeps that to itself. It knows
+/// kinematics and momentum of the tree and answers impulses; it commands nothing.
+class TreeBody {
+ public:
+  /// @throws InputError for a joint that is no tree, or a moving link without mass or inertia.
+  TreeBody(const scene::Machine& machine, const Pose& X_WM);
+  TreeBody(const TreeBody&) = delete;
+  TreeBody& operator=(const TreeBody&) = delete;
+
+  btMultiBody& multibody() { return *body_; }
+  /// Bullet's link of a joint; -1: none (a joint of the base to the world).
+  int bullet_of_joint(int joint) const { return bullet_of_joint_[index(joint)]; }
+  int bullet_of_link(int link) const { return bullet_of_link_[index(link)]; }
+  /// Pose of Bullet's frame of a link in the link.
+  const Pose& inertial_frame(int link) const { return X_LI_[index(link)]; }
+
+  double position(int joint) const;
+  double velocity(int joint) const;
+  void set_position(int joint, double q);
+
+  LinkState link(int link) const;
+  Vec3 center(int link) const;  ///< of mass, in W [m]
+  double mass(int link) const { return mass_[index(link)]; }
+  double total_mass() const { return total_mass_; }
+  bool fixed_base() const { return body_->hasFixedBase(); }
+  /// Of all moving parts [N s].
+  Vec3 momentum() const;
+  /// Origin [m] and axis of a joint in W.
+  Vec3 joint_origin(int joint) const;
+  Vec3 joint_axis(int joint) const;
+  /// Inertia [kg m2|kg] of everything outward of the joint, about or along its axis.
+  double outward_inertia(int joint) const;
+
+  /// Adds a force [N] with moment [N m] about p_W for the next step.
+  void add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W);
+  /// Changes velocities at once. Exact: the articulated inertia is that of the present pose.
+  void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W);
+  /// Inverse articulated mass at the link's origin, (angular, linear), W axes.
+  Mat6 inverse_mass(int link) const;
+
+  /// Gravity and added forces change the velocities by one explicit step.
+  void step_velocities(const Vec3& gravity, double dt);
+  /// The solver's velocity changes, then positions.
+  void step_positions(double dt);
+  void moved() { kinematics_valid_ = factors_valid_ = false; }
+  void place_colliders();
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct Frame {
+    Pose X_WI = Pose::Identity();
+    Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();  // of the centre of mass
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void build(const scene::Machine& machine);
+  void add_joint(const scene::Machine& machine, int joint, int bullet);
+  void update_kinematics() const;
+  void update_factors() const;
+  /// Generalised velocity change by an impulse.
+  void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const;
+  /// Velocity of a link's origin that belongs to a generalised velocity, (angular, linear).
+  Vec6 twist_of(int link, const std::vector<double>& velocity) const;
+
+  std::unique_ptr<btMultiBody> body_;
+  std::vector<int> bullet_of_joint_, bullet_of_link_, link_of_bullet_, joint_of_bullet_;
+  std::vector<Pose> X_LI_;
+  std::vector<double> mass_;
+  std::vector<Mat3> inertia_;
+  std::vector<std::vector<int>> outward_;  // links outward of each Bullet link, itself included
+  std::vector<Vec3> pivot_I_;              // joint origin in the child's Bullet frame
+  double total_mass_ = 0;
+  mutable bool kinematics_valid_ = false, factors_valid_ = false;
+  mutable std::vector<Frame> frames_;  // by link
+  mutable btAlignedObjectArray<btScalar> scratch_r_;
+  mutable btAlignedObjectArray<btVector3> scratch_v_;
+  mutable btAlignedObjectArray<btMatrix3x3> scratch_m_;
+};
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/servo.h"
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks for
+
+}  // namespace
+
+ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper)
+    : btMultiBodyConstraint(body, body, link, body->getLink(link).m_parent, 3, true, kConstraintType),
+      has_limits_(has_limits),
+      lower_(lower),
+      upper_(upper) {
+  finalizeMultiDof();
+}
+
+void ServoConstraint::finalizeMultiDof() {
+  allocateJacobiansMultiDof();
+  const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
+  jacobianA(0)[offset] = 1;
+  jacobianA(1)[offset] = 1;
+  jacobianA(2)[offset] = -1;
+  m_numDofsFinalized = m_jacSizeBoth;
+}
+
+void ServoConstraint::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
+                              btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  btMultiBodySolverConstraint& c = rows.expandNonInitializing();
+  c.m_orgConstraint = this;
+  c.m_orgDofIndex = row;
+  c.m_multiBodyA = m_bodyA;
+  c.m_multiBodyB = m_bodyB;
+  c.m_linkA = m_linkA;
+  c.m_linkB = m_linkB;
+  const btVector3 zero(0, 0, 0);
+  c.m_contactNormal1 = c.m_contactNormal2 = zero;
+  c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
+  c.m_angularComponentA = c.m_angularComponentB = zero;
+  fillMultiBodyConstraint(c, data, jacobianA(row), jacobianB(row), zero, zero, zero, zero, 0, info, low, high, true, 1,
+                          false, velocity);
+}
+
+void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                                           const btContactSolverInfo& info) {
+  for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
+  if (low_ < high_) add_row(0, velocity_, low_, high_, rows, data, info);
+  if (!has_limits_) return;
+  // A limit acts from the step in which the joint could reach it: it may use up the gap, and leaves an overrun slowly.
+  const double dt = info.m_timeStep, q = m_bodyA->getJointPos(m_linkA);
+  const double qd = m_bodyA->getJointVel(m_linkA);
+  const double gap_low = q - lower_, gap_high = upper_ - q;
+  const double near = 2 * dt * (qd < 0 ? -qd : qd) + 1e-3;
+  const auto allowed = [dt](double gap) { return gap > 0 ? -gap / dt : -0.1 * gap / dt; };
+  if (gap_low < near) add_row(1, allowed(gap_low), 0, 1e12, rows, data, info);
+  if (gap_high < near) add_row(2, allowed(gap_high), 0, 1e12, rows, data, info);
+}
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/joint_servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr double kGain = 20;         // [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
+constexpr double kValveTime = 0.15;  // [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
+constexpr double kSaturated = 0.999;
+
+}  // namespace
+
+double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const {
+  double wanted = input_.target;
+  if (input_.mode == JointMode::kPosition) {
+    const double target = joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
+    const double error = target - q, speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
+    double brake = 0.4 * speed_limit / kValveTime;
+    const double effort = std::min(limits.effort_positive, limits.effort_negative);
+    if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
+    const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error), std::sqrt(2 * brake * std::abs(error)));
+    wanted = std::copysign(speed, error);
+  }
+  return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
+}
+
+JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
+                                      double dt) {
+  Demand out;
+  if (input_.mode == JointMode::kFree || input_.mode == JointMode::kEffort) {
+    // Only the bearing's friction holds it.
+    out.effort_low = -joint.friction;
+    out.effort_high = joint.friction;
+    if (input_.mode == JointMode::kEffort)
+      out.feed_forward = std::clamp(input_.target, -limits.effort_negative, limits.effort_positive);
+    velocity_ = qd;
+    holding_ = false;
+    return out;
+  }
+  wanted_ = wanted_speed(joint, limits, q, dt);
+  const double from = saturated_ ? qd : velocity_;
+  const double slew = dt / kValveTime * std::max(limits.speed_positive, limits.speed_negative);
+  velocity_ = std::clamp(wanted_, from - slew, from + slew);
+  out.velocity = velocity_;
+  if (input_.mode == JointMode::kVelocity) {
+    // A velocity of zero is no brake by itself: what solver errors and loads shift is driven back.
+    if (!holding_ || saturated_) held_ = q;
+    holding_ = true;
+    held_ += velocity_ * dt;
+    out.velocity += std::min(5.0, 0.2 / dt) * (held_ - q - velocity_ * dt);
+  } else {
+    holding_ = false;
+  }
+  out.effort_low = -limits.effort_negative;
+  out.effort_high = limits.effort_positive;
+  return out;
+}
+
+void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
+                        double dt) {
+  (void)q;
+  const bool driven = input_.mode == JointMode::kPosition || input_.mode == JointMode::kVelocity;
+  saturated_ = driven && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
+  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached.
+  const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
+  const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);
+  const bool stuck = saturated_ && asked && effort * wanted_ > 0 && qd * wanted_ < 0.1 * wanted_ * wanted_;
+  stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
+}
+
+void JointServo::hash(StateHash& hash) const {
+  hash.value(input_.mode);
+  for (const double v : {input_.target, velocity_, held_, wanted_, stall_time_}) hash.value(v);
+  hash.value(saturated_);
+  hash.value(holding_);
+}
+
+void JointServo::save(StateWriter& writer) const {
+  writer.value(input_.mode);
+  for (const double v : {input_.target, velocity_, held_, wanted_, stall_time_}) writer.value(v);
+  writer.value(saturated_);
+  writer.value(holding_);
+}
+
+void JointServo::load(StateReader& reader) {
+  input_.mode = reader.value<JointMode>();
+  for (double* v : {&input_.target, &velocity_, &held_, &wanted_, &stall_time_}) *v = reader.value<double>();
+  saturated_ = reader.value<bool>();
+  holding_ = reader.value<bool>();
+}
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What velocity a joint's servo asks for, so that it stops where it is told within its limits. Knows no engine.
+#pragma once
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "vehicle/engine.h"
+
+namespace navvy::vehicle {
+
+/// Present bounds of a joint; magnitudes.
+struct JointLimits {
+  double effort_positive = 1e9, effort_negative = 1e9;  ///< [N m|N]
+  double speed_positive = 1e9, speed_negative = 1e9;    ///< [rad/s|m/s]
+  double inertia = 0;                                   ///< of all that hangs on the joint, 0: unknown [kg m2|kg]
+};
+
+/// A valve and its controller: turns a command into a velocity that the actuator is to reach in this step.
+///
+/// The valve opens fully within 0.15 s; near its target a position servo slows down so that half its effort can stop
+/// the load. With velocity zero it holds the place it stopped at.
+class JointServo {
+ public:
+  struct Demand {
+    double velocity = 0;                     ///< to reach [rad/s|m/s]
+    double effort_low = 0, effort_high = 0;  ///< bounds of the effort, signed [N m|N]
+    double feed_forward = 0;                 ///< effort to apply as it is (kEffort) [N m|N]
+  };
+
+  void set(const JointInput& input) { input_ = input; }
+  const JointInput& input() const { return input_; }
+
+  Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt);
+  /// Tells what came of it: effort applied and velocity reached.
+  void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd, double dt);
+  bool stalled() const { return stall_time_ > kStallTime; }
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  static constexpr double kStallTime = 0.05;  // [s] shorter is the solver's own settling
+  double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const;
+
+  JointInput input_;
+  double velocity_ = 0;  // valve position, as velocity asked for in the last step
+  double held_ = 0;      // where the joint is to be by velocity commands
+  double wanted_ = 0;    // before the valve
+  double stall_time_ = 0;
+  bool saturated_ = false, holding_ = false;
+};
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines moved by their commands alone: joints go where they are told at limited rates, nothing pushes back.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "vehicle/drive_train.h"
+#include "vehicle/engine.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+struct Body {
+  scene::Machine machine;
+  Pose X_WB = Pose::Identity();  // of links[0]
+  Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();
+  std::vector<JointInput> input;
+  std::vector<double> q, qd;
+  DriveInput drive;
+  std::vector<LinkState> links;
+};
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+class KinematicEngine final : public Engine {
+ public:
+  int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
+    if (machine.links.empty()) {
+      Fault fault;
+      fault.element = "machine[" + machine.name + "]";
+      fault.rule = "needs at least one link";
+      throw InputError(fault);
+    }
+    Body body;
+    body.machine = machine;
+    body.X_WB = X_WM * machine.links[0].X_ML;
+    body.q.resize(machine.joints.size());
+    body.qd.assign(machine.joints.size(), 0);
+    for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+      body.q[j] = machine.joints[j].initial;
+      body.input.push_back({JointMode::kPosition, body.q[j]});
+    }
+    bodies_.push_back(std::move(body));
+    update_links(bodies_.back());
+    return machine_count() - 1;
+  }
+  int machine_count() const override { return static_cast<int>(bodies_.size()); }
+
+  void set_joint(int machine, int joint, const JointInput& input) override {
+    at(machine).input.at(index(joint)) = input;
+  }
+  void set_drive(int machine, const DriveInput& input) override { at(machine).drive = input; }
+  void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
+  void add_force(int, int, const Vec3&, const Vec3&) override {}
+
+  void step(double dt, const GroundQuery& ground) override {
+    if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    for (Body& body : bodies_) {
+      move_joints(body, dt);
+      if (body.machine.has_drive) move_base(body, ground, dt);
+      update_links(body);
+    }
+  }
+  void set_ground_patch(int, int, double, const Vec2&, const std::vector<float>&) override {}
+
+  JointState joint(int machine, int joint) const override {
+    const Body& body = at(machine);
+    const scene::Joint& about = body.machine.joints.at(index(joint));
+    JointState state;
+    state.position = body.q[index(joint)];
+    state.velocity = body.qd[index(joint)];
+    state.effort_limit = about.effort;
+    state.velocity_limit = about.velocity;
+    for (const scene::Cylinder& cylinder : body.machine.cylinders)
+      if (cylinder.joint == about.name)
+        state.cylinder_length = cylinder_geometry(body.machine, cylinder, state.position).length;
+    return state;
+  }
+  LinkState link(int machine, int link) const override { return at(machine).links.at(index(link)); }
+  WheelState wheel(int machine, int wheel) const override {
+    const Body& body = at(machine);
+    const scene::Wheel& about = body.machine.wheels.at(index(wheel));
+    const int joint = body.machine.joint_index(about.joint);
+    WheelState state;
+    if (joint < 0) return state;
+    const scene::Joint& spin = body.machine.joints[index(joint)];
+    const LinkState& carrier = body.links[index(spin.parent)];
+    state.X_WWheel = carrier.X_WL * joint_pose(body.machine, spin, 0) * spin.X_LcJ;
+    state.v_W = carrier.v_WL + carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
+    state.spin = body.qd[index(joint)];
+    const int steer = body.machine.joint_index(about.steer_joint);
+    if (steer >= 0) state.steer = body.q[index(steer)];
+    return state;
+  }
+  /// Nothing can move it.
+  Mat6 inverse_mass(int, int) const override { return Mat6::Zero(); }
+  Vec3 momentum(int) const override { return Vec3::Zero(); }
+  double work(int) const override { return 0; }
+  Vec3 ground_impulse(int) const override { return Vec3::Zero(); }
+
+  void hash(StateHash& hash) const override {
+    for (const Body& body : bodies_) visit(const_cast<Body&>(body), [&](auto& v) { hash.value(v); });
+  }
+  void save(StateWriter& writer) const override {
+    writer.begin("kinematic", kVersion);
+    writer.value(static_cast<std::uint32_t>(bodies_.size()));
+    for (const Body& body : bodies_) visit(const_cast<Body&>(body), [&](auto& v) { writer.value(v); });
+    writer.end();
+  }
+  void load(StateReader& reader) override {
+    reader.begin("kinematic", kVersion);
+    if (reader.value<std::uint32_t>() != bodies_.size())
+      throw SimulationError("vehicle: the snapshot holds another number of kinematic machines");
+    for (Body& body : bodies_) {
+      visit(body, [&](auto& v) { v = reader.value<std::decay_t<decltype(v)>>(); });
+      update_links(body);
+    }
+    reader.end();
+  }
+
+ private:
+  Body& at(int machine) { return bodies_.at(index(machine)); }
+  const Body& at(int machine) const { return bodies_.at(index(machine)); }
+
+  /// Every number of a body's state in a fixed order.
+  template <class Visit>
+  static void visit(Body& body, Visit visit) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c) visit(body.X_WB.matrix()(r, c));
+    for (int i = 0; i < 3; ++i) visit(body.v_W[i]);
+    for (int i = 0; i < 3; ++i) visit(body.w_W[i]);
+    for (std::size_t j = 0; j < body.q.size(); ++j) {
+      visit(body.q[j]);
+      visit(body.qd[j]);
+      visit(body.input[j].mode);
+      visit(body.input[j].target);
+    }
+    visit(body.drive.speed);
+    visit(body.drive.steer);
+    visit(body.drive.brake);
+  }
+
+  static void move_joints(Body& body, double dt) {
+    for (std::size_t j = 0; j < body.q.size(); ++j) {
+      const scene::Joint& joint = body.machine.joints[j];
+      double wanted = body.q[j];
+      if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
+      if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
+      if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
+      const double most = joint.velocity * dt;
+      const double next = std::clamp(wanted, body.q[j] - most, body.q[j] + most);
+      body.qd[j] = (next - body.q[j]) / dt;
+      body.q[j] = next;
+    }
+  }
+
+  /// Rolls without slip along the bicycle's arc, standing on the ground under its middle.
+  void move_base(Body& body, const GroundQuery& ground, double dt) const {
+    const scene::Drive& drive = body.machine.drive;
+    const double speed = body.drive.brake ? 0 : std::clamp(body.drive.speed, -drive.max_speed, drive.max_speed);
+    const double most = max_bicycle_angle(drive);
+    const double bicycle = std::clamp(body.drive.steer, -most, most);
+    const SteerAngles steer = ackermann(drive, bicycle);
+    const double rate = speed * std::tan(bicycle) / drive.wheelbase;
+    for (const scene::Wheel& wheel : body.machine.wheels) {
+      const int spin = body.machine.joint_index(wheel.joint), turn = body.machine.joint_index(wheel.steer_joint);
+      if (spin >= 0) {
+        body.qd[index(spin)] = speed / wheel.radius;
+        body.q[index(spin)] += dt * body.qd[index(spin)];
+        body.input[index(spin)] = {JointMode::kFree, 0};
+      }
+      if (turn < 0) continue;
+      const scene::Joint& joint = body.machine.joints[index(turn)];
+      const bool left = body.machine.links[index(joint.child)].X_ML.translation().y() > 0;
+      body.input[index(turn)] = {JointMode::kPosition, left ? steer.left : steer.right};
+    }
+    const double yaw = std::atan2(body.X_WB.linear()(1, 0), body.X_WB.linear()(0, 0));
+    const double mean = yaw + 0.5 * rate * dt;
+    const Vec3 p = body.X_WB.translation();
+    Vec3 next(p.x() + dt * speed * std::cos(mean), p.y() + dt * speed * std::sin(mean), 0);
+    next.z() = ground.height(next.x(), next.y());
+    body.v_W = (next - p) / dt;
+    body.w_W = Vec3(0, 0, rate);
+    body.X_WB = make_pose(next.x(), next.y(), next.z(), 0, 0, yaw + rate * dt);
+  }
+
+  static void update_links(Body& body) {
+    const std::vector<Pose> poses = forward_kinematics(body.machine, body.X_WB, body.q);
+    body.links.assign(poses.size(), LinkState{});
+    std::vector<char> known(poses.size(), 0);
+    known[0] = 1;
+    body.links[0] = {body.X_WB, body.v_W, body.w_W};
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (std::size_t j = 0; j < body.machine.joints.size(); ++j) {
+        const scene::Joint& joint = body.machine.joints[j];
+        if (joint.parent < 0 || !known[index(joint.parent)] || known[index(joint.child)]) continue;
+        const LinkState& parent = body.links[index(joint.parent)];
+        LinkState& child = body.links[index(joint.child)];
+        child.X_WL = poses[index(joint.child)];
+        const Vec3 axis = (child.X_WL * joint.X_LcJ).linear() * joint.axis.normalized();
+        const Vec3 pivot = child.X_WL * Vec3(joint.X_LcJ.translation());
+        child.w_WL = parent.w_WL;
+        Vec3 v_pivot = parent.v_WL + parent.w_WL.cross(pivot - parent.X_WL.translation());
+        if (joint.type == scene::Joint::Type::kRevolute) child.w_WL += body.qd[j] * axis;
+        if (joint.type == scene::Joint::Type::kPrismatic) v_pivot += body.qd[j] * axis;
+        child.v_WL = v_pivot + child.w_WL.cross(child.X_WL.translation() - pivot);
+        known[index(joint.child)] = 1;
+        grown = true;
+      }
+    }
+  }
+
+  std::vector<Body> bodies_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_kinematic_engine() { return std::make_unique<KinematicEngine>(); }
+
+}  // namespace navvy::vehicle
