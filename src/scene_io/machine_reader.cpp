@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/machine_reader.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "scene_io/fields.h"
 #include "scene_io/mesh_path.h"
@@ -93,12 +95,39 @@ bool check_joints(const Element& model, const Names& names, Faults& faults) {
   return faults.error_count() == before;
 }
 
+// Principal moments must be positive and none may exceed the sum of the others: no body has such an inertia.
+void check_inertia(const Element& inertial, Faults& faults) {
+  const Element* inertia = inertial.FirstChildElement("inertia");
+  if (!inertia) return;
+  auto value = [&](const char* name, double otherwise) {
+    double number = otherwise;
+    to_number(child_text(*inertia, name), number);
+    return number;
+  };
+  const double xx = value("ixx", 1), yy = value("iyy", 1), zz = value("izz", 1);
+  const double xy = value("ixy", 0), xz = value("ixz", 0), yz = value("iyz", 0);
+  Mat3 tensor;
+  tensor << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  if (!tensor.allFinite()) return;
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+  if (moments[0] > 0 && moments[2] <= moments[0] + moments[1]) return;
+  auto text = [](double number) {
+    std::ostringstream stream;
+    stream << number;
+    return stream.str();
+  };
+  faults.error(*inertia, text(moments[0]) + " " + text(moments[1]) + " " + text(moments[2]),
+               "the principal moments of inertia must be positive, none larger than the sum of the other two",
+               "a disc has iyy = ixx + izz at most; mind the rounding");
+}
+
 void check_links(const Element& model, bool needs_mass, Faults& faults) {
   if (!model.FirstChildElement("link")) faults.error(model, "", "a machine needs at least one <link>");
   for (const Element* link = model.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
     const Element* inertial = link->FirstChildElement("inertial");
     if (needs_mass && (!inertial || !inertial->FirstChildElement("mass")))
       faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>");
+    if (inertial) check_inertia(*inertial, faults);
     for (const char* kind : {"visual", "collision"})
       for (const Element* e = link->FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
         if (!e->FirstChildElement("geometry") || !e->FirstChildElement("geometry")->FirstChildElement())

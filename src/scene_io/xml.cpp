@@ -97,7 +97,7 @@ std::string Document::directory() const {
 
 namespace {
 std::string label(const Element& element) {
-  const std::string name = element.Name();
+  std::string name = element.Name();
   for (const char* key : {"name", "ref", "joint"})
     if (const char* value = element.Attribute(key)) return name + "[" + value + "]";
   // Without a name: the place among equal siblings, when there are several.
