@@ -43,6 +43,7 @@ struct FrameParticles {
   std::vector<float> position;  ///< xyz in W [m], relative to `origin`
   Vec3 origin = Vec3::Zero();
   std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
+  std::vector<std::uint32_t> id;   ///< unique for life, so that a lump keeps its looks; empty: the place in the list
   double radius = 0.04;            ///< [m]
 };
 

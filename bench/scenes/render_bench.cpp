@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Time of one picture, and pictures to look at: render_bench [folder for PNG files [samples a pixel]].
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "core/stopwatch.h"
+#include "render/renderer.h"
+#include "trench_scene.h"
+
+namespace {
+
+using namespace navvy;
+
+struct Row {
+  const char* name;
+  scene::FrameCamera camera;
+};
+
+// Least and median time of several pictures after one that warms up.
+void measure(render::Renderer& renderer, const scene::Frame& frame, const Row& row, const std::string& folder,
+             const std::string& prefix) {
+  const Stopwatch first;
+  render::Image image = renderer.render(frame, row.camera);
+  const double first_ms = 1e3 * first.seconds();
+  std::vector<double> times;
+  for (int i = 0; i < 7; ++i) {
+    const Stopwatch watch;
+    image = renderer.render(frame, row.camera);
+    times.push_back(1e3 * watch.seconds());
+  }
+  std::sort(times.begin(), times.end());
+  const render::RenderStats& s = renderer.stats();
+  std::printf(
+      "%-10s %-9s %4d x %-4d columns  first %6.1f ms, least %6.1f, median %6.1f (prepare %5.1f, draw %5.1f)  "
+      "%6d ground triangles in %3d tiles, %5d lumps, %6d triangles\n",
+      prefix.c_str(), row.name, frame.ground.nx, frame.ground.ny, first_ms, times.front(), times[times.size() / 2],
+      s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles, s.particles_drawn, s.particle_triangles);
+  if (!folder.empty()) render::write_png(folder + "/" + prefix + "_" + row.name + ".png", image);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string folder = argc > 1 ? argv[1] : "";
+  render::RenderOptions options;
+  options.samples = argc > 2 ? std::atoi(argv[2]) : 1;
+  const std::string meshes = std::string(NAVVY_SOURCE_DIR) + "/vehicles/ew180/meshes";
+  const std::vector<Row> rows = {{"side", render::look_from({5.0, -9.5, 3.4}, {1.2, 0.3, 1.2})},
+                                 {"front", render::look_from({10.5, -5.0, 3.6}, {2.0, 0.6, 0.8})},
+                                 {"close", render::look_from({7.6, -3.6, 2.6}, {4.4, 0.2, 0.5})},
+                                 {"rear", render::look_from({-9.5, 6.5, 4.5}, {0.5, 0.3, 0.9})},
+                                 {"high", render::look_from({30, -38, 22}, {0, 0, 0})}};
+  for (const int nx : {200, 1024}) {
+    render::TrenchScene scene;
+    render::make_trench_scene(scene, meshes, nx);
+    render::Renderer renderer(options);
+    for (const Row& row : rows) measure(renderer, scene.frame, row, folder, nx == 200 ? "trench" : "site");
+  }
+  // A heap of twenty thousand particles that fills the picture.
+  render::TrenchScene heap;
+  render::make_ground(heap.frame.ground, 200, 200, 0.1);
+  render::add_soil(heap.frame.particles, {-1.4, -0.9, 0.0}, {1.4, 0.9, 0.5}, 0.1);
+  std::printf("heap: %zu particles\n", heap.frame.particles.position.size() / 3);
+  render::Renderer renderer(options);
+  measure(renderer, heap.frame, {"heap", render::look_from({2.6, -2.6, 1.8}, {0, 0, 0.2})}, folder, "particles");
+  return 0;
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl_draw.h"
+
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <array>
+
+namespace navvy::render {
+namespace {
+
+constexpr int kGrainSize = 256;       // texels
+constexpr float kGrainLength = 2.2f;  // [m] that the grain covers before it repeats
+
+/// Noise that repeats after `period` lattice cells.
+float periodic_noise(float x, float y, int period, std::uint32_t seed) {
+  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+  const float tx = smooth_step(0, 1, x - static_cast<float>(ix)), ty = smooth_step(0, 1, y - static_cast<float>(iy));
+  const auto at = [&](int kx, int ky) {
+    return hash_unit(static_cast<std::uint32_t>(kx % period), static_cast<std::uint32_t>(ky % period), seed);
+  };
+  const float low = at(ix, iy) + (at(ix + 1, iy) - at(ix, iy)) * tx;
+  const float high = at(ix, iy + 1) + (at(ix + 1, iy + 1) - at(ix, iy + 1)) * tx;
+  return 2 * (low + (high - low) * ty) - 1;
+}
+
+void set_plane(GLenum coordinate, const Eigen::Vector4f& plane) {
+  glTexGeni(coordinate, GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);
+  glTexGenfv(coordinate, GL_OBJECT_PLANE, plane.data());
+}
+
+void draw(const Mesh& mesh) {
+  if (mesh.indices.empty()) return;
+  glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &mesh.vertices[0].x);
+  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.indices.size()), GL_UNSIGNED_INT, mesh.indices.data());
+}
+
+}  // namespace
+
+void GlDraw::begin(const View& view, const Lighting& lighting) {
+  glPushAttrib(GL_ALL_ATTRIB_BITS);
+  glPushClientAttrib(GL_CLIENT_ALL_ATTRIB_BITS);
+  glBindBuffer(GL_ARRAY_BUFFER, 0);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+  glMatrixMode(GL_PROJECTION);
+  glPushMatrix();
+  glLoadMatrixd(view.projection.data());
+  glMatrixMode(GL_MODELVIEW);
+  glPushMatrix();
+  glLoadMatrixd(view.model_view.data());
+  glDisable(GL_LIGHTING);
+  glDisable(GL_TEXTURE_2D);
+  glDisable(GL_BLEND);
+  glShadeModel(GL_SMOOTH);
+  glEnableClientState(GL_VERTEX_ARRAY);
+  glEnableClientState(GL_COLOR_ARRAY);
+  glDisableClientState(GL_NORMAL_ARRAY);
+  glDepthMask(GL_TRUE);
+  glClearColor(lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const GLfloat fog[] = {lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1};
+  glFogi(GL_FOG_MODE, GL_LINEAR);
+  glFogf(GL_FOG_START, kFogStart);
+  glFogf(GL_FOG_END, kFogEnd);
+  glFogfv(GL_FOG_COLOR, fog);
+}
+
+// A dome around the eye: haze at the horizon, blue above, a glow around the sun.
+void GlDraw::sky(const View& view, const Lighting& lighting) {
+  constexpr int kSides = 40, kRings = 18;
+  Mesh dome;
+  for (int r = 0; r <= kRings; ++r)
+    for (int i = 0; i <= kSides; ++i) {
+      const float t = static_cast<float>(r) / kRings;
+      const float up = -0.3f + 1.87f * t * t, a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / kSides;
+      const Vec3f ray(std::cos(up) * std::cos(a), std::cos(up) * std::sin(a), std::sin(up));
+      const float blue = std::pow(std::clamp(ray.z(), 0.0f, 1.0f), 0.55f);
+      const float glow = std::pow(std::max(0.0f, ray.dot(lighting.to_sun)), 12.0f);
+      Vec3f color = lighting.haze + (lighting.zenith - lighting.haze) * blue;
+      color += (Vec3f(1.0f, 0.97f, 0.88f) - color) * 0.45f * glow;
+      const Vec3f p = view.eye + 100.0f * ray;
+      dome.vertices.push_back({p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
+      if (r == 0 || i == 0) continue;
+      const auto c = static_cast<std::uint32_t>(dome.vertices.size() - 1), below = c - (kSides + 1);
+      dome.indices.insert(dome.indices.end(), {below - 1, below, c, below - 1, c, c - 1});
+    }
+  glDisable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_FOG);
+  draw(dome);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_FOG);
+}
+
+void GlDraw::make_grain() {
+  std::vector<std::uint8_t> texels(kGrainSize * kGrainSize);
+  for (int y = 0; y < kGrainSize; ++y)
+    for (int x = 0; x < kGrainSize; ++x) {
+      const float u = static_cast<float>(x) / kGrainSize, v = static_cast<float>(y) / kGrainSize;
+      float tone = 0.045f * periodic_noise(12 * u, 12 * v, 12, 21) + 0.06f * periodic_noise(31 * u, 31 * v, 31, 22) +
+                   0.07f * periodic_noise(77 * u, 77 * v, 77, 23);
+      tone += 0.05f * (hash_unit(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 24) - 0.5f);
+      const float pebble = periodic_noise(45 * u, 45 * v, 45, 25);
+      if (pebble > 0.72f) tone += 0.10f;
+      texels[static_cast<std::size_t>(y * kGrainSize + x)] = to_byte(0.5f + tone);
+    }
+  glGenTextures(1, &grain_);
+  glBindTexture(GL_TEXTURE_2D, grain_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE,
+               texels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+void GlDraw::bind_grain() {
+  glActiveTexture(GL_TEXTURE0);
+  if (grain_ == 0) make_grain();
+  glBindTexture(GL_TEXTURE_2D, grain_);
+  glEnable(GL_TEXTURE_2D);
+  // Twice the product, so that the texture's mean of one half leaves colours as they are.
+  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
+  glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
+  glTexEnvi(GL_TEXTURE_ENV, GL_RGB_SCALE, 2);
+  // Skewed by height, so that walls get a grain too.
+  const float k = 1.0f / kGrainLength;
+  set_plane(GL_S, {k, 0, 0.9f * k, 0});
+  set_plane(GL_T, {0, k, -0.5f * k, 0});
+  glEnable(GL_TEXTURE_GEN_S);
+  glEnable(GL_TEXTURE_GEN_T);
+}
+
+void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
+  glActiveTexture(GL_TEXTURE1);
+  if (shadow_ == 0) glGenTextures(1, &shadow_);
+  glBindTexture(GL_TEXTURE_2D, shadow_);
+  // What is left of level ground's light without the sun.
+  const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
+  const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
+  std::vector<std::uint8_t> texels(3 * shadows.mask().size());
+  for (std::size_t i = 0; i < shadows.mask().size(); ++i) {
+    const float lit = static_cast<float>(shadows.mask()[i]) / 255.0f;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float dark = left[static_cast<Eigen::Index>(c)];
+      texels[3 * i + c] = to_byte(dark + (1 - dark) * lit);
+    }
+  }
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, ShadowMap::kSize, ShadowMap::kSize, 0, GL_RGB, GL_UNSIGNED_BYTE,
+               texels.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glEnable(GL_TEXTURE_2D);
+  glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+  set_plane(GL_S, shadows.plane_s());
+  set_plane(GL_T, shadows.plane_t());
+  glEnable(GL_TEXTURE_GEN_S);
+  glEnable(GL_TEXTURE_GEN_T);
+}
+
+void GlDraw::ground(const std::vector<const Mesh*>& meshes, const ShadowMap& shadows, const Lighting& lighting) {
+  bind_grain();
+  if (!shadows.empty()) bind_shadow(shadows, lighting);
+  for (const Mesh* mesh : meshes) draw(*mesh);
+  for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
+    glActiveTexture(unit);
+    glDisable(GL_TEXTURE_2D);
+    glDisable(GL_TEXTURE_GEN_S);
+    glDisable(GL_TEXTURE_GEN_T);
+  }
+}
+
+void GlDraw::mesh(const Mesh& mesh) { draw(mesh); }
+
+void GlDraw::end() {
+  glMatrixMode(GL_PROJECTION);
+  glPopMatrix();
+  glMatrixMode(GL_MODELVIEW);
+  glPopMatrix();
+  glPopClientAttrib();
+  glPopAttrib();
+}
+
+}  // namespace navvy::render

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sky, ground and soil drawn with plain OpenGL: large meshes that change often, with colours already lit.
+#pragma once
+
+#include <vector>
+
+#include "render/shadow_map.h"
+#include "render/terrain.h"
+#include "render/view.h"
+
+namespace navvy::render {
+
+/// Textures and state of the parts that Coin does not draw. Its context must be current in every call.
+class GlDraw {
+ public:
+  static constexpr float kFogStart = 40, kFogEnd = 700;  ///< [m]
+
+  /// Clears the picture and sets the camera.
+  void begin(const View& view, const Lighting& lighting);
+  void sky(const View& view, const Lighting& lighting);
+  /// Ground with a fine grain over it and the machines' shadow.
+  void ground(const std::vector<const Mesh*>& meshes, const ShadowMap& shadows, const Lighting& lighting);
+  void mesh(const Mesh& mesh);
+  void end();
+
+ private:
+  void make_grain();
+  void bind_grain();
+  void bind_shadow(const ShadowMap& shadows, const Lighting& lighting);
+
+  unsigned grain_ = 0, shadow_ = 0;
+};
+
+}  // namespace navvy::render

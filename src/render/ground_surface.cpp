@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/ground_surface.h"
+
+#include <cstring>
+
+#include "core/error.h"
+
+namespace navvy::render {
+namespace {
+
+/// The slope on one axis from its one-sided slopes: the mean where smooth, the flatter one at an edge, so that a floor
+/// next to a wall stays lit as a floor.
+float edge_slope(float a, float b) {
+  constexpr float kEdge = 1.2f;  // difference of slopes that is an edge, about 50 degrees
+  if (std::abs(a - b) < kEdge) return 0.5f * (a + b);
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+Vec3f desaturate(const Vec3f& color, float share) {
+  const float grey = color.dot(Vec3f(0.3f, 0.59f, 0.11f));
+  return color + (Vec3f::Constant(grey) - color) * share;
+}
+
+bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+}
+
+}  // namespace
+
+CellRect GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
+  const std::size_t n =
+      static_cast<std::size_t>(std::max(0, ground.nx)) * static_cast<std::size_t>(std::max(0, ground.ny));
+  if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
+      (!ground.soil.empty() && ground.soil.size() != n) || !(ground.cell > 0))
+    throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) + " entries");
+  const bool fresh = nx_ != ground.nx || ny_ != ground.ny || cell_ != static_cast<float>(ground.cell) ||
+                     x0_ != static_cast<float>(ground.origin.x()) || y0_ != static_cast<float>(ground.origin.y()) ||
+                     !(lighting == lighting_) || !same(soil_color_, ground.soil_color) || height_.size() != n;
+  if (!fresh && revision_ == ground.revision) return {};
+  CellRect rect = {0, 0, ground.nx, ground.ny};
+  if (!fresh) rect = changed_cells(ground);
+  if (fresh) {
+    nx_ = ground.nx;
+    ny_ = ground.ny;
+    cell_ = static_cast<float>(ground.cell);
+    x0_ = static_cast<float>(ground.origin.x());
+    y0_ = static_cast<float>(ground.origin.y());
+    lighting_ = lighting;
+    soil_color_ = ground.soil_color;
+    height_.assign(n, 0);
+    change_.assign(n, 0);
+    soil_.assign(n, 0);
+    open_.assign(n, 255);
+    sun_.assign(n, 255);
+    lit_.assign(n, {});
+  }
+  revision_ = ground.revision;
+  if (rect.empty()) return {};
+  copy(ground, rect);
+  if (fresh) {
+    double sum = 0;
+    float low = height_[0], high = height_[0];
+    for (const float h : height_) {
+      sum += h;
+      low = std::min(low, h);
+      high = std::max(high, h);
+    }
+    mean_height_ = static_cast<float>(sum / static_cast<double>(n));
+    relief_ = std::max(high - low, 2.0f);
+  }
+  const CellRect open = rect.grown(kOpenReach, nx_, ny_), sun = rect.grown(kShadowReach, nx_, ny_);
+  find_openness(open);
+  find_sun(sun);
+  paint(sun);
+  return sun;
+}
+
+CellRect GroundSurface::changed_cells(const scene::FrameGround& ground) const {
+  if (ground.revision == revision_ + 1) {
+    const CellRect told = {std::max(0, ground.dirty_x0), std::max(0, ground.dirty_y0), std::min(nx_, ground.dirty_x1),
+                           std::min(ny_, ground.dirty_y1)};
+    return told;
+  }
+  CellRect rect = {nx_, ny_, 0, 0};
+  for (int iy = 0; iy < ny_; ++iy) {
+    const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
+    const bool equal =
+        std::memcmp(&height_[row], &ground.height[row], width * sizeof(float)) == 0 &&
+        (ground.change.empty() || std::memcmp(&change_[row], &ground.change[row], width * sizeof(float)) == 0) &&
+        (ground.soil.empty() || std::memcmp(&soil_[row], &ground.soil[row], width) == 0);
+    if (equal) continue;
+    rect.y0 = std::min(rect.y0, iy);
+    rect.y1 = iy + 1;
+    for (int ix = 0; ix < nx_; ++ix) {
+      const std::size_t i = index(ix, iy);
+      const bool differs = height_[i] != ground.height[i] ||
+                           (!ground.change.empty() && change_[i] != ground.change[i]) ||
+                           (!ground.soil.empty() && soil_[i] != ground.soil[i]);
+      if (!differs) continue;
+      rect.x0 = std::min(rect.x0, ix);
+      rect.x1 = std::max(rect.x1, ix + 1);
+    }
+  }
+  return rect;
+}
+
+void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect) {
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      const std::size_t i = index(ix, iy);
+      height_[i] = std::isfinite(ground.height[i]) ? ground.height[i] : 0.0f;
+      if (!ground.change.empty()) change_[i] = ground.change[i];
+      if (!ground.soil.empty()) soil_[i] = ground.soil[i];
+    }
+}
+
+// How much of the sky a column sees, from the mean height around it: a box mean by running sums along x, then y.
+void GroundSurface::find_openness(const CellRect& rect) {
+  const int width = rect.x1 - rect.x0;
+  const CellRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1, std::min(ny_, rect.y1 + kOpenReach)};
+  scratch_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(tall.y1 - tall.y0));
+  for (int iy = tall.y0; iy < tall.y1; ++iy) {
+    float* out = &scratch_[static_cast<std::size_t>(iy - tall.y0) * static_cast<std::size_t>(width)];
+    const float* row = &height_[index(0, iy)];
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      float sum = 0;
+      for (int k = -kOpenReach; k <= kOpenReach; ++k) sum += row[std::clamp(ix + k, 0, nx_ - 1)];
+      out[ix - rect.x0] = sum * (1.0f / (2 * kOpenReach + 1));
+    }
+  }
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      float sum = 0;
+      for (int k = -kOpenReach; k <= kOpenReach; ++k) {
+        const int y = std::clamp(iy + k, 0, ny_ - 1) - tall.y0;
+        sum += scratch_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(ix - rect.x0)];
+      }
+      const float above = sum * (1.0f / (2 * kOpenReach + 1)) - height_[index(ix, iy)];
+      const float hidden = above / (cell_ * kOpenReach);  // mean slope upwards to the neighbourhood
+      open_[index(ix, iy)] = to_byte(std::clamp(0.90f - 0.55f * hidden, 0.35f, 1.0f));
+    }
+}
+
+// Share of the sun: the highest ground towards the sun against the ray, softened over the sun's (widened) disc.
+void GroundSurface::find_sun(const CellRect& rect) {
+  const Vec3f& to_sun = lighting_.to_sun;
+  const float flat = to_sun.head<2>().norm();
+  if (flat < 1e-3f) {
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) sun_[index(ix, iy)] = 255;
+    return;
+  }
+  const float dx = to_sun.x() / flat, dy = to_sun.y() / flat, rise = to_sun.z() / flat;
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      const float base = height_[index(ix, iy)];
+      float worst = -1e9f;
+      for (int k = 1; k <= kShadowReach; k += k < 8 ? 1 : 2) {
+        const float d = static_cast<float>(k);
+        const int x = ix + static_cast<int>(std::lround(dx * d)), y = iy + static_cast<int>(std::lround(dy * d));
+        if (x < 0 || y < 0 || x >= nx_ || y >= ny_) break;
+        const float run = d * cell_;
+        worst = std::max(worst, (height_[index(x, y)] - base) / run - rise);
+      }
+      sun_[index(ix, iy)] = to_byte(1.0f - smooth_step(-0.06f, 0.22f, worst));
+    }
+}
+
+Vec3f GroundSurface::normal(int ix, int iy) const {
+  const float h = height_[index(ix, iy)], inverse = 1.0f / cell_;
+  const float west = ix > 0 ? (h - height_[index(ix - 1, iy)]) * inverse : 0;
+  const float east = ix + 1 < nx_ ? (height_[index(ix + 1, iy)] - h) * inverse : west;
+  const float south = iy > 0 ? (h - height_[index(ix, iy - 1)]) * inverse : 0;
+  const float north = iy + 1 < ny_ ? (height_[index(ix, iy + 1)] - h) * inverse : south;
+  return Vec3f(-edge_slope(ix > 0 ? west : east, east), -edge_slope(iy > 0 ? south : north, north), 1).normalized();
+}
+
+Vec3f GroundSurface::albedo(int ix, int iy) const {
+  const std::size_t i = index(ix, iy);
+  Vec3f base(0.50f, 0.40f, 0.28f);
+  if (soil_[i] < soil_color_.size()) base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
+  const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_, y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
+  const float broad = value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
+  const float fine = 2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
+
+  // The old surface: dried out, dusty, patchy, a little lighter with height.
+  const float tint = std::clamp((height_[i] - mean_height_) / relief_, -0.5f, 0.5f);
+  Vec3f color = desaturate(base, 0.28f) * (1.07f + 0.09f * broad + 0.03f * fine + 0.14f * tint);
+  // Freshly cut: moist, darker, more colourful. Dumped: loose and lighter, uneven.
+  const float dug = smooth_step(0.008f, 0.07f, -change_[i]), dumped = smooth_step(0.008f, 0.06f, change_[i]);
+  const Vec3f moist = desaturate(base, -0.18f) * (0.66f + 0.03f * broad + 0.03f * fine);
+  const Vec3f loose = desaturate(base, 0.05f) * (0.98f + 0.04f * broad + 0.10f * fine);
+  color += (moist - color) * dug;
+  color += (loose - color) * dumped;
+  return color.cwiseMax(0.0f);
+}
+
+void GroundSurface::paint(const CellRect& rect) {
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      const std::size_t i = index(ix, iy);
+      const float sun = static_cast<float>(sun_[i]) / 255.0f, open = static_cast<float>(open_[i]) / 255.0f;
+      const Vec3f color = shade(lighting_, albedo(ix, iy), normal(ix, iy), sun, open);
+      lit_[i] = {to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255};
+    }
+}
+
+Vec3f GroundSurface::wall_color(int ix, int iy, const Vec3f& face) const {
+  const std::size_t i = index(ix, iy);
+  Vec3f base(0.50f, 0.40f, 0.28f);
+  if (soil_[i] < soil_color_.size()) base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
+  const float fine = hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 9);
+  const Vec3f moist = desaturate(base, -0.15f) * (0.70f + 0.10f * fine);
+  return shade(lighting_, moist, face, static_cast<float>(sun_[i]) / 255.0f, static_cast<float>(open_[i]) / 255.0f);
+}
+
+bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
+  if (nx_ < 2 || ny_ < 2) return false;
+  const float u = (x - x0_) / cell_ - 0.5f, v = (y - y0_) / cell_ - 0.5f;
+  const int ix = static_cast<int>(std::floor(u + 0.5f)), iy = static_cast<int>(std::floor(v + 0.5f));
+  if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) return false;
+  height = height_[index(ix, iy)];
+  sun = static_cast<float>(sun_[index(ix, iy)]) / 255.0f;
+  return true;
+}
+
+}  // namespace navvy::render

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground's heights with a lit colour per column, brought up to date by rectangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/shading.h"
+#include "scene/frame.h"
+
+namespace navvy::render {
+
+/// Half-open rectangle of columns.
+struct CellRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  CellRect grown(int cells, int nx, int ny) const {
+    return {std::max(0, x0 - cells), std::max(0, y0 - cells), std::min(nx, x1 + cells), std::min(ny, y1 + cells)};
+  }
+};
+
+/// Keeps a copy of the ground's heights and, per column, albedo, share of sun and sky, and the lit colour.
+///
+/// Soil gives the base colour; the old surface is weathered, dug ground darker and moist, dumped ground lighter and
+/// uneven; a faint tint follows height. The sun is traced over the heights up to kShadowReach columns away.
+class GroundSurface {
+ public:
+  static constexpr int kShadowReach = 28;  ///< columns a shadow of the ground may fall
+  static constexpr int kOpenReach = 5;     ///< columns of the neighbourhood that hides the sky
+
+  /// Takes over what changed in `ground`; returns the columns whose vertices or colours are new (empty: none).
+  CellRect update(const scene::FrameGround& ground, const Lighting& lighting);
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  float cell() const { return cell_; }
+  float height(int ix, int iy) const { return height_[index(ix, iy)]; }
+  /// Column centre in W [m].
+  Vec3f point(int ix, int iy) const {
+    return {x0_ + (static_cast<float>(ix) + 0.5f) * cell_, y0_ + (static_cast<float>(iy) + 0.5f) * cell_,
+            height_[index(ix, iy)]};
+  }
+  const std::array<std::uint8_t, 4>& lit(int ix, int iy) const { return lit_[index(ix, iy)]; }
+  /// Colour of a wall at this column: freshly cut soil facing `normal`.
+  Vec3f wall_color(int ix, int iy, const Vec3f& normal) const;
+  /// Interpolated height and openness at a point of W; false outside.
+  bool sample(float x, float y, float& height, float& sun) const;
+  float mean_height() const { return mean_height_; }
+
+ private:
+  std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
+  }
+  CellRect changed_cells(const scene::FrameGround& ground) const;
+  void copy(const scene::FrameGround& ground, const CellRect& rect);
+  void find_openness(const CellRect& rect);
+  void find_sun(const CellRect& rect);
+  void paint(const CellRect& rect);
+  Vec3f albedo(int ix, int iy) const;
+  Vec3f normal(int ix, int iy) const;
+
+  int nx_ = 0, ny_ = 0;
+  float cell_ = 0.1f, x0_ = 0, y0_ = 0;
+  std::uint64_t revision_ = 0;
+  Lighting lighting_;
+  float mean_height_ = 0, relief_ = 1;
+  std::vector<scene::Color> soil_color_;
+  std::vector<float> height_, change_, scratch_;
+  std::vector<std::uint8_t> soil_, open_, sun_;
+  std::vector<std::array<std::uint8_t, 4>> lit_;
+};
+
+}  // namespace navvy::render

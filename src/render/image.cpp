@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/image.h"
+
+#include <png.h>
+
+#include <string>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace navvy::render {
+
+std::vector<char> encode_png(const Image& image) {
+  if (image.width <= 0 || image.height <= 0 ||
+      image.rgb.size() != 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw Error("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
+                std::to_string(image.rgb.size()) + " bytes cannot become a PNG");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  png.flags = PNG_IMAGE_FLAG_FAST;
+  std::vector<char> out(PNG_IMAGE_PNG_SIZE_MAX(png));
+  png_alloc_size_t size = out.size();
+  if (png_image_write_to_memory(&png, out.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
+    throw Error(std::string("libpng cannot encode the picture: ") + png.message);
+  out.resize(size);
+  return out;
+}
+
+void write_png(const std::string& path, const Image& image) { write_file_atomically(path, encode_png(image)); }
+
+Image read_png(const std::string& path) {
+  const std::vector<char> bytes = read_file(path);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
+    throw Error("'" + path + "' is no readable PNG: " + png.message);
+  png.format = PNG_FORMAT_RGB;
+  Image out;
+  out.width = static_cast<int>(png.width);
+  out.height = static_cast<int>(png.height);
+  out.rgb.resize(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, out.rgb.data(), 0, nullptr) == 0)
+    throw Error("'" + path + "' is no readable PNG: " + png.message);
+  return out;
+}
+
+}  // namespace navvy::render

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures in memory and on disk.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace navvy::render {
+
+/// 8-bit sRGB, three bytes a pixel, top row first.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  const std::uint8_t* pixel(int x, int y) const {
+    return rgb.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  }
+};
+
+/// Distance along the camera's axis [m], top row first; infinity where nothing was drawn.
+struct DepthImage {
+  int width = 0, height = 0;
+  std::vector<float> depth;
+
+  float at(int x, int y) const {
+    return depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+};
+
+/// PNG of `image` as bytes. @throws Error when the image is empty or inconsistent.
+std::vector<char> encode_png(const Image& image);
+/// Writes `path` atomically (old or new, never half). @throws FileError naming path and cause (disk full).
+void write_png(const std::string& path, const Image& image);
+/// @throws FileError when missing, Error when it is no readable PNG.
+Image read_png(const std::string& path);
+
+}  // namespace navvy::render

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/particle_mesh.h"
+
+#include "core/error.h"
+
+namespace navvy::render {
+namespace {
+
+/// A round body to be dented: unit vertices and triangles.
+struct Body {
+  std::vector<Vec3f> points;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+};
+
+Body octahedron() {
+  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+}
+
+Body icosahedron() {
+  const float t = 0.5f * (1.0f + std::sqrt(5.0f));
+  Body b{{{-1, t, 0},
+          {1, t, 0},
+          {-1, -t, 0},
+          {1, -t, 0},
+          {0, -1, t},
+          {0, 1, t},
+          {0, -1, -t},
+          {0, 1, -t},
+          {t, 0, -1},
+          {t, 0, 1},
+          {-t, 0, -1},
+          {-t, 0, 1}},
+         {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+          {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+          {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+  for (Vec3f& p : b.points) p.normalize();
+  return b;
+}
+
+/// Eight dented and turned copies of a body, so that no two neighbours look alike.
+std::vector<Body> variants(const Body& base, std::uint32_t seed) {
+  std::vector<Body> out;
+  for (std::uint32_t v = 0; v < 8; ++v) {
+    Body body = base;
+    const Eigen::Quaternionf turn = Eigen::AngleAxisf(6.28f * hash_unit(v, 1, seed), Vec3f::UnitZ()) *
+                                    Eigen::AngleAxisf(6.28f * hash_unit(v, 2, seed), Vec3f::UnitX());
+    for (std::uint32_t i = 0; i < body.points.size(); ++i)
+      body.points[i] = turn * body.points[i] * (0.74f + 0.52f * hash_unit(v, i + 3, seed));
+    out.push_back(body);
+  }
+  return out;
+}
+
+std::uint64_t key(std::int32_t x, std::int32_t y, std::int32_t z) {
+  constexpr std::uint64_t kMask = (1u << 21) - 1;
+  const auto part = [](std::int32_t k) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(k + (1 << 20)))) & kMask;
+  };
+  return (1ull << 63) | part(x) << 42 | part(y) << 21 | part(z);
+}
+
+std::size_t slot(std::uint64_t k) {
+  k *= 0x9E3779B97F4A7C15ull;
+  return static_cast<std::size_t>(k >> 20);
+}
+
+std::int32_t cell_of(float x, float pitch) { return static_cast<std::int32_t>(std::floor(x / pitch)); }
+
+}  // namespace
+
+void ParticleMesh::fill_table(const scene::FrameParticles& particles) {
+  const std::size_t n = particles.position.size() / 3;
+  std::size_t size = 1024;
+  while (size < 4 * n) size *= 2;
+  table_.assign(size, 0);
+  table_mask_ = size - 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* p = &particles.position[3 * i];
+    const std::uint64_t k = key(cell_of(p[0], pitch_), cell_of(p[1], pitch_), cell_of(p[2], pitch_));
+    std::size_t s = slot(k) & table_mask_;
+    while (table_[s] != 0 && table_[s] != k) s = (s + 1) & table_mask_;
+    table_[s] = k;
+  }
+}
+
+bool ParticleMesh::occupied(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  const std::uint64_t k = key(x, y, z);
+  std::size_t s = slot(k) & table_mask_;
+  while (table_[s] != 0) {
+    if (table_[s] == k) return true;
+    s = (s + 1) & table_mask_;
+  }
+  return false;
+}
+
+// False when every neighbouring cell holds soil. `outward` points away from the neighbours, `open` is the share of
+// sky that they leave.
+bool ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) const {
+  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_), z = cell_of(local.z(), pitch_);
+  outward.setZero();
+  int full = 0, above = 0;
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        if ((dx | dy | dz) == 0 || !occupied(x + dx, y + dy, z + dz)) continue;
+        ++full;
+        above += dz >= 0 ? 1 + dz : 0;
+        outward -= Vec3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz));
+      }
+  open = 1.0f - 0.028f * static_cast<float>(above);
+  const float length = outward.norm();
+  outward = length > 0.5f ? Vec3f(outward / length) : Vec3f(0, 0, 1);
+  return full < 26;
+}
+
+void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting,
+                            float sun) {
+  static const std::vector<Body> kFine = variants(icosahedron(), 11), kCoarse = variants(octahedron(), 12);
+  const Body& body = (detail > 0 ? kFine : kCoarse)[lump.seed & 7];
+  const float size = radius * (detail > 0 ? 1.0f : 1.25f);
+  const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+  for (const Vec3f& point : body.points) {
+    // Between the lump's own roundness and the heap's slope.
+    const Vec3f normal = (0.75f * point + 0.6f * lump.outward).normalized();
+    const float low = 0.86f + 0.14f * point.z();
+    const Vec3f color = shade(lighting, albedo, normal, sun, lump.open * low);
+    const Vec3f p = lump.center + size * point;
+    mesh_.vertices.push_back({p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
+  }
+  for (const auto& f : body.faces)
+    mesh_.indices.insert(mesh_.indices.end(), {first + f[0], first + f[1], first + f[2]});
+}
+
+const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
+                                const GroundSurface& surface, const View& view) {
+  const scene::FrameParticles& particles = frame.particles;
+  const std::size_t n = particles.position.size() / 3;
+  if (particles.position.size() % 3 != 0 || (!particles.soil.empty() && particles.soil.size() != n) ||
+      (!particles.id.empty() && particles.id.size() != n))
+    throw Error("the frame's particle arrays do not fit each other");
+  mesh_.vertices.clear();
+  mesh_.indices.clear();
+  lumps_.clear();
+  drawn_ = 0;
+  if (n == 0) return mesh_;
+  const auto radius = static_cast<float>(particles.radius);
+  const Vec3f origin = particles.origin.cast<float>();
+  pitch_ = 1.6f * radius;
+  fill_table(particles);
+
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3f local(particles.position[3 * i], particles.position[3 * i + 1], particles.position[3 * i + 2]);
+    if (!local.allFinite()) continue;
+    Lump lump;
+    lump.center = origin + local;
+    const Vec3f around = Vec3f::Constant(2 * radius);
+    if (!view.sees(lump.center - around, lump.center + around)) continue;
+    if (!look_around(local, lump.outward, lump.open)) continue;
+    lump.distance = (lump.center - view.eye).norm();
+    lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
+    lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];
+    lumps_.push_back(lump);
+  }
+
+  // Twenty faces where a lump is larger than a few pixels and the budget allows, eight elsewhere.
+  const bool many = 20 * lumps_.size() > kTriangleBudget;
+  mesh_.vertices.reserve(12 * lumps_.size());
+  mesh_.indices.reserve(60 * lumps_.size());
+  const auto& colors = frame.ground.soil_color;
+  for (const Lump& lump : lumps_) {
+    const float unit = static_cast<float>(lump.seed >> 8) / 16777216.0f;
+    const float pixels = 2 * radius * view.pixels_per_radian / std::max(lump.distance, 0.1f);
+    Vec3f albedo(0.50f, 0.40f, 0.28f);
+    if (lump.soil < colors.size()) albedo = {colors[lump.soil].r, colors[lump.soil].g, colors[lump.soil].b};
+    albedo *= 0.80f + 0.22f * hash_unit(lump.seed, 5);
+    const Vec3f sunward = lump.center + 1.5f * radius * lighting.to_sun;
+    float sun = shadows.sun_at(sunward, 2.5f * radius), height = 0, ground_sun = 1;
+    if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) && lump.center.z() < height + 0.25f)
+      sun *= 0.35f + 0.65f * ground_sun;
+    add_lump(lump, radius * (0.80f + 0.50f * unit * unit), pixels > 7 && !many ? 1 : 0, albedo, lighting, sun);
+  }
+  drawn_ = static_cast<int>(lumps_.size());
+  return mesh_;
+}
+
+}  // namespace navvy::render

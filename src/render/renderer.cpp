@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <Inventor/SoDB.h>
+#include <Inventor/actions/SoGLRenderAction.h>
+#include <Inventor/elements/SoGLCacheContextElement.h>
+#include <Inventor/nodes/SoDirectionalLight.h>
+#include <Inventor/nodes/SoEnvironment.h>
+#include <Inventor/nodes/SoMatrixTransform.h>
+#include <Inventor/nodes/SoPerspectiveCamera.h>
+#include <Inventor/nodes/SoSeparator.h>
+
+#include <limits>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/stopwatch.h"
+#include "render/gl_context.h"
+#include "render/gl_draw.h"
+#include "render/particle_mesh.h"
+#include "render/shadow_map.h"
+#include "render/shape_cache.h"
+#include "render/terrain.h"
+
+#include <Inventor/system/gl.h>
+
+namespace navvy::render {
+namespace {
+
+/// Something to draw with Coin: a cached body at a pose that may stretch it.
+struct Placed {
+  const Shape* shape;
+  Eigen::Matrix4f X_WS;
+};
+
+SbColor to_coin(const Vec3f& c) { return {c.x(), c.y(), c.z()}; }
+
+SbMatrix to_coin(const Eigen::Matrix4f& m) {
+  // Coin multiplies row vectors from the left.
+  SbMatrix out;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) out[r][c] = m(c, r);
+  return out;
+}
+
+/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`.
+Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, double radius) {
+  const Vec3 side = axis.unitOrthogonal();
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.block<3, 1>(0, 0) = axis * length;
+  m.block<3, 1>(0, 1) = side * radius;
+  m.block<3, 1>(0, 2) = axis.cross(side) * radius;
+  m.block<3, 1>(0, 3) = from;
+  return m.cast<float>();
+}
+
+}  // namespace
+
+class Renderer::Impl {
+ public:
+  explicit Impl(const RenderOptions& options);
+  ~Impl();
+  Image render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth);
+  RenderStats stats;
+
+ private:
+  void place(const scene::Frame& frame);
+  void cast_shadows(const scene::Frame& frame, const Lighting& lighting);
+  void draw_machines(const View& view, const scene::FrameCamera& camera, const Lighting& lighting);
+  SoDirectionalLight* add_light();
+
+  RenderOptions options_;
+  GlContext context_;
+  GlDraw draw_;
+  Terrain terrain_;
+  ShadowMap shadows_;
+  ParticleMesh particles_;
+  ShapeCache shapes_;
+  std::vector<Placed> placed_;
+  SoSeparator* root_ = nullptr;
+  SoPerspectiveCamera* camera_ = nullptr;
+  SoEnvironment* environment_ = nullptr;
+  SoDirectionalLight *sun_ = nullptr, *sky_ = nullptr, *bounce_ = nullptr;
+  SoSeparator* machines_ = nullptr;
+  std::uint32_t cache_context_ = 0;
+};
+
+Renderer::Impl::Impl(const RenderOptions& options) : options_(options) {
+  static std::once_flag started;
+  std::call_once(started, [] { SoDB::init(); });
+  cache_context_ = SoGLCacheContextElement::getUniqueCacheContext();
+  root_ = new SoSeparator;
+  root_->ref();
+  root_->renderCaching = SoSeparator::OFF;
+  camera_ = new SoPerspectiveCamera;
+  camera_->viewportMapping = SoCamera::LEAVE_ALONE;
+  root_->addChild(camera_);
+  environment_ = new SoEnvironment;
+  root_->addChild(environment_);
+  sun_ = add_light();
+  sky_ = add_light();
+  bounce_ = add_light();
+  machines_ = new SoSeparator;
+  machines_->renderCaching = SoSeparator::OFF;
+  root_->addChild(machines_);
+}
+
+Renderer::Impl::~Impl() { root_->unref(); }
+
+SoDirectionalLight* Renderer::Impl::add_light() {
+  auto* light = new SoDirectionalLight;
+  root_->addChild(light);
+  return light;
+}
+
+void Renderer::Impl::place(const scene::Frame& frame) {
+  placed_.clear();
+  for (const scene::FrameShape& shape : frame.shapes)
+    if (shape.visual != nullptr) placed_.push_back({&shapes_.get(*shape.visual), shape.X_WV.matrix().cast<float>()});
+  for (const scene::FrameCylinder& c : frame.cylinders) {
+    const double length = (c.p_rod - c.p_base).norm();
+    if (!(length > 1e-6)) continue;
+    const Vec3 axis = (c.p_rod - c.p_base) / length;
+    const double barrel = std::clamp(c.barrel_length, 0.0, length);
+    placed_.push_back({&shapes_.cylinder_along_x(false), stretch(c.p_base, axis, barrel, c.radius)});
+    placed_.push_back({&shapes_.cylinder_along_x(true), stretch(c.p_base, axis, length, 0.55 * c.radius)});
+  }
+}
+
+void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lighting) {
+  Vec3f low = Vec3f::Constant(1e30f), high = -low;
+  for (const Placed& p : placed_)
+    for (int k = 0; k < 8; ++k) {
+      const Vec3f corner((k & 1) ? p.shape->high.x() : p.shape->low.x(), (k & 2) ? p.shape->high.y() : p.shape->low.y(),
+                         (k & 4) ? p.shape->high.z() : p.shape->low.z());
+      const Vec3f w = (p.X_WS * corner.homogeneous()).head<3>();
+      low = low.cwiseMin(w);
+      high = high.cwiseMax(w);
+    }
+  // Only soil in the air throws a shadow here; soil that lies on the ground would only darken its own feet.
+  const std::vector<float>& xyz = frame.particles.position;
+  const Vec3f origin = frame.particles.origin.cast<float>();
+  std::vector<Vec3f> falling;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    const Vec3f p = origin + Vec3f(xyz[i], xyz[i + 1], xyz[i + 2]);
+    float height = 0, sun = 1;
+    if (!p.allFinite() || !terrain_.surface().sample(p.x(), p.y(), height, sun) || p.z() < height + 0.3f) continue;
+    falling.push_back(p);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if (!(low.x() <= high.x()) || !options_.shadows) {
+    shadows_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
+    return;
+  }
+  shadows_.begin(lighting, low, high);
+  for (const Placed& p : placed_) {
+    const std::vector<Vec3f>& t = p.shape->triangles;
+    const Eigen::Matrix3f turn = p.X_WS.topLeftCorner<3, 3>();
+    const Vec3f at = p.X_WS.topRightCorner<3, 1>();
+    for (std::size_t i = 0; i + 2 < t.size(); i += 3)
+      shadows_.add_triangle(turn * t[i] + at, turn * t[i + 1] + at, turn * t[i + 2] + at);
+  }
+  for (const Vec3f& p : falling) shadows_.add_point(p, static_cast<float>(frame.particles.radius));
+  shadows_.finish();
+}
+
+void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& camera, const Lighting& lighting) {
+  machines_->removeAllChildren();
+  for (const Placed& p : placed_) {
+    auto* group = new SoSeparator;
+    group->renderCaching = SoSeparator::OFF;
+    auto* transform = new SoMatrixTransform;
+    transform->matrix = to_coin(p.X_WS);
+    group->addChild(transform);
+    group->addChild(p.shape->node);
+    machines_->addChild(group);
+  }
+  const Eigen::Quaternionf q(camera.X_WC.linear().cast<float>());
+  camera_->position = SbVec3f(view.eye.x(), view.eye.y(), view.eye.z());
+  camera_->orientation = SbRotation(q.x(), q.y(), q.z(), q.w());
+  camera_->aspectRatio = static_cast<float>(view.width) / static_cast<float>(view.height);
+  camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
+  camera_->nearDistance = static_cast<float>(View::kNear);
+  camera_->farDistance = static_cast<float>(View::kFar);
+  environment_->ambientIntensity = 1.0f;
+  environment_->ambientColor = to_coin(Vec3f(0.5f * (lighting.sky + lighting.ground) * 0.8f));
+  environment_->fogType = SoEnvironment::HAZE;
+  environment_->fogColor = to_coin(lighting.haze);
+
+  environment_->fogVisibility = 2 * GlDraw::kFogEnd;  // Coin's haze starts at the eye
+  sun_->direction = SbVec3f(-lighting.to_sun.x(), -lighting.to_sun.y(), -lighting.to_sun.z());
+  sun_->color = to_coin(lighting.sun);
+  sky_->direction = SbVec3f(0.25f * lighting.to_sun.x(), 0.25f * lighting.to_sun.y(), -1);
+  sky_->color = to_coin(lighting.sky);
+  sky_->intensity = 0.45f;
+  bounce_->direction = SbVec3f(lighting.to_sun.x(), lighting.to_sun.y(), 0.35f);
+  bounce_->color = to_coin(Vec3f(lighting.ground + 0.3f * lighting.sky));
+  bounce_->intensity = 0.7f;
+
+  SoGLRenderAction action(SbViewportRegion(static_cast<short>(view.width), static_cast<short>(view.height)));
+  action.setCacheContext(cache_context_);
+  action.setTransparencyType(SoGLRenderAction::SORTED_OBJECT_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_NORMALIZE);
+  action.apply(root_);
+}
+
+Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth) {
+  const Stopwatch watch;
+  context_.begin(camera.width, camera.height, options_.samples);
+  const View view(camera);
+  const Lighting lighting = make_lighting(frame.lights);
+  terrain_.update(frame.ground, lighting);
+  place(frame);
+  cast_shadows(frame, lighting);
+  std::vector<const Mesh*> tiles = terrain_.select(view, options_.triangle_budget);
+  stats = {};
+  stats.ground_tiles = static_cast<int>(tiles.size());
+  if (options_.surroundings && !frame.ground.height.empty()) tiles.push_back(&terrain_.surroundings(lighting));
+  for (const Mesh* mesh : tiles) stats.ground_triangles += static_cast<int>(mesh->indices.size() / 3);
+  const Mesh& soil = particles_.build(frame, lighting, shadows_, terrain_.surface(), view);
+  stats.particles_drawn = particles_.drawn();
+  stats.particle_triangles = static_cast<int>(soil.indices.size() / 3);
+  stats.tiles_rebuilt = terrain_.rebuilt();
+  stats.prepare_ms = 1e3 * watch.seconds();
+
+  draw_.begin(view, lighting);
+  draw_.sky(view, lighting);
+  draw_.ground(tiles, shadows_, lighting);
+  draw_.mesh(soil);
+  draw_.end();
+  draw_machines(view, camera, lighting);
+
+  const std::size_t w = static_cast<std::size_t>(view.width), h = static_cast<std::size_t>(view.height);
+  if (depth != nullptr) {
+    const std::vector<float> raw = context_.depth();
+    depth->width = view.width;
+    depth->height = view.height;
+    depth->depth.resize(w * h);
+    constexpr double kNear = View::kNear, kFar = View::kFar;
+    for (std::size_t y = 0; y < h; ++y)
+      for (std::size_t x = 0; x < w; ++x) {
+        const float d = raw[(h - 1 - y) * w + x];
+        depth->depth[y * w + x] = d >= 1.0f ? std::numeric_limits<float>::infinity()
+                                            : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
+      }
+  }
+  context_.finish();
+
+  // OpenGL's first row is the bottom one.
+  Image image{view.width, view.height, {}};
+  image.rgb.resize(3 * w * h);
+  const std::uint8_t* pixels = context_.pixels().data();
+  for (std::size_t y = 0; y < h; ++y) {
+    const std::uint8_t* in = pixels + 4 * w * (h - 1 - y);
+    std::uint8_t* out = image.rgb.data() + 3 * w * y;
+    for (std::size_t x = 0; x < w; ++x, in += 4, out += 3) {
+      out[0] = in[0];
+      out[1] = in[1];
+      out[2] = in[2];
+    }
+  }
+  stats.draw_ms = 1e3 * watch.seconds() - stats.prepare_ms;
+  return image;
+}
+
+Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::~Renderer() = default;
+
+Image Renderer::render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth) {
+  return impl_->render(frame, camera, depth);
+}
+
+const RenderStats& Renderer::stats() const { return impl_->stats; }
+
+}  // namespace navvy::render

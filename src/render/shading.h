@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light on soil, computed on the host per vertex: one sun, a sky above, warm light from the ground below.
+// Everything here is a pure function of its arguments, so that pictures repeat.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "scene/machine.h"
+#include "scene/world.h"
+
+namespace navvy::render {
+
+using Vec3f = Eigen::Vector3f;
+
+/// Point with a lit colour, as handed to GL.
+struct Vertex {
+  float x, y, z;
+  std::uint8_t r, g, b, a;
+};
+static_assert(sizeof(Vertex) == 16);
+
+struct Lighting {
+  Vec3f to_sun = Vec3f(0.5f, -0.35f, 0.8f).normalized();
+  Vec3f sun = Vec3f(0.80f, 0.77f, 0.70f);
+  Vec3f sky = Vec3f(0.40f, 0.45f, 0.53f);
+  Vec3f ground = Vec3f(0.20f, 0.17f, 0.14f);
+  Vec3f haze = Vec3f(0.78f, 0.83f, 0.88f);    ///< colour of the horizon
+  Vec3f zenith = Vec3f(0.28f, 0.47f, 0.74f);  ///< colour of the sky above
+
+  bool operator==(const Lighting&) const = default;
+};
+
+/// The first light is the sun; none: the default of scene::Light.
+Lighting make_lighting(const std::vector<scene::Light>& lights);
+
+/// Colour of a matt surface; `sun` is the share of the sun that reaches it, `open` the share of the sky.
+inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& normal, float sun, float open) {
+  const float direct = std::max(0.0f, normal.dot(light.to_sun)) * sun;
+  const float up = 0.5f + 0.5f * normal.z();
+  const Vec3f ambient = light.ground + (light.sky - light.ground) * up;
+  return albedo.cwiseProduct(light.sun * direct + ambient * open);
+}
+
+inline std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+inline float smooth_step(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+inline std::uint32_t hash_u32(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  x ^= x >> 16;
+  return x;
+}
+
+/// Uniform in 0..1 from integers.
+inline float hash_unit(std::uint32_t x, std::uint32_t y = 0, std::uint32_t z = 0) {
+  const std::uint32_t h = hash_u32(x + 0x9e3779b9u * hash_u32(y + 0x85ebca6bu * hash_u32(z)));
+  return static_cast<float>(h >> 8) * (1.0f / 16777216.0f);
+}
+
+/// Smooth noise of unit wavelength, -1..1.
+float value_noise(float x, float y, std::uint32_t seed);
+
+}  // namespace navvy::render

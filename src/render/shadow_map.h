@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun's view of machines and falling soil: which light rays they hold up, and how near the sun.
+#pragma once
+
+#include <vector>
+
+#include "render/shading.h"
+
+namespace navvy::render {
+
+/// A square of texels across the sun's rays. `mask` (255 = lit) is laid over the ground as a texture along the rays;
+/// points in the air ask `sun_at`, which compares depths.
+class ShadowMap {
+ public:
+  static constexpr int kSize = 512;
+
+  /// Starts anew for casters inside the box `low`..`high` of W.
+  void begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high);
+  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
+  void add_point(const Vec3f& p, float radius);
+  /// Makes the mask, its edge softened.
+  void finish();
+
+  bool empty() const { return !used_; }
+  const std::vector<std::uint8_t>& mask() const { return mask_; }
+  /// Texture coordinate = dot(plane.head<3>(), p) + plane.w.
+  const Eigen::Vector4f& plane_s() const { return plane_s_; }
+  const Eigen::Vector4f& plane_t() const { return plane_t_; }
+  /// Share of the sun (0..1) at p, behind nothing nearer the sun than `bias` [m].
+  float sun_at(const Vec3f& p, float bias) const;
+
+ private:
+  Vec3f project(const Vec3f& p) const;
+
+  bool used_ = false;
+  Vec3f to_sun_ = Vec3f::UnitZ();
+  Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
+  std::vector<float> nearest_;  ///< largest height along the sun's direction, per texel
+  std::vector<std::uint8_t> mask_, blur_;
+};
+
+}  // namespace navvy::render

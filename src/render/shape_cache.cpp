@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/shape_cache.h"
+
+#include <tiny_obj_loader.h>
+
+#include <Inventor/nodes/SoCoordinate3.h>
+#include <Inventor/nodes/SoIndexedFaceSet.h>
+#include <Inventor/nodes/SoMaterial.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoShapeHints.h>
+
+#include <array>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace navvy::render {
+namespace {
+
+struct Look {
+  scene::Color color;
+  Vec3f specular = Vec3f::Constant(0.12f);
+  float shininess = 0.2f;
+};
+
+/// Faces of one material over shared points.
+struct Part {
+  Look look;
+  std::vector<std::int32_t> indices;  ///< as Coin wants them: -1 ends a face
+};
+
+struct Body {
+  std::vector<Vec3f> points;
+  std::vector<Part> parts;
+};
+
+constexpr float kCrease = 0.62f;  // [rad] flatter edges are drawn round
+
+void add_face(Body& body, std::initializer_list<std::int32_t> face) {
+  auto& indices = body.parts.back().indices;
+  indices.insert(indices.end(), face);
+  indices.push_back(-1);
+}
+
+Body box(const Vec3f& size, const Look& look) {
+  Body b;
+  b.parts.push_back({look, {}});
+  for (int k = 0; k < 8; ++k)
+    b.points.emplace_back(0.5f * size.x() * ((k & 1) ? 1.f : -1.f), 0.5f * size.y() * ((k & 2) ? 1.f : -1.f),
+                          0.5f * size.z() * ((k & 4) ? 1.f : -1.f));
+  for (const auto& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    add_face(b, {f[0], f[1], f[2], f[3]});
+  return b;
+}
+
+/// Cylinder along z, centred.
+Body cylinder(float radius, float length, const Look& look, int sides = 28) {
+  Body b;
+  b.parts.push_back({look, {}});
+  for (int i = 0; i < sides; ++i) {
+    const float a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / static_cast<float>(sides);
+    for (const float z : {-0.5f, 0.5f}) b.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z * length);
+  }
+  b.points.emplace_back(0, 0, -0.5f * length);
+  b.points.emplace_back(0, 0, 0.5f * length);
+  for (int i = 0; i < sides; ++i) {
+    const int a = 2 * i, c = 2 * ((i + 1) % sides);
+    add_face(b, {a, c, c + 1, a + 1});
+    add_face(b, {2 * sides, c, a});
+    add_face(b, {2 * sides + 1, a + 1, c + 1});
+  }
+  return b;
+}
+
+Body sphere(float radius, const Look& look) {
+  constexpr int kSides = 24, kRings = 12;
+  Body b;
+  b.parts.push_back({look, {}});
+  for (int r = 0; r <= kRings; ++r)
+    for (int i = 0; i < kSides; ++i) {
+      const double up = kPi * (static_cast<double>(r) / kRings - 0.5), a = 2 * kPi * i / kSides;
+      b.points.push_back(
+          Vec3(radius * std::cos(up) * std::cos(a), radius * std::cos(up) * std::sin(a), radius * std::sin(up))
+              .cast<float>());
+    }
+  for (int r = 0; r < kRings; ++r)
+    for (int i = 0; i < kSides; ++i) {
+      const int a = r * kSides + i, c = r * kSides + (i + 1) % kSides;
+      if (r > 0) add_face(b, {a, c, c + kSides});
+      if (r + 1 < kRings) add_face(b, {a, c + kSides, a + kSides});
+    }
+  return b;
+}
+
+Body read_obj(const std::string& file, const Vec3f& scale, const Look& plain) {
+  tinyobj::ObjReaderConfig config;
+  config.triangulate = true;
+  tinyobj::ObjReader reader;
+  if (!reader.ParseFromFile(file, config) || reader.GetAttrib().vertices.empty())
+    throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", file,
+                           "a mesh must be a readable Wavefront OBJ file" +
+                               (reader.Error().empty() ? std::string() : ": " + reader.Error()),
+                           "check the path in the visual and that the file has vertices"});
+  Body b;
+  const std::vector<tinyobj::real_t>& v = reader.GetAttrib().vertices;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    b.points.push_back(Vec3(v[i], v[i + 1], v[i + 2]).cast<float>().cwiseProduct(scale));
+  // Part 0 has the visual's own colour, part k+1 the file's material k.
+  b.parts.push_back({plain, {}});
+  for (const tinyobj::material_t& m : reader.GetMaterials()) {
+    const Vec3f kd(Vec3(m.diffuse[0], m.diffuse[1], m.diffuse[2]).cast<float>());
+    const Vec3f ks(Vec3(m.specular[0], m.specular[1], m.specular[2]).cast<float>());
+    const auto shine = static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
+    b.parts.push_back({{{kd.x(), kd.y(), kd.z(), static_cast<float>(m.dissolve)}, ks, shine}, {}});
+  }
+  const auto points = static_cast<std::int32_t>(b.points.size());
+  for (const tinyobj::shape_t& shape : reader.GetShapes())
+    for (std::size_t f = 0; f < shape.mesh.num_face_vertices.size(); ++f) {
+      const std::size_t part = static_cast<std::size_t>(std::max(-1, shape.mesh.material_ids[f]) + 1);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int index = shape.mesh.indices[3 * f + k].vertex_index;
+        if (index < 0 || index >= points)
+          throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh face", std::to_string(index + 1),
+                                 "a face must use the file's own vertices", "export the mesh again"});
+        b.parts[part].indices.push_back(index);
+      }
+      b.parts[part].indices.push_back(-1);
+    }
+  return b;
+}
+
+Body make_body(const scene::Visual& visual) {
+  const scene::Geometry& g = visual.geometry;
+  const Look look{visual.color, Vec3f::Constant(0.12f), 0.2f};
+  switch (g.kind) {
+    case scene::Geometry::Kind::kBox:
+      return box(g.size.cast<float>(), look);
+    case scene::Geometry::Kind::kCylinder:
+      return cylinder(static_cast<float>(g.radius), static_cast<float>(g.length), look);
+    case scene::Geometry::Kind::kSphere:
+      return sphere(static_cast<float>(g.radius), look);
+    case scene::Geometry::Kind::kPlane:
+      return box(Vec3(g.size.x(), g.size.y(), 0.002).cast<float>(), look);
+    case scene::Geometry::Kind::kMesh:
+      break;
+  }
+  return read_obj(g.mesh_file, g.scale.cast<float>(), look);
+}
+
+SoNode* make_node(const Body& body) {
+  auto* root = new SoSeparator;
+  root->ref();
+  auto* hints = new SoShapeHints;
+  hints->vertexOrdering = SoShapeHints::COUNTERCLOCKWISE;
+  hints->shapeType = SoShapeHints::UNKNOWN_SHAPE_TYPE;  // open meshes are lit from both sides
+  hints->creaseAngle = kCrease;
+  root->addChild(hints);
+  auto* coordinates = new SoCoordinate3;
+  coordinates->point.setNum(static_cast<int>(body.points.size()));
+  for (std::size_t i = 0; i < body.points.size(); ++i)
+    coordinates->point.set1Value(static_cast<int>(i), body.points[i].x(), body.points[i].y(), body.points[i].z());
+  root->addChild(coordinates);
+  for (const Part& part : body.parts) {
+    if (part.indices.empty()) continue;
+    auto* material = new SoMaterial;
+    const SbColor color(part.look.color.r, part.look.color.g, part.look.color.b);
+    material->diffuseColor = color;
+    material->ambientColor = color;
+    material->specularColor = SbColor(part.look.specular.x(), part.look.specular.y(), part.look.specular.z());
+    material->shininess = part.look.shininess;
+    material->transparency = std::clamp(1.0f - part.look.color.a, 0.0f, 1.0f);
+    root->addChild(material);
+    auto* faces = new SoIndexedFaceSet;
+    faces->coordIndex.setValues(0, static_cast<int>(part.indices.size()), part.indices.data());
+    root->addChild(faces);
+  }
+  return root;
+}
+
+Shape make_shape(const Body& body) {
+  Shape out;
+  out.node = make_node(body);
+  for (const Part& part : body.parts) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < part.indices.size(); ++i) {
+      if (part.indices[i] >= 0) continue;
+      for (std::size_t k = first + 2; k < i; ++k)
+        for (const std::size_t j : {first, k - 1, k})
+          out.triangles.push_back(body.points[static_cast<std::size_t>(part.indices[j])]);
+      first = i + 1;
+    }
+  }
+  if (!body.points.empty()) out.low = out.high = body.points.front();
+  for (const Vec3f& p : body.points) {
+    out.low = out.low.cwiseMin(p);
+    out.high = out.high.cwiseMax(p);
+  }
+  return out;
+}
+
+std::string name_of(const scene::Visual& visual) {
+  const scene::Geometry& g = visual.geometry;
+  char text[400];
+  std::snprintf(text, sizeof text, "%d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.4g %.4g %.4g %.4g ",
+                static_cast<int>(g.kind), g.size.x(), g.size.y(), g.size.z(), g.radius, g.length, g.scale.x(),
+                g.scale.y(), g.scale.z(), static_cast<double>(visual.color.r), static_cast<double>(visual.color.g),
+                static_cast<double>(visual.color.b), static_cast<double>(visual.color.a));
+  return text + g.mesh_file;
+}
+
+}  // namespace
+
+ShapeCache::~ShapeCache() {
+  for (auto& [name, shape] : shapes_) shape.node->unref();
+}
+
+const Shape& ShapeCache::get(const scene::Visual& visual) {
+  const std::string name = name_of(visual);
+  const auto found = shapes_.find(name);
+  if (found != shapes_.end()) return found->second;
+  return shapes_.emplace(name, make_shape(make_body(visual))).first->second;
+}
+
+const Shape& ShapeCache::cylinder_along_x(bool rod) {
+  const std::string name = rod ? "rod" : "barrel";
+  const auto found = shapes_.find(name);
+  if (found != shapes_.end()) return found->second;
+  Look look{{0.20f, 0.20f, 0.21f, 1}, Vec3f::Constant(0.2f), 0.3f};
+  if (rod) look = {{0.72f, 0.74f, 0.77f, 1}, Vec3f::Constant(0.7f), 0.6f};
+  Body body = cylinder(1, 1, look, 18);
+  for (Vec3f& p : body.points) p = Vec3f(p.z() + 0.5f, p.x(), p.y());
+  return shapes_.emplace(name, make_shape(body)).first->second;
+}
+
+}  // namespace navvy::render

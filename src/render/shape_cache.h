@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drawable bodies of visuals, made once each.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/shading.h"
+#include "scene/frame.h"
+
+class SoNode;
+
+namespace navvy::render {
+
+/// A body in its visual's frame: Coin nodes to draw and triangles (three points each) that throw shadows.
+struct Shape {
+  SoNode* node = nullptr;
+  std::vector<Vec3f> triangles;
+  Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
+};
+
+/// Bodies by what they look like (geometry, file, scale, colour), so that equal wheels share one.
+class ShapeCache {
+ public:
+  ShapeCache() = default;
+  ~ShapeCache();
+  ShapeCache(const ShapeCache&) = delete;
+  ShapeCache& operator=(const ShapeCache&) = delete;
+
+  /// @throws InputError naming the mesh file that cannot be read.
+  const Shape& get(const scene::Visual& visual);
+  /// Barrel (radius 1) or rod along +x from 0 to 1.
+  const Shape& cylinder_along_x(bool rod);
+
+ private:
+  std::map<std::string, Shape> shapes_;
+};
+
+}  // namespace navvy::render

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/terrain.h"
+
+namespace navvy::render {
+namespace {
+
+constexpr float kWallSlope = 1.6f;  // steeper than this (58 degrees) is a wall with own triangles
+
+/// Node coordinates along one axis of a tile at a stride, always with both ends.
+std::vector<int> nodes(int first, int cells, int stride) {
+  std::vector<int> out;
+  for (int k = 0; k < cells; k += stride) out.push_back(first + k);
+  out.push_back(first + cells);
+  return out;
+}
+
+Vertex colored(const Vec3f& p, const Vec3f& color) {
+  return {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255};
+}
+
+/// Mean colour over the stride x stride columns around a node, so that coarse levels do not flicker.
+Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
+  const Vec3f p = surface.point(ix, iy);
+  if (stride == 1) {
+    const auto& c = surface.lit(ix, iy);
+    return {p.x(), p.y(), p.z(), c[0], c[1], c[2], 255};
+  }
+  const int reach = stride / 2, step = std::max(1, stride / 4);
+  int sum[3] = {0, 0, 0}, n = 0;
+  for (int y = std::max(0, iy - reach); y <= std::min(surface.ny() - 1, iy + reach); y += step)
+    for (int x = std::max(0, ix - reach); x <= std::min(surface.nx() - 1, ix + reach); x += step, ++n)
+      for (int k = 0; k < 3; ++k) sum[k] += surface.lit(x, y)[static_cast<std::size_t>(k)];
+  const auto mean = [n](int total) { return static_cast<std::uint8_t>((total + n / 2) / n); };
+  return {p.x(), p.y(), p.z(), mean(sum[0]), mean(sum[1]), mean(sum[2]), 255};
+}
+
+void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+}
+
+/// Two triangles of one cell as walls: own vertices, light by the face.
+void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::array<int, 2>, 4>& corner,
+              const std::array<int, 6>& order) {
+  for (std::size_t t = 0; t < 6; t += 3) {
+    std::array<Vec3f, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& c = corner[static_cast<std::size_t>(order[t + k])];
+      p[k] = surface.point(c[0], c[1]);
+    }
+    const Vec3f n = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+    const bool wall = n.z() < 0.62f;  // the cell's other triangle may be level
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& c = corner[static_cast<std::size_t>(order[t + k])];
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      const auto& lit = surface.lit(c[0], c[1]);
+      if (wall)
+        mesh.vertices.push_back(colored(p[k], surface.wall_color(c[0], c[1], n)));
+      else
+        mesh.vertices.push_back({p[k].x(), p[k].y(), p[k].z(), lit[0], lit[1], lit[2], 255});
+    }
+  }
+}
+
+/// A strip hanging down from a line of vertices.
+void add_skirt(Mesh& mesh, const std::vector<std::uint32_t>& line, float drop) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    Vertex v = mesh.vertices[line[i]];
+    v.z -= drop;
+    mesh.vertices.push_back(v);
+    if (i == 0) continue;
+    const auto low = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    add_quad(mesh, line[i - 1], line[i], low, low - 1);
+  }
+}
+
+}  // namespace
+
+void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting) {
+  const int old_x = surface_.nx(), old_y = surface_.ny();
+  const CellRect changed = surface_.update(ground, lighting);
+  rebuilt_ = 0;
+  if (changed.empty()) return;
+  if (old_x != surface_.nx() || old_y != surface_.ny()) {
+    tiles_x_ = (surface_.nx() - 2) / kTile + 1;
+    tiles_y_ = (surface_.ny() - 2) / kTile + 1;
+    if (surface_.nx() < 2 || surface_.ny() < 2) tiles_x_ = tiles_y_ = 0;
+    tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
+  }
+  // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
+  const CellRect wide = changed.grown(1, surface_.nx(), surface_.ny());
+  for (int ty = 0; ty < tiles_y_; ++ty)
+    for (int tx = 0; tx < tiles_x_; ++tx) {
+      const bool touched =
+          tx * kTile < wide.x1 && (tx + 1) * kTile >= wide.x0 && ty * kTile < wide.y1 && (ty + 1) * kTile >= wide.y0;
+      if (!touched) continue;
+      measure(tx, ty);
+      tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)].level = -1;
+    }
+  const bool at_edge = wide.x0 == 0 || wide.y0 == 0 || wide.x1 == surface_.nx() || wide.y1 == surface_.ny();
+  surroundings_stale_ = surroundings_stale_ || at_edge;
+}
+
+void Terrain::measure(int tx, int ty) {
+  Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
+  const int x0 = tx * kTile, y0 = ty * kTile;
+  tile.low = surface_.point(x0, y0);
+  tile.high = surface_.point(x0 + nodes_x(tx), y0 + nodes_y(ty));
+  tile.low.z() = tile.high.z() = surface_.height(x0, y0);
+  for (int iy = y0; iy <= y0 + nodes_y(ty); ++iy)
+    for (int ix = x0; ix <= x0 + nodes_x(tx); ++ix) {
+      tile.low.z() = std::min(tile.low.z(), surface_.height(ix, iy));
+      tile.high.z() = std::max(tile.high.z(), surface_.height(ix, iy));
+    }
+}
+
+int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) const {
+  const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
+  const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max((nearest - view.eye).norm(), 0.1f);
+  int level = 0;
+  while (level < kMaxLevel && cell_pixels * static_cast<float>(1 << (level + 1)) <= pixels) ++level;
+  return level;
+}
+
+std::vector<const Mesh*> Terrain::select(const View& view, int budget) {
+  struct Candidate {
+    float distance;
+    int tile;
+  };
+  std::vector<Candidate> seen;
+  for (int i = 0; i < tiles_x_ * tiles_y_; ++i) {
+    const Tile& tile = tiles_[static_cast<std::size_t>(i)];
+    if (!view.sees(tile.low, tile.high)) continue;
+    seen.push_back({(view.eye.cwiseMax(tile.low).cwiseMin(tile.high) - view.eye).norm(), i});
+  }
+  std::sort(seen.begin(), seen.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.tile < b.tile;
+  });
+  // The finest detail whose triangles fit: a coarse cell covers at most `pixels` of the picture.
+  float pixels = 4.0f;
+  for (; pixels < 64; pixels *= 1.25f) {
+    std::int64_t triangles = 0;
+    for (const Candidate& c : seen) {
+      const int side = kTile >> wanted_level(tiles_[static_cast<std::size_t>(c.tile)], view, pixels);
+      triangles += 2 * side * side + 8 * side;
+    }
+    if (triangles <= budget) break;
+  }
+  std::vector<const Mesh*> out;
+  for (const Candidate& c : seen) {
+    Tile& tile = tiles_[static_cast<std::size_t>(c.tile)];
+    const int level = wanted_level(tile, view, pixels);
+    if (tile.level != level) build(c.tile % tiles_x_, c.tile / tiles_x_, level);
+    out.push_back(&tile.mesh);
+  }
+  return out;
+}
+
+void Terrain::build(int tx, int ty, int level) {
+  Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
+  Mesh& mesh = tile.mesh;
+  mesh.vertices.clear();
+  mesh.indices.clear();
+  tile.level = level;
+  ++rebuilt_;
+  const int stride = 1 << level;
+  const std::vector<int> xs = nodes(tx * kTile, nodes_x(tx), stride), ys = nodes(ty * kTile, nodes_y(ty), stride);
+  const auto width = static_cast<std::uint32_t>(xs.size()), rows = static_cast<std::uint32_t>(ys.size());
+  for (const int iy : ys)
+    for (const int ix : xs) mesh.vertices.push_back(node_vertex(surface_, ix, iy, stride));
+
+  const float wall = kWallSlope * surface_.cell();
+  for (std::uint32_t j = 0; j + 1 < rows; ++j)
+    for (std::uint32_t i = 0; i + 1 < width; ++i) {
+      const std::uint32_t a = j * width + i, b = a + 1, c = b + width, d = a + width;
+      const float ha = mesh.vertices[a].z, hb = mesh.vertices[b].z, hc = mesh.vertices[c].z, hd = mesh.vertices[d].z;
+      const bool other = std::abs(ha - hc) > std::abs(hb - hd);  // cut along the diagonal of more equal heights
+      const float range = std::max({ha, hb, hc, hd}) - std::min({ha, hb, hc, hd});
+      if (level == 0 && range > wall) {
+        const int x = xs[i], y = ys[j];
+        const std::array<std::array<int, 2>, 4> corner = {{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
+        add_wall(mesh, surface_, corner, other ? std::array{0, 1, 3, 1, 2, 3} : std::array{0, 1, 2, 0, 2, 3});
+      } else if (other) {
+        mesh.indices.insert(mesh.indices.end(), {a, b, d, b, c, d});
+      } else {
+        add_quad(mesh, a, b, c, d);
+      }
+    }
+
+  const float drop = 0.1f + std::min(3.0f, tile.high.z() - tile.low.z());
+  std::vector<std::uint32_t> south, east, north, west;
+  for (std::uint32_t i = 0; i < width; ++i) {
+    south.push_back(i);
+    north.push_back((rows - 1) * width + (width - 1 - i));
+  }
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    east.push_back(j * width + width - 1);
+    west.push_back((rows - 1 - j) * width);
+  }
+  for (const auto* line : {&south, &east, &north, &west}) add_skirt(mesh, *line, drop);
+}
+
+const Mesh& Terrain::surroundings(const Lighting& lighting) {
+  if (!surroundings_stale_ || tiles_.empty()) return surroundings_;
+  surroundings_stale_ = false;
+  surroundings_ = {};
+  // The edge as one closed line, counter-clockwise from the lower-left corner, with its way outwards.
+  constexpr int kStep = 4;
+  const int nx = surface_.nx(), ny = surface_.ny();
+  std::vector<std::array<int, 2>> edge;
+  for (int x = 0; x < nx - 1; x += kStep) edge.push_back({x, 0});
+  for (int y = 0; y < ny - 1; y += kStep) edge.push_back({nx - 1, y});
+  for (int x = nx - 1; x > 0; x -= kStep) edge.push_back({x, ny - 1});
+  for (int y = ny - 1; y > 0; y -= kStep) edge.push_back({0, y});
+
+  float mean = 0;
+  Vec3f color = Vec3f::Zero();
+  for (const auto& [x, y] : edge) {
+    const auto& c = surface_.lit(x, y);
+    mean += surface_.height(x, y) / static_cast<float>(edge.size());
+    color += Vec3f(c[0], c[1], c[2]) / (255.0f * static_cast<float>(edge.size()));
+  }
+  const Vec3f center = 0.5f * (surface_.point(0, 0) + surface_.point(nx - 1, ny - 1));
+  constexpr std::array<float, 8> kReach = {0, 0.6f, 2, 5, 12, 40, 150, 900};  // [m] beyond the edge
+  const auto around = static_cast<std::uint32_t>(edge.size());
+  for (std::size_t ring = 0; ring < kReach.size(); ++ring)
+    for (const auto& [x, y] : edge) {
+      const Vec3f p = surface_.point(x, y);
+      const auto& c = surface_.lit(x, y);
+      Vec3f out(p.x() - center.x(), p.y() - center.y(), 0);
+      // Outwards as from a rounded square, so that rings stay apart at corners.
+      out.normalize();
+      const float share = smooth_step(0, 14, kReach[ring]);
+      const Vec3f at = p + out * kReach[ring] * 1.3f;
+      const float patch = value_noise(at.x() / 6, at.y() / 6, 3) + value_noise(at.x() / 31, at.y() / 31, 4);
+      const Vec3f plain = color * (1.0f + 0.05f * patch);
+      const Vec3f own = Vec3f(c[0], c[1], c[2]) / 255.0f;
+      Vec3f tone = own + (plain - own) * share;
+      tone += (lighting.haze - tone) * 0.25f * smooth_step(4, 150, kReach[ring]);
+      surroundings_.vertices.push_back(colored({at.x(), at.y(), p.z() + (mean - p.z()) * share}, tone));
+    }
+  for (std::uint32_t ring = 0; ring + 1 < kReach.size(); ++ring)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t k = (i + 1) % around;
+      add_quad(surroundings_, ring * around + k, ring * around + i, (ring + 1) * around + i, (ring + 1) * around + k);
+    }
+  return surroundings_;
+}
+
+}  // namespace navvy::render

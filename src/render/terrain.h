@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground as triangles: tiles of 64 x 64 columns, each at the level of detail that the camera needs.
+#pragma once
+
+#include <vector>
+
+#include "render/ground_surface.h"
+#include "render/view.h"
+
+namespace navvy::render {
+
+/// Triangles over shared vertices.
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+/// Tiles are made when first seen at a level and kept until their columns change. Seams between levels are closed by
+/// skirts. At full detail walls get triangles of their own, so that an edge stays sharp in light.
+class Terrain {
+ public:
+  static constexpr int kTile = 64;     ///< columns along a tile
+  static constexpr int kMaxLevel = 5;  ///< strides 1, 2, 4 ... 32
+
+  /// Brings the copy of the ground up to date.
+  void update(const scene::FrameGround& ground, const Lighting& lighting);
+  /// Chooses and builds the tiles that `view` needs, nearest first, at most about `budget` triangles.
+  std::vector<const Mesh*> select(const View& view, int budget);
+  /// Ground beyond the site's edge, from the edge's heights out to the haze.
+  const Mesh& surroundings(const Lighting& lighting);
+
+  const GroundSurface& surface() const { return surface_; }
+  int rebuilt() const { return rebuilt_; }
+
+ private:
+  struct Tile {
+    Mesh mesh;
+    int level = -1;  ///< of the mesh; -1: none or stale
+    Vec3f low, high;
+  };
+  int nodes_x(int tile) const { return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile; }
+  int nodes_y(int tile) const { return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile; }
+  void measure(int tx, int ty);
+  void build(int tx, int ty, int level);
+  int wanted_level(const Tile& tile, const View& view, float pixels) const;
+
+  GroundSurface surface_;
+  int tiles_x_ = 0, tiles_y_ = 0;
+  std::vector<Tile> tiles_;
+  Mesh surroundings_;
+  bool surroundings_stale_ = true;
+  int rebuilt_ = 0;
+};
+
+}  // namespace navvy::render
