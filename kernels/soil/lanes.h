@@ -5,6 +5,9 @@
 #ifndef NAVVY_KERNELS_SOIL_LANES_H
 #define NAVVY_KERNELS_SOIL_LANES_H
 
+// float16 arguments of built-ins are inlined; that they would be passed in memory on AVX2 is no news worth printing.
+#pragma clang diagnostic ignored "-Wpsabi"
+
 #include "common/portable.h"
 #include "soil/layout.h"
 
