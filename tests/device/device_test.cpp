@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -73,6 +74,23 @@ TEST(Device, TellsWhatExistsWhenNoneMatches) {
   EXPECT_NE(text.find(list_devices().front().name), std::string::npos) << text;
   EXPECT_NE(text.find("choose cpu, gpu, an index or a part of a name"), std::string::npos) << text;
   EXPECT_NE(message_of("99").find("matches '99'"), std::string::npos);
+}
+
+TEST(DeviceDeathTest, SaysWhatToInstallWhereThereIsNoPlatform) {
+  // The child starts anew, so that the loader reads the empty list of drivers.
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto without_platform = [] {
+    ::setenv("OCL_ICD_VENDORS", "/dev/null/none", 1);
+    ::unsetenv("NAVVY_DEVICE");
+    try {
+      Device device;
+    } catch (const DeviceError& error) {
+      std::fputs(error.what(), stderr);
+      std::exit(list_devices().empty() ? 3 : 4);
+    }
+    std::exit(5);
+  };
+  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3), "no OpenCL device: .*apt-get install pocl-opencl-icd");
 }
 
 TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
