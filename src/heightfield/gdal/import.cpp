@@ -76,7 +76,11 @@ void open(Map& map) {
     map.report.notes.push_back("8-bit heights: steps of a whole unit, and nodata may have become 0");
   int block_x = 0, block_y = 0;
   map.band->GetBlockSize(&block_x, &block_y);
-  if (static_cast<double>(block_x) * block_y * 8 > kMostBlockBytes)
+  // A block of pixel-interleaved bands holds them all.
+  const char* interleave = map.data->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
+  const int bands_in_block =
+      interleave != nullptr && std::string(interleave) == "PIXEL" ? map.data->GetRasterCount() : 1;
+  if (static_cast<double>(block_x) * block_y * 8 * bands_in_block > kMostBlockBytes)
     map.fail("terrain", std::to_string(block_x) + " x " + std::to_string(block_y),
              "is stored in blocks too large to read", "rewrite it with gdal_translate -co TILED=YES");
 }
