@@ -18,6 +18,13 @@ void put(std::vector<float>& out, const Vec3& v, float w) {
   out.push_back(w);
 }
 
+/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of a
+/// tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same dig.
+Vec3 snapped(const Vec3& cells) {
+  constexpr double kSteps = 1 << 18;
+  return (cells * kSteps).array().round().matrix() / kSteps;
+}
+
 int floor_div(double cells) { return static_cast<int>(std::floor(cells / kBlockCells)); }
 
 /// Adds (block, triangle) for every block of `index` whose box [low, high] (cells from its corner) meets the given box.
@@ -158,7 +165,7 @@ void Contact::append_tool(std::size_t index, std::vector<float>& words) const {
   words.resize(at + TOOL_WORDS, 0.0f);
   const Tool& tool = tools_[index];
   const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
-  const Vec3 origin = to_grid(tool.X.translation()) - corner;
+  const Vec3 origin = snapped(to_grid(tool.X.translation()) - corner);
   const std::int32_t window[3] = {tool.window.x, tool.window.y, tool.window.z};
   words[at + TOOL_HALF] = static_cast<float>(tool.geometry->shell().half_thickness / cell_);
   words[at + TOOL_ACTIVE] = tool.present ? 1.0f : 0.0f;
@@ -184,7 +191,7 @@ void Contact::upload_frame() {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Tool& tool = tools_[t];
     const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
-    const auto place = [&](const Vec3& p_T) { return Vec3(to_grid(tool.X * p_T) - corner); };
+    const auto place = [&](const Vec3& p_T) { return snapped(to_grid(tool.X * p_T) - corner); };
     const auto index = std::bit_cast<float>(static_cast<std::int32_t>(t));
     const Mat3 R = tool.X.linear();
     for (const ShellGeometry::Triangle& tri : tool.geometry->triangles()) {
