@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/stopwatch.h"
+#include "sim/soil_surface.h"
 
 namespace navvy::sim {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::uint64_t kPayloadInterval = 12;
 }  // namespace
 
 struct Session::State {
-  State(scene::World description, device::Device& device) : world(std::move(description), device) {
+  State(scene::World description, device::Device& device) : world(std::move(description), device), surface(world) {
     device_name = device.info().name;
   }
 
@@ -33,6 +34,7 @@ struct Session::State {
   };
 
   World world;
+  SoilSurface surface;
   std::string device_name;
   std::vector<Crew> crews;
   std::vector<Cycle> cycles;
@@ -60,6 +62,7 @@ void Session::State::enlist(int machine) {
   }
   crew.seen.joints.resize(placed.machine.joints.size());
   crew.seen.ground = &world.ground();
+  crew.seen.surface = &surface;
   crews.push_back(std::move(crew));
 }
 
