@@ -249,6 +249,18 @@ class Decoder {
 };
 
 // Reads the cells under the site, flipped into our order; heights minus the offset, so that float keeps millimetres.
+/// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start of a row by reading
+/// those before it and goes on after a row that fails: asked for the last row of a cut file it tries 2^rows times.
+void find_rows(Map& map, int last_row) {
+  if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
+  for (int row = 0; row <= last_row; ++row) {
+    double value = 0;
+    if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) != CE_None)
+      map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
+               "the file is damaged: get it again");
+  }
+}
+
 HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corner) {
   TerrainReport& report = map.report;
   const auto first = [](double x, double cell, int n) {
@@ -275,6 +287,7 @@ HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corn
   raster.z.resize(static_cast<std::size_t>(report.source_cells));
   const Decoder decode(map);
   std::vector<double> line(static_cast<std::size_t>(raster.nx));
+  find_rows(map, map.rows_fall ? report.rows - 1 - y0 : y1);
   double sum = 0;
   std::int64_t known = 0;
   for (int iy = 0; iy < raster.ny; ++iy) {
