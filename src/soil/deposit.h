@@ -26,8 +26,9 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 /// Books blocks back, mass-exact per soil.
 ///
 /// The density state alone decides the volume: each soil of a block becomes one layer a column with the mass-weighted
-/// mean j0 of its particles, clamped to [0.88, swell]. The iso-surface decides how the block's volume is spread over
-/// its columns; masses are shared in integers, what rounding leaves goes to the highest column.
+/// mean j0 of its particles, clamped to [0.88, swell] (denser only where particles crowd into much less room than
+/// that). The iso-surface decides how the block's volume is spread over its columns; masses are shared in integers,
+/// what rounding leaves goes to the highest column.
 class Depositor {
  public:
   Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
@@ -45,6 +46,7 @@ class Depositor {
   std::vector<Share> shares(int block) const;
   std::array<std::int64_t, 16> weights(const BlockShape& shape, int block) const;
 
+  double crowding(const std::vector<Share>& shares, const BlockShape& shape) const;
   void book(const BlockShape& shape, int block);
 
   heightfield::Ground& ground_;

@@ -24,6 +24,7 @@ class ShapeFinder {
   BlockShape find(const PlanKey& block);
 
  private:
+  bool hangs(int ix, int iy);
   void sample_columns(int ix, int iy);
   void sample_particles(int ix, int iy);
   void read(BlockShape& shape, std::size_t c) const;
@@ -34,7 +35,7 @@ class ShapeFinder {
   std::array<double, 36> around_{};
   int x0_ = 0, y0_ = 0;
   double bottom_ = 0;
-  std::vector<double> fraction_;
+  std::vector<double> fraction_, heights_;
 };
 
 }  // namespace navvy::soil

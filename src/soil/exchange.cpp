@@ -15,7 +15,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Deposited columns are left alone by the motion and slope rules for this long [s], so that waking and booking back do
+/// Deposited columns are left alone by the motion rule for this long [s], so that waking and booking back do
 /// not chase each other. tuned: ExchangeCycle tests
 constexpr double kRestAfterDeposit = 1.0;
 /// Tiles of changed ground looked at per check; the others wait, so that one check stays cheap. tuned: 48 tiles of flat
@@ -38,16 +38,15 @@ struct Exchange::State {
       : ground(ground_in),
         waker(ground_in, -world.gravity.z()),
         table(ground_in.setup().soils, ground_in.cell(), -world.gravity.z()),
-        scan(ground_in, table, world.ground.steep == scene::SteepGround::kHold),
+        scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
         seen(ground_in.sequence()) {}
 
   bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
   std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
-  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, double time, WakePlan& plan);
-  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, double time,
-                  WakePlan& plan);
+  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
+  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
   void fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan);
   void wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result);
   void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
@@ -57,6 +56,7 @@ struct Exchange::State {
   heightfield::Ground& ground;
   Waker waker;
   SlumpTable table;
+  StandingHeights standing;
   SlumpScan scan;
   Slump slump;
   std::size_t max_particles;
@@ -110,28 +110,21 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
 }
 
 // Rule C: over-steep columns wake where soil is awake or a tool works, and slide as columns elsewhere.
-void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, double time,
-                                  WakePlan& plan) {
+void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan) {
   std::vector<OverSteep> found;
   for (const PlanKey& tile : tiles_to_scan(index, zones)) scan.scan(tile.second, tile.first, index, zones, found);
-  for (const OverSteep& slope : found) plan_slope(slope, index, zones, time, plan);
+  for (const OverSteep& slope : found) plan_slope(slope, index, zones, plan);
 }
 
 void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
-                                 double time, WakePlan& plan) {
-  // The drop stays there and is found again until it is dealt with: its tile has changed or has particles.
-  bool near = false, resting = false;
+                                 WakePlan& plan) {
+  bool near = false;
   for (int l = 0; l <= found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
     const PlanKey block = block_of(ix, iy);
-    resting = resting || rests_since_deposit(ix, iy, zones, time);
     for (int by = -1; by <= 1; ++by)
       for (int bx = -1; bx <= 1; ++bx) near = near || index.find({block.first + by, block.second + bx}) >= 0;
     for (const ToolZone& tool : zones) near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
-  }
-  if (resting) {
-    pending.insert(tile_of(found.ix, found.iy));
-    return;
   }
   if (!near || over_budget) {
     slump.fail(found);
@@ -205,13 +198,16 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   std::vector<int> ready;
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
+  std::set<PlanKey> done;
   for (const int b : Depositor(ground, index).deposit(ready)) {
     const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
     for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
     rest.erase(key);
     deposited[key] = time;
+    done.insert(key);
     ++result.deposited_blocks;
   }
+  standing.remember(ground, index, done);
   std::erase_if(deposited, [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
 }
 
@@ -239,7 +235,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   wake_around_motion(
       s.ground, index, motion_threshold(zones),
       [&](int ix, int iy) { return !s.rests_since_deposit(ix, iy, zones, time); }, plan);
-  s.plan_slopes(index, zones, time, plan);
+  s.plan_slopes(index, zones, plan);
   s.fit_budget(zones, particles.size(), time, plan);
 
   update_rest(index, elapsed, s.rest);
@@ -281,6 +277,7 @@ void Exchange::hash(StateHash& hash) const {
   hash.value(s.next_pending.second);
   hash.value(s.seen);
   hash.value(s.over_budget);
+  s.standing.hash(hash);
   s.slump.hash(hash);
 }
 
@@ -306,6 +303,7 @@ void Exchange::save(StateWriter& writer) const {
   writer.value(s.next_pending.second);
   writer.value(s.seen);
   writer.value(static_cast<std::uint8_t>(s.over_budget));
+  s.standing.save(writer);
   s.slump.save(writer);
   writer.end();
 }
@@ -331,6 +329,7 @@ void Exchange::load(StateReader& reader) {
   s.next_pending = key();
   s.seen = reader.value<std::uint64_t>();
   s.over_budget = reader.value<std::uint8_t>() != 0;
+  s.standing.load(reader);
   s.slump.load(reader);
   reader.end();
 }

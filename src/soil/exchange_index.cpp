@@ -11,6 +11,7 @@ namespace {
 /// Between centres, past which soil does not rest on what is below: one empty cell [evidence, section 4] and half a
 /// particle above and below it.
 constexpr double kMostGap = 1.5;
+constexpr double kHalfParticle = 0.25;  // [cells]
 constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;
 
 std::uint64_t packed(const PlanKey& key) {
@@ -87,15 +88,17 @@ void ColumnIndex::build_piles() {
     const int ix = kBlockCells * block.second + static_cast<int>(c % kBlockCells);
     const int iy = kBlockCells * block.first + static_cast<int>(c % kColumnsPerBlock / kBlockCells);
     Pile& pile = piles_[c];
-    pile.top = (ground_.height(ix, iy) - ground_.datum()) / cell;
+    const double surface = (ground_.height(ix, iy) - ground_.datum()) / cell;
+    pile.top = surface;
     for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o) {
       const Particle& p = particles_[order_[o]];
       const double z = height_in_cells(p);
       if (z - pile.top > kMostGap) break;
       pile.top = std::max(pile.top, z);
       pile.mass += p.mass;
-      pile.volume += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
+      pile.height += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
     }
+    if (pile.mass > 0) pile.height = std::max(pile.height, pile.top + kHalfParticle - surface);
   }
 }
 
@@ -131,7 +134,7 @@ Pile ColumnIndex::pile(int ix, int iy) const {
 
 double ColumnIndex::pile_height(int ix, int iy) const {
   const int c = slot(ix, iy);
-  return c < 0 ? 0.0 : piles_[static_cast<std::size_t>(c)].volume;
+  return c < 0 ? 0.0 : piles_[static_cast<std::size_t>(c)].height;
 }
 
 }  // namespace navvy::soil

@@ -29,7 +29,9 @@ inline double height_in_cells(const Particle& p) {
 
 /// The particles that rest one on another on a column, without an empty gap below them.
 struct Pile {
-  double volume = 0;      ///< in their density state, as a height on the column [cells]
+  /// Above the column [cells]: the larger of their volume in their density state and of where the highest one ends. The
+  /// number of particles over one column scatters by 6 cm and would show slopes that are none [evidence, section 4].
+  double height = 0;
   std::int64_t mass = 0;  ///< [kMassQuantum]
   double top = 0;         ///< centre of the highest one, the column's surface when there is none [cells above datum]
 };
@@ -50,7 +52,7 @@ class ColumnIndex {
   std::span<const std::uint32_t> block(int b) const;
   /// What rests on the column; its top is the column's surface when nothing does.
   Pile pile(int ix, int iy) const;
-  /// Volume of the pile alone [cells], 0 without particles.
+  /// Height of the pile alone [cells], 0 without particles.
   double pile_height(int ix, int iy) const;
 
   const Particle& operator[](std::uint32_t i) const { return particles_[i]; }

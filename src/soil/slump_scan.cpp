@@ -10,9 +10,72 @@ namespace {
 /// A drop must have grown by this since the start to count on ground that holds [cells]. tuned: above the mass
 /// quantum's and the float heights' rounding, below the shallowest rut that matters.
 constexpr double kGrown = 0.01;
+/// The same where the low side is awake: where its highest particle lies jumps by half a cell.
+constexpr double kGrownAwake = 0.5;
 constexpr int kDirections[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
 }  // namespace
+
+void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIndex& index,
+                               const std::set<PlanKey>& deposited) {
+  std::set<PlanKey> seen;
+  for (const PlanKey& block : deposited)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) seen.insert({block.first + dy, block.second + dx});
+  for (const PlanKey& key : seen) {
+    auto& block = blocks_[key];
+    const bool awake = deposited.count(key) == 0;
+    for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+      const int ix = kBlockCells * key.second + c % kBlockCells, iy = kBlockCells * key.first + c / kBlockCells;
+      const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
+      block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (awake ? index.pile_height(ix, iy) : 0.0));
+    }
+  }
+}
+
+bool StandingHeights::find(int ix, int iy, double& height) const {
+  const PlanKey key = block_of(ix, iy);
+  const auto found = blocks_.find(key);
+  if (found == blocks_.end()) return false;
+  height = static_cast<double>(found->second[static_cast<std::size_t>((iy - kBlockCells * key.first) * kBlockCells +
+                                                                      ix - kBlockCells * key.second)]);
+  return true;
+}
+
+void StandingHeights::hash(StateHash& hash) const {
+  for (const auto& [key, heights] : blocks_) {
+    hash.value(key.first);
+    hash.value(key.second);
+    hash.bytes(heights.data(), sizeof heights);
+  }
+}
+
+void StandingHeights::save(StateWriter& writer) const {
+  writer.value(static_cast<std::uint64_t>(blocks_.size()));
+  for (const auto& [key, heights] : blocks_) {
+    writer.value(key.first);
+    writer.value(key.second);
+    writer.value(heights);
+  }
+}
+
+void StandingHeights::load(StateReader& reader) {
+  blocks_.clear();
+  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
+    const int y = reader.value<int>(), x = reader.value<int>();
+    blocks_[{y, x}] = reader.value<std::array<float, kBlockCells * kBlockCells>>();
+  }
+}
+
+bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const {
+  double high = 0, low = 0;
+  const bool high_known = standing_.find(ix, iy, high), low_known = standing_.find(lx, ly, low);
+  if (!hold_ && !(high_known && low_known)) return false;
+  if (!high_known) high = (ground_.start_height(ix, iy) - ground_.datum()) / ground_.cell();
+  if (!low_known) low = (ground_.start_height(lx, ly) - ground_.datum()) / ground_.cell();
+  const bool awake = top_[at(lx, ly)] > rest_[at(lx, ly)];
+  return drop <= high - low + (awake ? kGrownAwake : kGrown);
+}
 
 void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
   x0_ = tx * kTile - SlumpTable::kReach;
@@ -49,10 +112,7 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
   if (high - low <= limit_[diagonal][steps]) return false;
   if (!ground_.contains(ix, iy) || !ground_.contains(lx, ly)) return false;
   const double cell = ground_.cell();
-  if (hold_) {
-    const double start = (ground_.start_height(ix, iy) - ground_.start_height(lx, ly)) / cell;
-    if (high - low <= start + kGrown) return false;
-  }
+  if (stood_before(ix, iy, lx, ly, high - low)) return false;
   ground_.column(ix, iy, layers_);
   if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal)) return false;
   const OverSteep found{ix, iy, dx, dy, steps, low};
