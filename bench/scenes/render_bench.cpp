@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -26,18 +27,21 @@ void measure(render::Renderer& renderer, const scene::Frame& frame, const Row& r
   render::Image image = renderer.render(frame, row.camera);
   const double first_ms = 1e3 * first.seconds();
   std::vector<double> times;
+  const std::clock_t start = std::clock();
   for (int i = 0; i < 7; ++i) {
     const Stopwatch watch;
     image = renderer.render(frame, row.camera);
     times.push_back(1e3 * watch.seconds());
   }
+  const double cpu_ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / 7;
   std::sort(times.begin(), times.end());
   const render::RenderStats& s = renderer.stats();
   std::printf(
-      "%-10s %-9s %4d x %-4d columns  first %6.1f ms, least %6.1f, median %6.1f (prepare %5.1f, draw %5.1f)  "
+      "%-10s %-9s %4d x %-4d columns  first %6.1f ms, least %6.1f, median %6.1f, all cores %6.1f (prepare %5.1f, draw "
+      "%5.1f)  "
       "%6d ground triangles in %3d tiles, %5d lumps, %6d triangles\n",
       prefix.c_str(), row.name, frame.ground.nx, frame.ground.ny, first_ms, times.front(), times[times.size() / 2],
-      s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles, s.particles_drawn, s.particle_triangles);
+      cpu_ms, s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles, s.particles_drawn, s.particle_triangles);
   if (!folder.empty()) render::write_png(folder + "/" + prefix + "_" + row.name + ".png", image);
 }
 
@@ -48,10 +52,10 @@ int main(int argc, char** argv) {
   render::RenderOptions options;
   options.samples = argc > 2 ? std::atoi(argv[2]) : 1;
   const std::string meshes = std::string(NAVVY_SOURCE_DIR) + "/vehicles/ew180/meshes";
-  const std::vector<Row> rows = {{"side", render::look_from({5.0, -9.5, 3.4}, {1.2, 0.3, 1.2})},
-                                 {"front", render::look_from({10.5, -5.0, 3.6}, {2.0, 0.6, 0.8})},
+  const std::vector<Row> rows = {{"side", render::look_from({6.5, -12.0, 4.6}, {1.6, 0.6, 1.55})},
+                                 {"front", render::look_from({11.5, -7.0, 4.6}, {2.2, 0.9, 1.3})},
                                  {"close", render::look_from({7.6, -3.6, 2.6}, {4.4, 0.2, 0.5})},
-                                 {"rear", render::look_from({-9.5, 6.5, 4.5}, {0.5, 0.3, 0.9})},
+                                 {"rear", render::look_from({-10.5, 8.0, 5.4}, {0.8, 0.3, 1.5})},
                                  {"high", render::look_from({30, -38, 22}, {0, 0, 0})}};
   for (const int nx : {200, 1024}) {
     render::TrenchScene scene;

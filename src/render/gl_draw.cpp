@@ -35,6 +35,10 @@ void draw(const Mesh& mesh) {
   glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &mesh.vertices[0].x);
   glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.indices.size()), GL_UNSIGNED_INT, mesh.indices.data());
+  if (mesh.flat.empty()) return;
+  glShadeModel(GL_FLAT);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.flat.size()), GL_UNSIGNED_INT, mesh.flat.data());
+  glShadeModel(GL_SMOOTH);
 }
 
 }  // namespace

@@ -58,9 +58,11 @@ CellRect GroundSurface::update(const scene::FrameGround& ground, const Lighting&
   if (rect.empty()) return {};
   copy(ground, rect);
   if (fresh) {
+    // Of the ground at the start, so that digging does not tint the whole site anew.
     double sum = 0;
-    float low = height_[0], high = height_[0];
-    for (const float h : height_) {
+    float low = height_[0] - change_[0], high = low;
+    for (std::size_t i = 0; i < n; ++i) {
+      const float h = height_[i] - change_[i];
       sum += h;
       low = std::min(low, h);
       high = std::max(high, h);

@@ -94,24 +94,30 @@ bool ParticleMesh::occupied(std::int32_t x, std::int32_t y, std::int32_t z) cons
   return false;
 }
 
-// False when every neighbouring cell holds soil. `outward` points away from the neighbours, `open` is the share of
-// sky that they leave.
-bool ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) const {
+// Hidden: the seven neighbouring cells towards the eye all hold soil.
+bool ParticleMesh::hidden(const Vec3f& local, const Vec3f& to_eye) const {
+  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_), z = cell_of(local.z(), pitch_);
+  const int sx = to_eye.x() > 0 ? 1 : -1, sy = to_eye.y() > 0 ? 1 : -1, sz = to_eye.z() > 0 ? 1 : -1;
+  for (int k = 1; k < 8; ++k)
+    if (!occupied(x + ((k & 1) ? sx : 0), y + ((k & 2) ? sy : 0), z + ((k & 4) ? sz : 0))) return false;
+  return true;
+}
+
+// `outward` points away from the neighbours, `open` is the share of sky that they leave.
+void ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) const {
   const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_), z = cell_of(local.z(), pitch_);
   outward.setZero();
-  int full = 0, above = 0;
+  int above = 0;
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if ((dx | dy | dz) == 0 || !occupied(x + dx, y + dy, z + dz)) continue;
-        ++full;
         above += dz >= 0 ? 1 + dz : 0;
         outward -= Vec3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz));
       }
-  open = 1.0f - 0.028f * static_cast<float>(above);
+  open = 1.0f - 0.025f * static_cast<float>(above);
   const float length = outward.norm();
   outward = length > 0.5f ? Vec3f(outward / length) : Vec3f(0, 0, 1);
-  return full < 26;
 }
 
 void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting,
@@ -146,7 +152,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   if (n == 0) return mesh_;
   const auto radius = static_cast<float>(particles.radius);
   const Vec3f origin = particles.origin.cast<float>();
-  pitch_ = 1.6f * radius;
+  pitch_ = 2.0f * radius;
   fill_table(particles);
 
   for (std::size_t i = 0; i < n; ++i) {
@@ -156,7 +162,8 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     lump.center = origin + local;
     const Vec3f around = Vec3f::Constant(2 * radius);
     if (!view.sees(lump.center - around, lump.center + around)) continue;
-    if (!look_around(local, lump.outward, lump.open)) continue;
+    if (hidden(local, view.eye - lump.center)) continue;
+    look_around(local, lump.outward, lump.open);
     lump.distance = (lump.center - view.eye).norm();
     lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
     lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];

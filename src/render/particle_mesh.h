@@ -14,7 +14,7 @@ namespace navvy::render {
 /// Makes one mesh of all visible particles. Cost grows with the particles on the outside of the soil.
 class ParticleMesh {
  public:
-  static constexpr int kTriangleBudget = 150000;
+  static constexpr int kTriangleBudget = 100000;
 
   /// Positions, sizes and colours follow from the particle's number (or id), so that a lump keeps its looks.
   const Mesh& build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
@@ -30,7 +30,8 @@ class ParticleMesh {
   };
   void fill_table(const scene::FrameParticles& particles);
   bool occupied(std::int32_t x, std::int32_t y, std::int32_t z) const;
-  bool look_around(const Vec3f& local, Vec3f& outward, float& open) const;
+  bool hidden(const Vec3f& local, const Vec3f& to_eye) const;
+  void look_around(const Vec3f& local, Vec3f& outward, float& open) const;
   void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting, float sun);
 
   Mesh mesh_;

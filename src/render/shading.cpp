@@ -8,7 +8,7 @@ Lighting make_lighting(const std::vector<scene::Light>& lights) {
   Lighting out;
   const Vec3f direction = light.direction.cast<float>();
   if (direction.norm() > 1e-6f) out.to_sun = -direction.normalized();
-  out.sun = 0.80f * Vec3f(light.color.r, light.color.g, light.color.b);
+  out.sun = 0.95f * Vec3f(light.color.r, light.color.g, light.color.b);
   return out;
 }
 

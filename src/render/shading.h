@@ -24,9 +24,9 @@ static_assert(sizeof(Vertex) == 16);
 
 struct Lighting {
   Vec3f to_sun = Vec3f(0.5f, -0.35f, 0.8f).normalized();
-  Vec3f sun = Vec3f(0.80f, 0.77f, 0.70f);
-  Vec3f sky = Vec3f(0.40f, 0.45f, 0.53f);
-  Vec3f ground = Vec3f(0.20f, 0.17f, 0.14f);
+  Vec3f sun = Vec3f(0.95f, 0.92f, 0.84f);
+  Vec3f sky = Vec3f(0.46f, 0.50f, 0.58f);
+  Vec3f ground = Vec3f(0.24f, 0.21f, 0.17f);
   Vec3f haze = Vec3f(0.78f, 0.83f, 0.88f);    ///< colour of the horizon
   Vec3f zenith = Vec3f(0.28f, 0.47f, 0.74f);  ///< colour of the sky above
 

@@ -32,6 +32,7 @@ class ShapeCache {
   const Shape& get(const scene::Visual& visual);
   /// Barrel (radius 1) or rod along +x from 0 to 1.
   const Shape& cylinder_along_x(bool rod);
+  std::size_t size() const { return shapes_.size(); }
 
  private:
   std::map<std::string, Shape> shapes_;

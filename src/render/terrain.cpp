@@ -69,7 +69,8 @@ void add_skirt(Mesh& mesh, const std::vector<std::uint32_t>& line, float drop) {
     mesh.vertices.push_back(v);
     if (i == 0) continue;
     const auto low = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-    add_quad(mesh, line[i - 1], line[i], low, low - 1);
+    const std::uint32_t a = line[i - 1], b = line[i];
+    mesh.flat.insert(mesh.flat.end(), {a, b, low, a, low, low - 1});
   }
 }
 
@@ -87,7 +88,7 @@ void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting)
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
   }
   // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
-  const CellRect wide = changed.grown(1, surface_.nx(), surface_.ny());
+  const CellRect wide = changed.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny());
   for (int ty = 0; ty < tiles_y_; ++ty)
     for (int tx = 0; tx < tiles_x_; ++tx) {
       const bool touched =
@@ -106,16 +107,20 @@ void Terrain::measure(int tx, int ty) {
   tile.low = surface_.point(x0, y0);
   tile.high = surface_.point(x0 + nodes_x(tx), y0 + nodes_y(ty));
   tile.low.z() = tile.high.z() = surface_.height(x0, y0);
+  tile.rough = false;
   for (int iy = y0; iy <= y0 + nodes_y(ty); ++iy)
     for (int ix = x0; ix <= x0 + nodes_x(tx); ++ix) {
       tile.low.z() = std::min(tile.low.z(), surface_.height(ix, iy));
       tile.high.z() = std::max(tile.high.z(), surface_.height(ix, iy));
+      if (ix > x0 && std::abs(surface_.height(ix, iy) - surface_.height(ix - 1, iy)) > kWallSlope * surface_.cell())
+        tile.rough = true;
     }
 }
 
 int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) const {
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
   const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max((nearest - view.eye).norm(), 0.1f);
+  if (tile.rough) pixels *= 0.35f;
   int level = 0;
   while (level < kMaxLevel && cell_pixels * static_cast<float>(1 << (level + 1)) <= pixels) ++level;
   return level;
@@ -160,6 +165,7 @@ void Terrain::build(int tx, int ty, int level) {
   Mesh& mesh = tile.mesh;
   mesh.vertices.clear();
   mesh.indices.clear();
+  mesh.flat.clear();
   tile.level = level;
   ++rebuilt_;
   const int stride = 1 << level;

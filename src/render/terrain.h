@@ -13,6 +13,7 @@ namespace navvy::render {
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> flat;  ///< triangles of one colour each (skirts: slivers would smear shaded colours)
 };
 
 /// Tiles are made when first seen at a level and kept until their columns change. Seams between levels are closed by
@@ -35,7 +36,8 @@ class Terrain {
  private:
   struct Tile {
     Mesh mesh;
-    int level = -1;  ///< of the mesh; -1: none or stale
+    int level = -1;      ///< of the mesh; -1: none or stale
+    bool rough = false;  ///< holds walls: wants finer detail
     Vec3f low, high;
   };
   int nodes_x(int tile) const { return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile; }

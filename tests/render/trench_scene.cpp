@@ -19,7 +19,7 @@ void fill_bucket(scene::FrameParticles& particles, const Pose& X_WBucket, double
   for (double x = 0.15; x < 1.15; x += step)
     for (double y = -0.44; y < 0.45; y += step)
       for (double z = -0.35; z < 0.42; z += step) {
-        const double r = std::hypot((x - 0.62) / 0.56, (z - 0.05) / 0.42);
+        const double r = std::hypot((x - 0.66) / 0.60, (z - 0.03) / (z > 0.03 ? 0.44 : 0.24), y / 0.62);
         if (r > 1) continue;
         Vec3 p(x, y, z);
         for (int k = 0; k < 3; ++k) p[k] += step * 0.7 * (hash_unit(++n, 3) - 0.5);
@@ -165,14 +165,14 @@ void add_machine(TrenchScene& scene, const std::string& dir, const MachinePose& 
 
 void make_trench_scene(TrenchScene& scene, const std::string& mesh_dir, int nx) {
   make_ground(scene.frame.ground, nx, nx, 0.1);
-  dig_trench(scene.frame.ground, 3.6, 0);
+  dig_trench(scene.frame.ground, 3.2, 0);
   MachinePose pose;
   pose.x = -3.2;
   pose.boom = 0.62;
   pose.stick = -1.75;
-  pose.bucket = -1.25;
+  pose.bucket = -1.45;
   pose.steer = 0.25;
-  pose.swing = 0.32;
+  pose.swing = 0.42;
   add_machine(scene, mesh_dir, pose);
   scene::FrameParticles& particles = scene.frame.particles;
   fill_bucket(particles, forward_kinematics(pose).bucket, 0.1);

@@ -9,14 +9,14 @@ import math
 import os
 
 MATERIALS = {  # diffuse, specular, shininess, opacity
-    "yellow": ((0.90, 0.62, 0.07), 0.25, 40, 1),
-    "dark": ((0.17, 0.175, 0.18), 0.12, 20, 1),
+    "yellow": ((0.86, 0.58, 0.05), 0.25, 40, 1),
+    "dark": ((0.19, 0.195, 0.20), 0.12, 20, 1),
     "grey": ((0.38, 0.39, 0.40), 0.15, 20, 1),
     "black": ((0.07, 0.07, 0.075), 0.05, 8, 1),
     "rubber": ((0.095, 0.092, 0.09), 0.03, 4, 1),
     "rim": ((0.80, 0.79, 0.74), 0.20, 30, 1),
     "steel": ((0.62, 0.63, 0.65), 0.50, 60, 1),
-    "worn": ((0.33, 0.31, 0.29), 0.25, 30, 1),
+    "worn": ((0.42, 0.40, 0.37), 0.25, 30, 1),
     "glass": ((0.16, 0.24, 0.30), 0.80, 100, 0.55),
     "seat": ((0.12, 0.12, 0.14), 0.03, 4, 1),
     "red": ((0.65, 0.06, 0.05), 0.30, 30, 1),
@@ -455,12 +455,12 @@ def bucket():
     for i in range(len(line) - 1):
         (ax, az), (bx, bz) = line[i], line[i + 1]
         (cx, cz), (dx, dz) = inside[i], inside[i + 1]
-        m.face("dark", [(ax, -half, az), (ax, half, az), (bx, half, bz), (bx, -half, bz)])
+        m.face("grey", [(ax, -half, az), (ax, half, az), (bx, half, bz), (bx, -half, bz)])
         m.face("worn", [(cx, half, cz), (cx, -half, cz), (dx, -half, dz), (dx, half, dz)])
     for side in (-1, 1):  # side plates with a reinforced edge
         y0, y1 = sorted((side * half, side * (half - 0.025)))
         rim = [(0.09, 0.10), (0.40, 0.02), (0.745, 0.05), (1.10, 0.03), (1.40, 0.0)]
-        m.prism("dark", line + rim[:-1], y0, y1, "y", 0)
+        m.prism("grey", line + rim[:-1], y0, y1, "y", 0)
         y0, y1 = sorted((side * (half + 0.02), side * (half - 0.03)))
         m.prism("worn", [(0.62, 0.06), (1.05, 0.035), (1.30, 0.02), (1.36, 0.05), (1.16, 0.16), (0.72, 0.16)], y0, y1, "y", 0.006)
     # Cutting edge and five teeth; their points reach the tip.
@@ -478,10 +478,10 @@ def bucket():
         strip = [(p[0] + 0.0, p[1]) for p in line[1:7]]
         outer = [(x + 0.02 * (x - 0.6), z + 0.022) for x, z in strip]
         m.prism("worn", strip + outer[::-1], y - 0.04, y + 0.04, "y", 0)
-    m.cylinder("dark", (0.10, 0, 0.10), "y", 0.045, -half, half, 14)
+    m.cylinder("grey", (0.10, 0, 0.10), "y", 0.045, -half, half, 14)
     # Ears: from the back to the stick pin and the coupler pin.
     for y in (-0.30, -0.24, 0.24, 0.30):
-        m.prism("dark", [(0.42, 0.53), (-0.2907 + 0.03, 0.3294 + 0.085)] + arc(-0.2907, 0.3294, 0.085, 100, 235, 8) +
+        m.prism("grey", [(0.42, 0.53), (-0.2907 + 0.03, 0.3294 + 0.085)] + arc(-0.2907, 0.3294, 0.085, 100, 235, 8) +
                 arc(0, 0, 0.10, 215, 330, 8) + [(0.12, 0.08), (0.13, 0.28), (0.23, 0.43)], y - 0.018, y + 0.018, "y", 0)
     for x, z in ((0, 0), (-0.2907, 0.3294)):
         for side in (-1, 1):
