@@ -169,6 +169,35 @@ TEST(ExchangeDeposit, WaitsForMovingSoilInAndBesideTheBlock) {
   EXPECT_EQ(site.open_books(), site.closed());
 }
 
+TEST(ExchangeDeposit, SoilThatCameToRestSteepStandsUntilItsDropGrows) {
+  Site site({sand()});
+  const auto all = [](double, double, double) { return true; };
+  site.add(fill(site, {16, 16, kFlat}, {24, 24, kFlat + 4}, 1.13f, all));
+  site.checks(kRest);
+  ASSERT_TRUE(site.particles.empty());
+  Exchange::Result result = site.checks(2);
+  EXPECT_EQ(result.woken_columns, 0);
+  EXPECT_EQ(result.slumped_columns, 0);
+  std::vector<heightfield::Layer> taken;
+  for (int iy = 16; iy < 24; ++iy) site.ground.take_above(15, iy, -0.1, taken);
+  result = site.checks(1);
+  EXPECT_GT(result.slumped_columns, 0);
+}
+
+TEST(ExchangeDeposit, CrowdedSoilIsStoredDenserInsteadOfRisingIntoAPillar) {
+  Site site({sand()});
+  const auto all = [](double, double, double) { return true; };
+  auto block = fill(site, {16, 16, kFlat}, {20, 20, kFlat + 4}, 1.0f, all);
+  for (Particle& p : block) p.mass = p.mass * 5 / 4;  // a quarter too much in its room, which j does not know
+  site.add(block);
+  site.checks(kRest);
+  ASSERT_TRUE(site.particles.empty());
+  EXPECT_EQ(site.open_books(), site.closed());
+  // 15 % above the iso-surface, whose volume is that of the box within a few per cent.
+  EXPECT_NEAR(raised(site), 1.15 * 16 * 4 * kCell * kCell * kCell, 0.08 * raised(site));
+  EXPECT_LT(site.ground.layers(18, 18).back().specific_volume, 0.95f);
+}
+
 TEST(ExchangeDeposit, BooksTwoSoilsAsTwoLayersInTheirOrder) {
   Site site({sand(), loam()});
   site.add(fill(
