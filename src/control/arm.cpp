@@ -40,11 +40,10 @@ Arm::Arm(const scene::Machine& machine) {
   swing_lower_ = swing.lower;
   swing_upper_ = swing.upper;
   upper_link_ = swing.child;
-  base_link_ = swing.parent;
   // All joints at zero: pins lie in the swing plane, at the joints' frames.
   const auto pin = [&](int j) { return Vec3((link(joint(j).child).X_ML * joint(j).X_LcJ).translation()); };
   const Pose X_MS = link(swing.child).X_ML * swing.X_LcJ;
-  X_BS_ = link(swing.parent).X_ML.inverse() * X_MS;
+  X_BS_ = link(0).X_ML.inverse() * X_MS;
   const Vec3 p0 = X_MS.inverse() * pin(joints_[0]), p1 = X_MS.inverse() * pin(joints_[1]),
              p2 = X_MS.inverse() * pin(joints_[2]);
   const int bucket_link = machine.link_index(bucket_data_.link);
@@ -57,12 +56,45 @@ Arm::Arm(const scene::Machine& machine) {
   tip_angle_ = std::atan2(tip.z() - p2.z(), tip.x() - p2.x());
   const Vec3 cut = X_MS.linear().transpose() * (link(bucket_link).X_ML.linear() * bucket_data_.cut_direction);
   cut_angle_ = std::atan2(cut.z(), cut.x()) - tip_angle_;
+  for (const scene::Shell& shell : machine.shells) {
+    if (shell.name != bucket_data_.shell) continue;
+    const Pose X_SL = X_MS.inverse() * link(machine.link_index(shell.link)).X_ML;
+    const Eigen::Rotation2Dd level(-tip_angle_);
+    for (const Vec3& v : shell.vertices) {
+      const Vec3 d = X_SL * v - tip;
+      profile_.push_back(level * Vec2(d.x(), d.z()));
+    }
+    for (const auto& triangle : shell.triangles)
+      for (std::size_t i = 0; i < 3; ++i) profile_edges_.push_back({triangle[i], triangle[(i + 1) % 3]});
+    break;
+  }
+}
+
+double Arm::below_tip(double angle) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  double lowest = 0;
+  for (const Vec2& v : profile_) lowest = std::min(lowest, s * v.x() + c * v.y());
+  return -lowest;
 }
 
 BucketPose Arm::forward(const ArmAngles& q) const {
   const double a = q[0], b = a + q[1], c = b + q[2] + tip_angle_;
   return {pin_reach_ + boom_ * std::cos(a) + stick_ * std::cos(b) + bucket_ * std::cos(c),
           pin_height_ + boom_ * std::sin(a) + stick_ * std::sin(b) + bucket_ * std::sin(c), c};
+}
+
+double Arm::beyond_tip(double angle, double height) const {
+  const Eigen::Rotation2Dd turn(angle);
+  double farthest = 0;
+  for (const auto& edge : profile_edges_) {
+    Vec2 a = turn * profile_[static_cast<std::size_t>(edge[0])], b = turn * profile_[static_cast<std::size_t>(edge[1])];
+    if (a.y() > b.y()) std::swap(a, b);
+    if (a.y() > height) continue;
+    farthest = std::max(farthest, a.x());
+    if (b.y() > height) b = a + (height - a.y()) / (b.y() - a.y()) * (b - a);
+    farthest = std::max(farthest, b.x());
+  }
+  return farthest;
 }
 
 bool Arm::inverse(const BucketPose& pose, ArmAngles& q) const {
@@ -85,10 +117,19 @@ bool Arm::inverse(const BucketPose& pose, ArmAngles& q) const {
 
 bool Arm::inverse_nearest(BucketPose& pose, ArmAngles& q) const {
   const double wish = pose.angle, step = radians(2);
-  for (int i = 0; i <= 60; ++i)
+  if (inverse(pose, q)) return true;
+  for (int i = 1; i <= 60; ++i)
     for (const double sign : {1.0, -1.0}) {
       pose.angle = wish + sign * i * step;
-      if (inverse(pose, q)) return true;
+      if (!inverse(pose, q)) continue;
+      // The limit lies in the last step; without the bisection the joints would move in jerks of 2 deg.
+      double good = pose.angle, bad = pose.angle - sign * step;
+      while (std::abs(good - bad) > 1e-6) {
+        pose.angle = 0.5 * (good + bad);
+        (inverse(pose, q) ? good : bad) = pose.angle;
+      }
+      pose.angle = good;
+      return inverse(pose, q);
     }
   pose.angle = wish;
   return false;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "core/math.h"
 #include "scene/machine.h"
@@ -29,16 +30,22 @@ class Arm {
   BucketPose forward(const ArmAngles& q) const;
   /// False when out of reach or limits.
   bool inverse(const BucketPose& pose, ArmAngles& q) const;
-  /// Same with the bucket angle nearest to the wish that is possible; `pose.angle` is changed to it.
+  /// Same with the bucket angle nearest to the wish that is possible, within 120 deg; `pose.angle` is changed to it.
+  /// Continuous where the limit is: the angle is found to 1e-6 rad.
   bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
+  /// How far the shell's lowest point hangs below the tip when the bucket is at `angle` [m], >= 0.
+  double below_tip(double angle) const;
+  /// How far the part of the shell less than `height` [m] above the tip stands outward of it [m], >= 0.
+  double beyond_tip(double angle, double height) const;
+  /// Pin to tip [m].
+  double bucket_length() const { return bucket_; }
   /// Farthest the tip can be from the boom's pin [m].
   double longest() const { return boom_ + stick_ + bucket_; }
 
   int swing_joint() const { return swing_; }
   const std::array<int, 3>& joints() const { return joints_; }
   int upper_link() const { return upper_link_; }
-  int base_link() const { return base_link_; }
-  /// Pose of S in the base link at zero swing.
+  /// Pose of S in the base link (links[0]) at zero swing.
   const Pose& X_BS() const { return X_BS_; }
   /// Direction of the cutting edge relative to the line pin to tip [rad].
   double cut_angle() const { return cut_angle_; }
@@ -50,7 +57,7 @@ class Arm {
   double swing_upper() const { return swing_upper_; }
 
  private:
-  int swing_ = -1, upper_link_ = -1, base_link_ = -1;
+  int swing_ = -1, upper_link_ = -1;
   std::array<int, 3> joints_{};
   std::array<double, 3> lower_{}, upper_{};
   bool swing_limited_ = false;
@@ -60,6 +67,9 @@ class Arm {
   double boom_ = 0, stick_ = 0, bucket_ = 0;
   double cut_angle_ = 0, tip_angle_ = 0;
   scene::Bucket bucket_data_;
+  // The shell in the swing plane, bucket at angle 0: vertices from the tip [m], edges between them.
+  std::vector<Vec2> profile_;
+  std::vector<std::array<int, 2>> profile_edges_;
 };
 
 }  // namespace navvy::control

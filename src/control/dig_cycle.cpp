@@ -1,177 +1,207 @@
 // SPDX-License-Identifier: Apache-2.0
-// One digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump.
+// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and when the trench is done.
 #include <algorithm>
 #include <cmath>
 
+#include "control/dig_pose.h"
 #include "control/operator_state.h"
 #include "core/log.h"
 
 namespace navvy::control {
 namespace {
 
-constexpr double kClear = 0.5;            // tip over the ground before it goes down [m]
-constexpr double kDownSpeed = 0.5;        // penetrating [m/s]
-constexpr double kDragSpeed = 0.7;        // [m/s]
-constexpr double kCurlTime = 2.6;         // [s]
-constexpr double kAttack = radians(18);   // cutting edge below the horizontal while dragging
-constexpr double kCarry = -radians(178);  // pin to tip line while carrying: mouth up
-constexpr double kOpen = -radians(35);    // while dumping
-constexpr double kLag = 0.12;             // tip behind its path by more than this: the machine is at its limit [m]
-constexpr double kLiftRate = 0.25;        // the path rises by this while it lags [m/s]
-constexpr double kSinkRate = 0.05;        // and comes back by this when it follows [m/s]
-constexpr double kFill = 0.95;            // bank volume of a scoop as a share of capacity / swell 1.25
-constexpr double kEmptyPayload = 15;      // [kg]
-constexpr double kDumpPatience = 3.0;     // [s]
-constexpr int kMostEmpty = 3;             // empty scoops in a row that end the dig
-constexpr double kPhaseLimit = 20;        // [s]
+constexpr double kFill = 0.95;         // of the heaped capacity
+constexpr double kLiftClear = 0.6;     // lowest point over the ground before the machine swings [m]
+constexpr double kEmptyPayload = 10;   // [kg] the bucket counts as empty
+constexpr double kWorthPayload = 40;   // [kg] less makes an empty scoop
+constexpr int kMostEmpty = 3;          // empty scoops in a row that end the dig
+constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
+constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
+constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
+constexpr double kRest = 2.0;                                      // [s] for loose soil to come to rest before the end
+constexpr int kMostCleanUps = 2;
+constexpr double kCleanEnough = 0.02;   // share of the design volume that may stay on the floor
+constexpr double kHeapRadius = 0.6;     // around the dump point [m]
+constexpr double kArmAfterSwing = 0.4;  // on the way back the arm comes down after this share of the swing
 
-double turned(double angle, double from, double to, double t) {
-  (void)angle;
-  return from + (to - from) * t * t * (3 - 2 * t);
+/// Highest ground around a point [m].
+double heap_height(const SurfaceView& surface, const Vec2& p) {
+  double highest = surface.height(p.x(), p.y());
+  for (int i = 0; i < 8; ++i)
+    for (const double r : {0.5 * kHeapRadius, kHeapRadius}) {
+      const double a = i * kPi / 4;
+      highest = std::max(highest, surface.height(p.x() + r * std::cos(a), p.y() + r * std::sin(a)));
+    }
+  return highest;
+}
+
+/// What the operator looks at: the view given, or the resting ground.
+template <class Use>
+auto with_surface(const Observation& seen, Use use) {
+  if (seen.surface) return use(*seen.surface);
+  const GroundSurface resting(*seen.ground);
+  return use(static_cast<const SurfaceView&>(resting));
 }
 
 }  // namespace
 
-double Operator::State::path_height(const Observation& seen, double reach, double level) const {
-  return plan.start_height(reach) - level - swing_frame(seen).translation().z();
+void Operator::State::begin_dig(const scene::Dig& dig, const Observation& seen) {
+  smooth_base(seen, 0, true);
+  const heightfield::Ground& ground = *seen.ground;
+  const Vec2 middle = 0.5 * (dig.from + dig.to);
+  const Vec2i cell = ground.column_at(middle.x(), middle.y());
+  const auto& soils = ground.setup().soils;
+  const std::size_t kind = ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
+  const scene::Soil soil = kind < soils.size() ? soils[kind] : scene::Soil{};
+  m.scoop_volume = kFill * arm->bucket().capacity / soil.swell;
+  m.full_mass = m.scoop_volume * soil.bank_density;
+  plan = with_surface(seen, [&](const SurfaceView& surface) {
+    return DigPlan(dig, trench_line(dig, swing_frame()), m.scoop_volume, surface);
+  });
+  m.empty_scoops = 0;
+  m.clean_ups = 0;
+  m.first_cycle = m.cycles;
+  m.begun = 1;
 }
 
 bool Operator::State::plan_scoop(const scene::Dig& dig, const Observation& seen) {
-  const Scoop scoop = plan.next(*seen.ground);
-  if (!scoop.any || m.cycles >= dig.max_cycles || m.empty_scoops >= kMostEmpty) return false;
+  if (m.cycles - m.first_cycle >= dig.max_cycles || m.empty_scoops >= kMostEmpty) return false;
+  Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan.next(surface); });
+  m.cleaning = 0;
+  if (!scoop.any && m.clean_ups < kMostCleanUps) {
+    const double rest =
+        with_surface(seen, [&](const SurfaceView& surface) { return plan.volume_above(surface, dig.depth); });
+    if (rest > kCleanEnough * plan.design_volume()) {
+      m.cleaning = 1;
+      scoop = plan.clean_up();
+    }
+  }
+  if (!scoop.any) return false;
   m.scoop_start = scoop.start;
+  m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
-  m.scoop_end = plan.fill_end(*seen.ground, scoop, kFill * arm->bucket().capacity / 1.25);
   return true;
 }
 
-void Operator::State::begin_scoop(const scene::Dig&, const Observation& seen) {
-  BucketPose above{m.scoop_start, path_height(seen, m.scoop_start, 0) + kClear,
-                   -kPi + kAttack - arm->cut_angle() + radians(25)};
-  ArmAngles q;
-  if (!arm->inverse_nearest(above, q)) q = {m.q[1], m.q[2], m.q[3]};
-  m.reach = above.reach;
-  m.height = above.height;
-  m.angle = above.angle;
-  start_move(with_arm(plan.line().swing, q), seen);
-  enter(Phase::kApproach);
-}
-
-void Operator::State::follow_tip(const Observation& seen, double dt) {
-  BucketPose pose{m.reach, m.height + m.lift, m.angle};
-  ArmAngles q;
-  if (arm->inverse_nearest(pose, q))
-    for (std::size_t i = 0; i < 3; ++i) m.q[i + 1] = q[i];
-  ArmAngles real;
-  for (std::size_t i = 0; i < 3; ++i) real[i] = seen.joints[static_cast<std::size_t>(arm->joints()[i])].position;
-  const BucketPose tip = arm->forward(real);
-  const double lag = std::hypot(tip.reach - pose.reach, tip.height - pose.height);
-  const bool late = lag > kLag;
-  m.slow = std::clamp(2 - 2 * lag / kLag, 0.0, 1.0);
-  m.lift = std::max(0.0, m.lift + dt * (late ? kLiftRate : -kSinkRate));
-}
-
-void Operator::State::penetrate(const Observation& seen, double dt) {
-  const double goal = path_height(seen, m.reach, m.scoop_level);
-  m.height = std::max(goal, m.height - kDownSpeed * m.slow * dt);
-  follow_tip(seen, dt);
-  if (m.height <= goal || m.lift > 0.15 || m.phase_time > kPhaseLimit) enter(Phase::kDrag);
-}
-
-void Operator::State::drag(const scene::Dig&, const Observation& seen, double dt) {
-  m.reach -= kDragSpeed * m.slow * dt;
-  m.height = path_height(seen, m.reach, m.scoop_level);
-  // The edge meets the ground at the attack angle as soon as the arm allows.
-  const double wish = -kPi + kAttack - arm->cut_angle();
-  m.angle += std::clamp(wish - m.angle, -0.5 * dt, 0.5 * dt);
-  follow_tip(seen, dt);
-  if (m.reach <= m.scoop_end || m.phase_time > kPhaseLimit) {
-    m.curl_from = m.angle;
-    m.lift = 0;
-    m.height = std::max(m.height, path_height(seen, m.reach, m.scoop_level));
-    enter(Phase::kCurl);
-  }
-}
-
-void Operator::State::curl(const scene::Dig& dig, const Observation& seen, double dt) {
-  const double t = std::clamp(m.phase_time / kCurlTime, 0.0, 1.0);
-  m.angle = turned(m.angle, m.curl_from, kCarry, t);
-  // The tip leaves the ground straight up while the bucket turns, so the near wall stays.
-  m.height = turned(m.height, path_height(seen, m.reach, m.scoop_level), path_height(seen, m.reach, 0) + 0.35, t);
-  follow_tip(seen, dt);
+void Operator::State::go_to_scoop(Phase next, const Observation& seen) {
+  m.s = m.scoop_start;
+  const Vec2 p = plan.point(m.s);
+  const double ground = with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  m.z = std::max(ground, plan.start_height(m.s) - m.scoop_level) + kClear;
+  m.angle = with_cut(*arm, kPlunge);
+  const SwingPoint tip = swing_point(swing_frame(), Vec3(p.x(), p.y(), m.z));
+  BucketPose pose{tip.reach, tip.height, tip.level(m.angle)};
+  ArmAngles q = arm_now();
+  arm->inverse_nearest(pose, q);
+  m.reached = pose.angle + tip.pitch;
   m.lift = 0;
-  if (t >= 1) start_lift(dig, seen);
+  m.stall = 0;
+  m.slow = 1;
+  const double swing = m.q[0] + std::remainder(tip.swing - m.q[0], 2 * kPi);
+  start_move(with_arm(swing, q), seen, {1.0, kArmAfterSwing});
+  enter(next);
 }
 
-void Operator::State::start_lift(const scene::Dig& dig, const Observation& seen) {
-  const double ground = path_height(seen, m.reach, 0);
-  const double rise = ground + dig.dump_height + 0.9;
-  BucketPose carry{m.reach, rise, kCarry};
-  ArmAngles q{m.q[1], m.q[2], m.q[3]};
+void Operator::State::start_lift(const Observation& seen) {
+  const Vec2 p = plan.point(m.s);
+  const double ground = with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  const double z = std::max(ground, plan.start_height(m.s)) + kLiftClear + arm->below_tip(kCarry);
+  const SwingPoint tip = swing_point(swing_frame(), Vec3(p.x(), p.y(), z));
+  BucketPose carry{tip.reach, tip.height, tip.level(kCarry)};
+  ArmAngles q = arm_now();
   arm->inverse_nearest(carry, q);
-  start_move(with_arm(m.q[0], q), seen, 1.2);
+  start_move(with_arm(m.q[0], q), seen, {1.2, 0});
   enter(Phase::kLift);
 }
 
 void Operator::State::start_swing(const scene::Dig& dig, const Observation& seen) {
-  const Pose X_WS = swing_frame(seen);
-  const double ground = seen.ground->sample(dig.dump_at.x(), dig.dump_at.y());
-  const Vec3 p = X_WS.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), ground);
-  const double reach = std::hypot(p.x(), p.y());
-  double swing = std::atan2(p.y(), p.x());
-  if (!arm->swing_limited())
-    while (swing - m.q[0] > kPi) swing -= 2 * kPi;
-  // The bucket's middle is over the point: pin one and a half tip lengths' cosine out; height over what lies there.
-  BucketPose over{reach - 0.7, p.z() + dig.dump_height + 0.7, kCarry};
-  ArmAngles q{m.q[1], m.q[2], m.q[3]};
-  arm->inverse_nearest(over, q);
-  start_move(with_arm(swing, q), seen);
+  const double heap = with_surface(seen, [&](const SurfaceView& surface) { return heap_height(surface, dig.dump_at); });
+  const SwingPoint over = swing_point(swing_frame(), Vec3(dig.dump_at.x(), dig.dump_at.y(), heap));
+  ArmAngles q = arm_now();
+  double clearance = 0;
+  if (!dump_pose(*arm, swing_frame(), dig.dump_at, heap, dig.dump_height, q, clearance)) {
+    log_warning("operator: the heap is too high to dump on it, dumping from where the bucket is");
+    q = arm_now();
+  }
+  // The short way round; with limits the only way.
+  const double swing = arm->swing_limited() ? over.swing : m.q[0] + std::remainder(over.swing - m.q[0], 2 * kPi);
+  start_move(with_arm(swing, q), seen, {1.0, 0});
   enter(Phase::kSwing);
 }
 
 void Operator::State::start_dump(const Observation& seen) {
-  ArmAngles q{m.q[1], m.q[2], m.q[3]};
-  const BucketPose now = arm->forward(q);
-  const double open = now.angle < -kPi ? kOpen - 2 * kPi : kOpen;
-  q[2] = std::clamp(q[2] + (open - now.angle), arm->lower(2), arm->upper(2));
-  start_move(with_arm(m.q[0], q), seen, 1.3);
+  ArmAngles q = arm_now();
+  const double angle = arm->forward(q).angle;
+  q[2] = std::clamp(q[2] + std::remainder(kOpen - angle, 2 * kPi), arm->lower(2), arm->upper(2));
+  start_move(with_arm(m.q[0], q), seen, {1.3, 0});
   enter(Phase::kDump);
 }
 
 bool Operator::State::dumped(const Observation& seen) const {
-  return seen.payload < kEmptyPayload || m.phase_time > m.duration + kDumpPatience;
+  return seen.payload < kEmptyPayload || m.phase_time > move_time() + kDumpPatience;
 }
 
-bool Operator::State::run(const scene::Dig& step, const Observation& seen, double dt, Command& out) {
-  (void)out;
-  if (m.begun == 0) {
-    plan = DigPlan(step, trench_line(step, swing_frame(seen)), *seen.ground);
-    m.begun = 1;
-    m.empty_scoops = 0;
-    enter(Phase::kReturn);
-    start_move({plan.line().swing, m.q[1], m.q[2], m.q[3]}, seen);
+void Operator::State::shake(const Observation& seen) {
+  // Sticky soil: a few strokes of the bucket cylinder, as every operator does.
+  const double since = m.phase_time - move_time();
+  if (since <= 0 || seen.payload < kEmptyPayload) return;
+  const double stroke = kShake * std::sin(kShakeRate * since);
+  m.q[3] = std::clamp(m.to[3] - std::abs(stroke), arm->lower(2), arm->upper(2));
+}
+
+void Operator::State::look_round(const Observation& seen) {
+  // Bucket half closed, out of the way, while what is loose comes to rest.
+  ArmAngles q = arm_now();
+  q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm->forward(q).angle, 2 * kPi), arm->lower(2), arm->upper(2));
+  start_move(with_arm(m.q[0], q), seen, {1.0, 0});
+  enter(Phase::kLook);
+}
+
+bool Operator::State::end_cycle(const scene::Dig& dig, const Observation& seen) {
+  // After a pause, look again: soil may have slid into the trench, or come to rest there.
+  if (!move(seen) || m.phase_time < kRest) return false;
+  if (plan_scoop(dig, seen)) {
+    go_to_scoop(Phase::kReturn, seen);
+    return false;
   }
+  if (m.empty_scoops >= kMostEmpty) log_warning("operator: three empty scoops in a row, the dig ends");
+  if (m.cycles - m.first_cycle >= dig.max_cycles)
+    log_warning("operator: the dig ends after its largest number of cycles");
+  return true;
+}
+
+bool Operator::State::run(const scene::Dig& step, const Observation& seen, double dt, Command&) {
+  if (m.begun == 0) {
+    begin_dig(step, seen);
+    if (plan_scoop(step, seen))
+      go_to_scoop(Phase::kReturn, seen);
+    else
+      look_round(seen);
+  }
+  smooth_base(seen, dt, false);
   switch (phase()) {
     case Phase::kReturn:
       if (!move(seen)) break;
-      if (!plan_scoop(step, seen)) return true;
-      begin_scoop(step, seen);
+      // What lay loose when the bucket left has come to rest by now.
+      if (plan_scoop(step, seen))
+        go_to_scoop(Phase::kApproach, seen);
+      else
+        look_round(seen);
       break;
     case Phase::kApproach:
       if (!move(seen)) break;
-      m.lift = 0;
-      m.slow = 1;
       enter(Phase::kPenetrate);
+      m.clean_ups += m.cleaning;
       event = CycleEvent::kScoopStart;
       break;
     case Phase::kPenetrate:
       penetrate(seen, dt);
       break;
     case Phase::kDrag:
-      drag(step, seen, dt);
+      if (drag(seen, dt)) enter(Phase::kCurl);
       break;
     case Phase::kCurl:
-      curl(step, seen, dt);
+      if (curl(seen, dt)) start_lift(seen);
       break;
     case Phase::kLift:
       if (!move(seen)) break;
@@ -180,20 +210,26 @@ bool Operator::State::run(const scene::Dig& step, const Observation& seen, doubl
       break;
     case Phase::kSwing:
       if (!move(seen)) break;
-      m.empty_scoops = seen.payload < 40 ? m.empty_scoops + 1 : 0;
+      m.empty_scoops = seen.payload < kWorthPayload ? m.empty_scoops + 1 : 0;
       event = CycleEvent::kDumpStart;
       start_dump(seen);
       break;
-    case Phase::kDump:
-      if (!move(seen) || !dumped(seen)) break;
+    case Phase::kDump: {
+      // The bucket need not open all the way when it is empty before.
+      const bool open = m.phase_time > move_time() || move(seen);
+      const bool early = m.phase_time > kEarly * move_time() && seen.payload < kEmptyPayload;
+      shake(seen);
+      if (!early && (!open || !dumped(seen))) break;
       ++m.cycles;
       event = CycleEvent::kCycleEnd;
-      enter(Phase::kReturn);
-      start_move({plan.line().swing, m.q[1], m.q[2], m.q[3]}, seen);
+      if (plan_scoop(step, seen))
+        go_to_scoop(Phase::kReturn, seen);
+      else
+        look_round(seen);
       break;
+    }
     default:
-      enter(Phase::kReturn);
-      break;
+      return end_cycle(step, seen);
   }
   return false;
 }

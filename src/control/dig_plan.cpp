@@ -7,8 +7,9 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kTolerance = 0.06;  // what counts as dug to level [m]; tuned: Trench.IsDugToItsDesign
+constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
+constexpr double kWorth = 0.3;       // a slice's rest below this share of a bucket waits for the next slice
 
 }  // namespace
 
@@ -31,70 +32,77 @@ TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS) {
   return line;
 }
 
-DigPlan::DigPlan(const scene::Dig& dig, const TrenchLine& line, const heightfield::Ground& ground)
-    : dig_(dig), line_(line) {
-  const int n = std::max(2, static_cast<int>(std::lround((line.far_reach - line.near_reach) / kSample)) + 1);
-  for (int i = 0; i < n; ++i) {
-    const double reach = line.near_reach + (line.far_reach - line.near_reach) * i / (n - 1);
-    start_.push_back(height(ground, reach));
-  }
+DigPlan::DigPlan(const scene::Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface)
+    : dig_(dig), line_(line), scoop_volume_(scoop_volume) {
+  derive();
+  start_.resize(static_cast<std::size_t>(std::max(2, static_cast<int>(std::lround(length_ / kSample)) + 1)));
+  for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
 }
 
-Vec2 DigPlan::point(double reach) const {
-  const double t = (reach - line_.near_reach) / (line_.far_reach - line_.near_reach);
-  return line_.near + t * (line_.far - line_.near);
+void DigPlan::derive() {
+  length_ = std::max(kSample, (line_.far - line_.near).norm());
+  along_ = (line_.far - line_.near) / length_;
 }
 
-double DigPlan::height(const heightfield::Ground& ground, double reach) const {
-  // Mean of three points across the middle of the cut.
-  const Vec2 u = (line_.far - line_.near).normalized(), across(-u.y(), u.x());
+double DigPlan::height(const SurfaceView& surface, double s) const {
+  // Mean of three points across the middle of the cut: crumbs at the walls do not count.
+  const Vec2 across(-along_.y(), along_.x());
   double sum = 0;
   for (const double t : {-0.25, 0.0, 0.25}) {
-    const Vec2 p = point(reach) + t * dig_.width * across;
-    sum += ground.sample(p.x(), p.y());
+    const Vec2 p = point(s) + t * dig_.width * across;
+    sum += surface.height(p.x(), p.y());
   }
   return sum / 3;
 }
 
-double DigPlan::start_height(double reach) const {
-  const double t = (reach - line_.near_reach) / (line_.far_reach - line_.near_reach) * (samples() - 1);
-  const double c = std::clamp(t, 0.0, samples() - 1.0);
-  const auto i = static_cast<std::size_t>(std::min(samples() - 2, static_cast<int>(c)));
-  return start_[i] + (c - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
+double DigPlan::start_height(double s) const {
+  const double t = std::clamp(s / length_ * (samples() - 1), 0.0, samples() - 1.0);
+  const auto i = static_cast<std::size_t>(std::min(samples() - 2, static_cast<int>(t)));
+  return start_[i] + (t - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
 }
 
-double DigPlan::remaining(const heightfield::Ground& ground, double reach, double level) const {
-  return height(ground, reach) - (start_height(reach) - level);
+double DigPlan::remaining(const SurfaceView& surface, double s, double level) const {
+  return height(surface, s) - (start_height(s) - level);
 }
 
-double DigPlan::fill_end(const heightfield::Ground& ground, const Scoop& scoop, double bank_volume) const {
+double DigPlan::volume_above(const SurfaceView& surface, double level) const {
+  double sum = 0;
+  for (int i = 0; i < samples(); ++i) sum += std::max(0.0, remaining(surface, at(i), level));
+  return sum * dig_.width * length_ / samples();
+}
+
+double DigPlan::fill_end(const SurfaceView& surface, double start, double level) const {
   double volume = 0;
-  for (double reach = scoop.start; reach > scoop.end; reach -= kSample) {
-    volume += std::max(0.0, remaining(ground, reach, scoop.level)) * dig_.width * kSample;
-    if (volume >= bank_volume) return reach;
+  for (double s = start; s > 0; s -= kSample) {
+    volume += std::max(0.0, remaining(surface, s, level)) * dig_.width * kSample;
+    if (volume >= scoop_volume_) return s;
   }
-  return scoop.end;
+  return 0;
 }
 
-Scoop DigPlan::next(const heightfield::Ground& ground) const {
-  const int n = samples();
-  const auto reach_of = [&](int i) { return line_.near_reach + (line_.far_reach - line_.near_reach) * i / (n - 1); };
-  for (double level = dig_.pass_depth;; level += dig_.pass_depth) {
-    const double target = std::min(level, dig_.depth);
-    for (int i = n - 1; i >= 0; --i) {
+Scoop DigPlan::next(const SurfaceView& surface) const {
+  const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
+  for (int k = 1; k <= slices; ++k) {
+    const double level = dig_.depth * k / slices;
+    if (k < slices && volume_above(surface, level) < kWorth * scoop_volume_) continue;
+    for (int i = samples() - 1; i >= 1; --i)
       // Two neighbours must agree, a single crumb is not worth a cycle.
-      const int j = std::max(0, i - 1);
-      if (remaining(ground, reach_of(i), target) > kTolerance && remaining(ground, reach_of(j), target) > kTolerance)
-        return {reach_of(i), line_.near_reach, target, true};
-    }
-    if (target >= dig_.depth) return {};
+      if (remaining(surface, at(i), level) > kTolerance && remaining(surface, at(i - 1), level) > kTolerance)
+        return {at(i), fill_end(surface, at(i), level), level, true};
   }
+  return {};
+}
+
+void DigPlan::hash(StateHash& hash) const {
+  hash.value(length_);
+  hash.value(scoop_volume_);
+  hash.bytes(start_.data(), start_.size() * sizeof(double));
 }
 
 void DigPlan::save(StateWriter& writer) const {
   for (const Vec2& p : {dig_.from, dig_.to, dig_.dump_at, line_.near, line_.far}) writer.vec3(Vec3(p.x(), p.y(), 0));
   for (const double v : {dig_.depth, dig_.width, dig_.dump_height, dig_.pass_depth, line_.near_reach, line_.far_reach,
-                         line_.swing, line_.offset})
+                         line_.swing, line_.offset, scoop_volume_})
     writer.value(v);
   writer.vector(start_);
 }
@@ -102,9 +110,10 @@ void DigPlan::save(StateWriter& writer) const {
 void DigPlan::load(StateReader& reader) {
   for (Vec2* p : {&dig_.from, &dig_.to, &dig_.dump_at, &line_.near, &line_.far}) *p = reader.vec3().head<2>();
   for (double* v : {&dig_.depth, &dig_.width, &dig_.dump_height, &dig_.pass_depth, &line_.near_reach, &line_.far_reach,
-                    &line_.swing, &line_.offset})
+                    &line_.swing, &line_.offset, &scoop_volume_})
     *v = reader.value<double>();
   start_ = reader.vector<double>();
+  if (!start_.empty()) derive();  // a plan that was never made stays so
 }
 
 }  // namespace navvy::control

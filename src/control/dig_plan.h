@@ -1,59 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the next scoop goes: layer by layer, from the far end to the near one.
+// Where the next scoop goes: slice by slice, from the far end to the near one.
 #pragma once
 
 #include <vector>
 
 #include "control/arm.h"
-#include "heightfield/ground.h"
+#include "control/surface.h"
+#include "core/hash.h"
+#include "core/state_io.h"
 #include "scene/program.h"
 
 namespace navvy::control {
 
-/// The trench in the swing plane: reach from the swing axis along the line, heights in S.
+/// The trench seen from the swing axis.
 struct TrenchLine {
   Vec2 near = Vec2::Zero(), far = Vec2::Zero();  ///< ends in W [m]; `far` is farther from the swing axis
-  double near_reach = 0, far_reach = 0;          ///< [m]
+  double near_reach = 0, far_reach = 0;          ///< from the axis, along the line [m]
   double swing = 0;                              ///< angle of the swing joint over the line [rad]
   double offset = 0;                             ///< distance of the line from the swing axis [m]
 };
 
-/// One scoop along the line: from `start` to at most `end` reach, the tip at or above `level` of W.
+/// The trench seen from a machine whose frame S of the swing axis is X_WS.
+TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS);
+
+/// One scoop along the line, in metres from the near end.
 struct Scoop {
-  double start = 0, end = 0;  ///< reach [m], start > end
-  double level = 0;           ///< depth below the surface at the start of the dig [m]
+  double start = 0, end = 0;  ///< start > end
+  double level = 0;           ///< depth of the tip below the surface at the start of the dig [m]
   bool any = false;           ///< false: nothing left to dig
 };
 
-/// Surface along the line before and during the dig.
+/// A straight trench: the surface along its line before the dig, what is left above a slice's floor now.
 class DigPlan {
  public:
   DigPlan() = default;
-  DigPlan(const scene::Dig& dig, const TrenchLine& line, const heightfield::Ground& ground);
+  /// `scoop_volume`: bank volume of a full bucket [m3].
+  DigPlan(const scene::Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
 
-  Scoop next(const heightfield::Ground& ground) const;
-  /// Reach at which `bank_volume` [m3] has been cut along the scoop; its end when it never is.
-  double fill_end(const heightfield::Ground& ground, const Scoop& scoop, double bank_volume) const;
-  /// Depth still to be taken off at `reach` to get to `level` [m].
-  double remaining(const heightfield::Ground& ground, double reach, double level) const;
-  /// W height of the surface before the dig at `reach` [m].
-  double start_height(double reach) const;
-  const TrenchLine& line() const { return line_; }
-  int samples() const { return static_cast<int>(start_.size()); }
+  /// The next scoop: the highest slice that still holds a worthwhile share of a bucket, begun at its far end.
+  Scoop next(const SurfaceView& surface) const;
+  /// A pass along the whole floor.
+  Scoop clean_up() const { return {length_, 0, dig_.depth, true}; }
+  /// Soil above depth `level` over the trench's width [m3].
+  double volume_above(const SurfaceView& surface, double level) const;
+  /// Height of soil above depth `level` at `s`, negative where it is dug deeper [m].
+  double remaining(const SurfaceView& surface, double s, double level) const;
+  /// W height of the surface before the dig at `s` [m].
+  double start_height(double s) const;
+  Vec2 point(double s) const { return line_.near + s * along_; }
+  double length() const { return length_; }
+  double design_volume() const { return length_ * dig_.width * dig_.depth; }
 
+  void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
 
  private:
-  Vec2 point(double reach) const;
-  double height(const heightfield::Ground& ground, double reach) const;
+  double fill_end(const SurfaceView& surface, double start, double level) const;
+  double height(const SurfaceView& surface, double s) const;
+  double at(int i) const { return length_ * i / (samples() - 1); }
+  int samples() const { return static_cast<int>(start_.size()); }
+  void derive();
 
   scene::Dig dig_;
   TrenchLine line_;
+  double scoop_volume_ = 0;
   std::vector<double> start_;  // W heights from near to far [m]
+  Vec2 along_ = Vec2::UnitX();
+  double length_ = 1;
 };
-
-/// The trench seen from a machine whose frame S of the swing axis is X_WS.
-TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS);
 
 }  // namespace navvy::control

@@ -10,18 +10,39 @@
 namespace navvy::control {
 namespace {
 
-// Rates of an unhurried operator [rad/s]: swing, boom, stick, bucket; the hydraulics may be slower.
-constexpr double kRates[4] = {0.75, 0.40, 0.60, 1.0};
-constexpr double kArrived = 0.03;  // [rad]
-constexpr double kPatience = 2.0;  // [s] beyond a move's own time
+// Rates of an unhurried operator at the middle of a move [rad/s]: swing, boom, stick, bucket; hydraulics may be slower.
+constexpr double kRates[4] = {0.80, 0.45, 0.70, 1.5};
+constexpr double kShareOfLimit = 0.85;           // of a joint's own speed limit
+constexpr double kShortestMove = 0.4;            // [s]
+constexpr double kArrived = 0.03;                // [rad]
+constexpr double kSettle = 0.3, kAtRest = 0.02;  // past a move's time at rest is as good as arrived [s], [rad/s]
+constexpr double kPatience = 2.0;                // beyond a move's own time [s]
 
 const char* name_of(Phase phase) {
-  static const char* const names[] = {"idle", "drive", "return", "approach", "penetrate", "drag",
-                                      "curl", "lift",  "swing",  "dump",     "wait",      "trajectory"};
+  static const char* const names[] = {"idle", "drive", "return", "approach", "penetrate", "drag",      "curl",
+                                      "lift", "swing", "dump",   "look",     "wait",      "trajectory"};
   return names[static_cast<int>(phase)];
 }
 
-double smooth(double t) { return t * t * (3 - 2 * t); }
+double smooth(double t) {
+  const double c = std::clamp(t, 0.0, 1.0);
+  return c * c * (3 - 2 * c);
+}
+
+/// A trajectory as the loader would let it pass; programs built in C++ may be anything.
+void check_trajectory(const scene::Machine& machine, const scene::Trajectory& step) {
+  const auto fail = [&](const std::string& value, const std::string& rule) {
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/trajectory", value,
+                           rule, "give every joint one position for each time"});
+  };
+  if (step.times.empty()) fail("", "a trajectory needs at least one time");
+  if (step.positions.size() != step.times.size())
+    fail(std::to_string(step.positions.size()) + " rows", "needs one row of positions for each time");
+  for (const auto& row : step.positions)
+    if (row.size() != step.joints.size()) fail(std::to_string(row.size()), "a row needs one position for each joint");
+  for (const std::string& name : step.joints)
+    if (machine.joint_index(name) < 0) fail(name, "no joint of this name in the machine");
+}
 
 }  // namespace
 
@@ -31,6 +52,8 @@ Operator::State::State(const scene::Machine& machine_in, const scene::Program& p
     if (std::holds_alternative<scene::Dig>(step) || std::holds_alternative<scene::Swing>(step) ||
         std::holds_alternative<scene::Dump>(step))
       if (!arm) arm.emplace(machine);
+  for (const scene::ProgramStep& step : program.steps)
+    if (const auto* trajectory = std::get_if<scene::Trajectory>(&step)) check_trajectory(machine, *trajectory);
 }
 
 Operator::Operator(const scene::Machine& machine, const scene::Program& program)
@@ -68,46 +91,57 @@ Command Operator::update(const Observation& seen, double, double dt) {
   return out;
 }
 
+std::size_t Operator::State::axis_joint(std::size_t axis) const {
+  return static_cast<std::size_t>(axis == 0 ? arm->swing_joint() : arm->joints()[axis - 1]);
+}
+
+std::array<double, 4> Operator::State::with_arm(double swing, const ArmAngles& q) const {
+  return {swing, q[0], q[1], q[2]};
+}
+
 void Operator::State::read_arm(const Observation& seen) {
   if (m.known != 0) return;
-  m.q[0] = seen.joints[static_cast<std::size_t>(arm->swing_joint())].position;
-  for (std::size_t i = 0; i < 3; ++i) m.q[i + 1] = seen.joints[static_cast<std::size_t>(arm->joints()[i])].position;
+  for (std::size_t i = 0; i < 4; ++i) m.q[i] = seen.joints[axis_joint(i)].position;
   m.known = 1;
 }
 
 void Operator::State::command_arm(Command& out) const {
-  const auto set = [&](int joint, double q) {
-    auto& slot = out.joints[static_cast<std::size_t>(joint)];
-    if (!slot) slot = vehicle::JointInput{vehicle::JointMode::kPosition, q};
-  };
-  set(arm->swing_joint(), m.q[0]);
-  for (std::size_t i = 0; i < 3; ++i) set(arm->joints()[i], m.q[i + 1]);
+  for (std::size_t i = 0; i < 4; ++i)
+    if (auto& slot = out.joints[axis_joint(i)]; !slot)
+      slot = vehicle::JointInput{vehicle::JointMode::kPosition, m.q[i]};
 }
 
-void Operator::State::start_move(const std::array<double, 4>& to, const Observation& seen, double share) {
-  m.duration = 0.4;
+void Operator::State::start_move(const std::array<double, 4>& to, const Observation& seen, Pace pace) {
+  double time[4];
   for (std::size_t i = 0; i < 4; ++i) {
     m.from[i] = m.q[i];
     m.to[i] = to[i];
-    const int joint = i == 0 ? arm->swing_joint() : arm->joints()[i - 1];
-    const double possible = 0.8 * seen.joints[static_cast<std::size_t>(joint)].velocity_limit;
-    const double rate = share * (possible > 0 ? std::min(kRates[i], possible) : kRates[i]);
+    const double possible = kShareOfLimit * seen.joints[axis_joint(i)].velocity_limit;
+    const double rate = possible > 0 ? std::min(pace.share * kRates[i], possible) : pace.share * kRates[i];
     // The smooth profile's fastest moment is 1.5 times its mean.
-    m.duration = std::max(m.duration, 1.5 * std::abs(m.to[i] - m.from[i]) / rate);
+    time[i] = std::max(kShortestMove, 1.5 * std::abs(m.to[i] - m.from[i]) / rate);
   }
+  // Boom, stick and bucket share one time: what is level at both ends stays level on the way.
+  m.swing_time = time[0];
+  m.arm_time = std::max({time[1], time[2], time[3]});
+  m.arm_delay = time[0] > kShortestMove ? pace.arm_delay * time[0] : 0;
 }
 
+double Operator::State::move_time() const { return std::max(m.swing_time, m.arm_delay + m.arm_time); }
+
 bool Operator::State::move(const Observation& seen) {
-  const double t = smooth(std::clamp(m.phase_time / m.duration, 0.0, 1.0));
-  double error = 0;
+  const double swing = smooth(m.phase_time / m.swing_time), other = smooth((m.phase_time - m.arm_delay) / m.arm_time);
+  double error = 0, speed = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    m.q[i] = m.from[i] + t * (m.to[i] - m.from[i]);
-    const int joint = i == 0 ? arm->swing_joint() : arm->joints()[i - 1];
-    error = std::max(error, std::abs(m.to[i] - seen.joints[static_cast<std::size_t>(joint)].position));
+    m.q[i] = m.from[i] + (i == 0 ? swing : other) * (m.to[i] - m.from[i]);
+    const vehicle::JointState& joint = seen.joints[axis_joint(i)];
+    error = std::max(error, std::abs(m.to[i] - joint.position));
+    speed = std::max(speed, std::abs(joint.velocity));
   }
-  if (m.phase_time < m.duration) return false;
-  if (error < kArrived) return true;
-  if (m.phase_time < m.duration + kPatience) return false;
+  const double over = m.phase_time - move_time();
+  if (over < 0) return false;
+  if (error < kArrived || (over > kSettle && speed < kAtRest)) return true;
+  if (over < kPatience) return false;
   log_warning("operator: " + phase_name + " ended " + std::to_string(error) + " rad short of its target");
   return true;
 }
@@ -115,7 +149,7 @@ bool Operator::State::move(const Observation& seen) {
 bool Operator::State::run(const scene::Swing& step, const Observation& seen, double, Command&) {
   if (m.begun == 0) {
     enter(Phase::kSwing);
-    start_move({step.angle, m.q[1], m.q[2], m.q[3]}, seen);
+    start_move({step.angle, m.q[1], m.q[2], m.q[3]}, seen, {});
     m.begun = 1;
   }
   return move(seen);
@@ -123,10 +157,20 @@ bool Operator::State::run(const scene::Swing& step, const Observation& seen, dou
 
 bool Operator::State::run(const scene::Dump& step, const Observation& seen, double, Command&) {
   if (m.begun == 0) {
+    m.bucket_before = m.q[3];
+    m.closing = 0;
     start_dump(seen);
     m.begun = 1;
   }
-  return move(seen) && (m.phase_time > m.duration + step.hold);
+  if (m.closing == 0) {
+    if (m.phase_time <= move_time()) move(seen);
+    if (m.phase_time <= move_time() + step.hold) return false;
+    m.closing = 1;
+    start_move({m.q[0], m.q[1], m.q[2], m.bucket_before}, seen, {});
+    enter(Phase::kDump);
+    return false;
+  }
+  return move(seen);
 }
 
 bool Operator::State::run(const scene::Wait& step, const Observation&, double dt, Command&) {
@@ -158,11 +202,8 @@ bool Operator::State::run(const scene::Trajectory& step, const Observation&, dou
 
 void Operator::hash(StateHash& hash) const {
   static_assert(std::is_trivially_copyable_v<Memory>);
-  const Memory& m = state_->m;
-  for (const int v : {m.step, m.phase, m.cycles, m.empty_scoops, m.begun, m.known}) hash.value(v);
-  for (int i = 0; i < 4; ++i) hash.value(m.q[i]);
-  for (const double v : {m.phase_time, m.duration, m.reach, m.height, m.angle, m.lift, m.slow, m.speed, m.standing})
-    hash.value(v);
+  hash.bytes(&state_->m, sizeof(Memory));
+  state_->plan.hash(hash);
 }
 
 void Operator::save(StateWriter& writer) const {
@@ -174,6 +215,7 @@ void Operator::save(StateWriter& writer) const {
 
 void Operator::load(StateReader& reader) {
   reader.begin("operator", 1);
+  // The scene may have changed since.
   state_->m = reader.value<Memory>();
   state_->plan.load(reader);
   reader.end();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "control/surface.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/state_io.h"
@@ -24,8 +25,9 @@ struct Observation {
   Pose X_WB = Pose::Identity();             ///< base link
   Vec3 v_WB = Vec3::Zero();                 ///< [m/s]
   const heightfield::Ground* ground = nullptr;
-  double payload = 0;  ///< soil in the bucket [kg]
-  double force = 0;    ///< low-passed soil force on the bucket [N]
+  const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
+  double payload = 0;                    ///< soil in the bucket [kg]
+  double force = 0;                      ///< low-passed soil force on the bucket [N]
 };
 
 /// What it wants; joints without an entry keep their last command.
@@ -51,7 +53,8 @@ class Operator {
   /// `time` [s] simulated, `dt` [s] since the last call.
   Command update(const Observation& seen, double time, double dt);
   bool done() const;
-  /// "drive", "approach", "drag", "curl", "lift", "swing", "dump", "return", "wait", "trajectory" or "idle".
+  /// "drive", "return", "approach", "penetrate", "drag", "curl", "lift", "swing", "dump", "look", "wait", "trajectory"
+  /// or "idle".
   const std::string& phase() const;
   int cycles() const;
   /// The event of the last update.

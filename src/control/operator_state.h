@@ -2,6 +2,7 @@
 // Private to the operator: its memory and the parts of its step.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -22,32 +23,42 @@ enum class Phase : int {
   kLift,
   kSwing,
   kDump,
+  kLook,
   kWait,
   kTrajectory
 };
 
-/// Everything that changes while a program runs; plain values, so saving and hashing are one loop.
+/// Everything that changes while a program runs; plain values without gaps, so saving and hashing take them whole.
 struct Memory {
   int step = 0;
   int phase = 0;
   int cycles = 0;
   int empty_scoops = 0;
-  int begun = 0;          ///< the present step has been set up
+  int begun = 0;  ///< the present step has been set up
+  int known = 0;  ///< `q` was read from the machine
+  int clean_ups = 0;
+  int cleaning = 0;       ///< the scoop is a pass along the whole floor
+  int closing = 0;        ///< a dump step curls back
+  int first_cycle = 0;    ///< number of cycles when the dig began
   double phase_time = 0;  ///< [s] since the phase began
-  // Commanded angles: swing, boom, stick, bucket; known once read from the machine.
-  double q[4] = {0, 0, 0, 0};
-  int known = 0;
-  // Move in joint space.
-  double from[4] = {0, 0, 0, 0}, to[4] = {0, 0, 0, 0};
-  double duration = 0;
-  // Tip path of the scoop.
-  double reach = 0, height = 0, angle = 0;
-  double lift = 0;  ///< raised by so much because it stalled [m]
-  double slow = 1;  ///< share of the path's speed that the machine follows
-  double scoop_start = 0, scoop_end = 0, scoop_level = 0, curl_from = 0;
+  // Swing, boom, stick, bucket: commanded angles; a move between two poses, each axis with its own smooth profile.
+  double q[4] = {0, 0, 0, 0}, from[4] = {0, 0, 0, 0}, to[4] = {0, 0, 0, 0};
+  double swing_time = 0, arm_delay = 0, arm_time = 0;  ///< [s]
+  // Tip path of the scoop: place along the trench, W height, angle of the line pin to tip over the horizontal.
+  double s = 0, z = 0, angle = 0;
+  double reached = 0;   ///< the angle that the arm can give there
+  double lift = 0;      ///< the path is raised by so much because the machine stalled [m]
+  double slow = 1;      ///< share of the path's speed that the machine follows
+  double stall = 0;     ///< [s] that the tip has been held
+  double progress = 0;  ///< of the curl, 0..1
+  double scoop_start = 0, scoop_end = 0, scoop_level = 0, curl_angle = 0, curl_z = 0;
+  double scoop_volume = 0, full_mass = 0;  ///< of a full bucket: bank volume [m3], mass [kg]
+  double bucket_before = 0;                ///< bucket angle before a dump step [rad]
+  double base[7] = {0, 0, 0, 1, 0, 0, 0};  ///< base link's pose, shaking smoothed away: x y z, quaternion w x y z
   // Drive.
-  double speed = 0, goal_x = 0, goal_y = 0, heading = 0, standing = 0;
+  double speed = 0, heading = 0, standing = 0, way = 0;
 };
+static_assert(offsetof(Memory, phase_time) == 10 * sizeof(int), "no gap before the doubles");
 
 struct Operator::State {
   State(const scene::Machine& machine_in, const scene::Program& program_in);
@@ -70,27 +81,44 @@ struct Operator::State {
 
   void enter(Phase phase);
   Phase phase() const { return static_cast<Phase>(m.phase); }
+  /// Joint of axis 0..3: swing, boom, stick, bucket.
+  std::size_t axis_joint(std::size_t axis) const;
   void read_arm(const Observation& seen);
   void command_arm(Command& out) const;
-  /// Starts a move to these angles (swing, boom, stick, bucket) at `share` of the usual rates.
-  void start_move(const std::array<double, 4>& to, const Observation& seen, double share = 1);
-  /// Goes on with the move; true when it has arrived, or has had two seconds more than it needs.
-  bool move(const Observation& seen);
-  Pose swing_frame(const Observation& seen) const { return seen.X_WB * arm->X_BS(); }
-  std::array<double, 4> with_arm(double swing, const ArmAngles& q) const { return {swing, q[0], q[1], q[2]}; }
 
-  // Phases of a dig cycle; each is called once per control step while it lasts.
-  void begin_scoop(const scene::Dig& dig, const Observation& seen);
+  // Moves in joint space.
+  struct Pace {
+    double share = 1;      ///< of the usual rates
+    double arm_delay = 0;  ///< boom, stick and bucket start when this share of the swing's time is over
+  };
+  void start_move(const std::array<double, 4>& to, const Observation& seen, Pace pace);
+  /// Goes on with the move; true when it has arrived, or has had its time and a little patience.
+  bool move(const Observation& seen);
+  double move_time() const;
+  ArmAngles arm_now() const { return {m.q[1], m.q[2], m.q[3]}; }
+  std::array<double, 4> with_arm(double swing, const ArmAngles& q) const;
+
+  // The dig: see dig_cycle.cpp (sequence) and scoop.cpp (tip paths).
+  void begin_dig(const scene::Dig& dig, const Observation& seen);
   bool plan_scoop(const scene::Dig& dig, const Observation& seen);
-  void follow_tip(const Observation& seen, double dt);
-  void penetrate(const Observation& seen, double dt);
-  void drag(const scene::Dig& dig, const Observation& seen, double dt);
-  void curl(const scene::Dig& dig, const Observation& seen, double dt);
-  void start_lift(const scene::Dig& dig, const Observation& seen);
+  void go_to_scoop(Phase next, const Observation& seen);
+  void start_lift(const Observation& seen);
   void start_swing(const scene::Dig& dig, const Observation& seen);
   void start_dump(const Observation& seen);
   bool dumped(const Observation& seen) const;
-  double path_height(const Observation& seen, double reach, double level) const;
+  void shake(const Observation& seen);
+  void look_round(const Observation& seen);
+  bool end_cycle(const scene::Dig& dig, const Observation& seen);
+
+  void smooth_base(const Observation& seen, double dt, bool reset);
+  Pose swing_frame() const;
+  void penetrate(const Observation& seen, double dt);
+  bool drag(const Observation& seen, double dt);
+  bool curl(const Observation& seen, double dt);
+  void follow_tip(const Observation& seen, double dt);
+  void feel_stall(const Observation& seen, const BucketPose& wanted, double dt);
+  bool overdue(double limit) const;
+  double floor_height() const;
 };
 
 }  // namespace navvy::control

@@ -3,31 +3,38 @@
 #include <cmath>
 #include <cstdio>
 
-#include "control/arm.h"
 #include "control/dig_plan.h"
+#include "control/dig_pose.h"
 #include "control/operator.h"
+#include "control/pursuit.h"
 
 namespace navvy::control {
 namespace {
 
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
+constexpr double kNearest = 3.0;      // end of the trench to the swing axis: clear of wheels and undercarriage [m]
+constexpr double kWiderCut = 0.1;     // than the bucket [m]
 
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m", value);
+std::string number(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f %s", value, unit);
   return text;
 }
+std::string metres(double value) { return number(value, "m"); }
+std::string place(const Vec2& p) { return "(" + number(p.x(), "") + ", " + number(p.y(), "") + ")"; }
 
 class ReachCheck {
  public:
-  ReachCheck(const scene::Machine& machine, const scene::Program& program, const heightfield::Ground& ground,
-             std::string file)
-      : machine_(machine), program_(program), ground_(ground), file_(std::move(file)) {}
+  ReachCheck(const scene::Machine& machine, const scene::Program& program, const SurfaceView& surface, std::string file)
+      : machine_(machine), program_(program), surface_(surface), file_(std::move(file)) {}
 
-  void look(std::size_t index, const Pose& X_WB) {
+  /// Looks at one step; `X_WB` becomes where the machine stands after it.
+  void look(std::size_t index, Pose& X_WB) {
     index_ = index;
-    if (const auto* dig = std::get_if<scene::Dig>(&program_.steps[index])) look(*dig, X_WB);
-    if (const auto* swing = std::get_if<scene::Swing>(&program_.steps[index])) look(*swing);
+    const scene::ProgramStep& step = program_.steps[index];
+    if (const auto* drive = std::get_if<scene::DriveTo>(&step)) look(*drive, X_WB);
+    if (const auto* dig = std::get_if<scene::Dig>(&step)) look(*dig, X_WB);
+    if (const auto* swing = std::get_if<scene::Swing>(&step)) look(*swing);
   }
   std::vector<Fault> faults;
 
@@ -39,50 +46,122 @@ class ReachCheck {
                       remedy});
   }
 
-  void look(const scene::Swing& swing) {
-    const Arm arm(machine_);
-    if (arm.swing_limited() && (swing.angle < arm.swing_lower() || swing.angle > arm.swing_upper()))
-      fault("swing", std::to_string(degrees(swing.angle)) + " deg", "is outside the swing joint's limits",
-            "choose an angle between them");
+  void look(const scene::DriveTo& drive, Pose& X_WB) {
+    const PlanePose start = plane_pose(X_WB);
+    const Pursuit pursuit = Pursuit::of(drive, machine_.drive, start);
+    const PlanePose end = pursuit.end_from(start, machine_.drive.steer_rate);
+    const double miss = (end.p - drive.target).norm();
+    if (miss > drive.tolerance)
+      fault("drive_to", place(drive.target),
+            "steering as far as it can the machine ends at " + place(end.p) + ", " + metres(miss) +
+                " from the target; allowed are " + metres(drive.tolerance),
+            "give it a longer way to turn in, or approach in two drives");
+    // Where the machine will stand, upright on the present ground.
+    const Vec3 from = X_WB.translation();
+    const double rise = from.z() - surface_.height(from.x(), from.y());
+    X_WB = make_pose(drive.target.x(), drive.target.y(), surface_.height(drive.target.x(), drive.target.y()) + rise, 0,
+                     0, pursuit.heading);
   }
 
-  /// Tip at `reach`, `height` in S with any bucket angle that digs.
-  void require(const Arm& arm, const std::string& element, double reach, double height) {
-    BucketPose pose{reach, height, -kPi / 2};
-    ArmAngles q;
-    if (arm.inverse_nearest(pose, q)) return;
-    double possible = 0;
-    for (double r = 0; r < arm.longest() + 2; r += 0.02) {
-      pose = {r, height, -kPi / 2};
-      if (arm.inverse_nearest(pose, q)) possible = r;
-    }
-    fault(element, metres(reach) + " from the swing axis, " + metres(height) + " above it",
-          possible > 0 ? "at that height the bucket's tip reaches " + metres(possible)
-                       : "the tip never gets to that height",
-          "drive nearer, or move the target");
+  void look(const scene::Swing& swing) {
+    const Arm arm(machine_);
+    if (!arm.swing_limited() || (swing.angle >= arm.swing_lower() && swing.angle <= arm.swing_upper())) return;
+    fault("swing", number(degrees(swing.angle), "deg"),
+          "the swing joint turns from " + number(degrees(arm.swing_lower()), "deg") + " to " +
+              number(degrees(arm.swing_upper()), "deg"),
+          "choose an angle between them");
   }
 
   void look(const scene::Dig& dig, const Pose& X_WB) {
     const Arm arm(machine_);
     const Pose X_WS = X_WB * arm.X_BS();
     const TrenchLine line = trench_line(dig, X_WS);
-    if (line.offset > kMostOffset)
-      fault("dig", metres(line.offset), "the trench's line must pass the swing axis within " + metres(kMostOffset),
-            "place the machine on the line of the trench, or turn the line towards the machine");
-    const auto height = [&](const Vec2& p) { return ground_.sample(p.x(), p.y()) - X_WS.translation().z(); };
-    require(arm, "dig/far end", line.far_reach, height(line.far));
-    require(arm, "dig/far floor", line.far_reach - 0.3, height(line.far) - dig.depth);
-    require(arm, "dig/near floor", line.near_reach, height(line.near) - dig.depth);
-    if (line.near_reach < 3.0)
-      fault("dig/near end", metres(line.near_reach), "the near end must stay 3.00 m clear of the swing axis",
-            "end the trench farther away or drive back");
-    const Vec3 p = X_WS.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WS.translation().z());
-    require(arm, "dig/dump_at", std::hypot(p.x(), p.y()) - 0.7, height(dig.dump_at) + dig.dump_height + 0.7);
+    if (dig.width > arm.bucket().width + kWiderCut)
+      fault("dig/width", metres(dig.width), "the bucket cuts " + metres(arm.bucket().width),
+            "dig a trench one bucket wide, or several side by side");
+    if (line.offset > kMostOffset) {
+      // Where the rear axle had to stand to look along the line from the same distance.
+      const Vec2 u = (line.far - line.near).normalized();
+      const Vec2 axis = line.near - line.near_reach * u;
+      const Vec2 origin = axis - arm.X_BS().translation().x() * u;
+      fault("dig", metres(line.offset) + " beside the swing axis",
+            "the trench's line must pass the swing axis within " + metres(kMostOffset),
+            "stand at " + place(origin) + " with heading " + number(degrees(std::atan2(u.y(), u.x())), "deg") +
+                ", or turn the line towards the machine");
+      return;
+    }
+    if (line.near_reach < kNearest)
+      fault("dig/near end", metres(line.near_reach) + " from the swing axis",
+            "the trench must stay " + metres(kNearest) + " clear of it", "end it farther away or stand farther back");
+    require_swing(arm, "dig/line", line.swing);
+    for (const auto& [name, p] : {std::pair{"dig/far end", line.far}, std::pair{"dig/near end", line.near}}) {
+      require_tip(arm, X_WS, name, p, surface_.height(p.x(), p.y()) + kClear);
+      require_tip(arm, X_WS, name, p, surface_.height(p.x(), p.y()) - dig.depth);
+    }
+    require_dump(arm, X_WS, dig);
+  }
+
+  /// The tip at W (p, z), digging or plunging.
+  void require_tip(const Arm& arm, const Pose& X_WS, const char* element, const Vec2& p, double z) {
+    const SwingPoint at = swing_point(X_WS, Vec3(p.x(), p.y(), z));
+    const auto possible = [&](double reach) {
+      BucketPose pose{reach, at.height, at.level(with_cut(arm, kPlunge))};
+      ArmAngles q;
+      return arm.inverse_nearest(pose, q);
+    };
+    if (possible(at.reach)) return;
+    double least = 0, most = 0;
+    for (double r = 0.5; r < arm.longest() + 2; r += 0.02) {
+      if (!possible(r)) continue;
+      if (most == 0) least = r;
+      most = r;
+    }
+    fault(element,
+          metres(at.reach) + " from the swing axis at height " + metres(z) + " (" + metres(at.height) +
+              " over the swing ring)",
+          most > 0 ? "at that height the bucket's tip reaches from " + metres(least) + " to " + metres(most)
+                   : "the tip never gets to that height",
+          at.reach > most ? "stand nearer, or dig less deep or far" : "stand farther back");
+  }
+
+  void require_swing(const Arm& arm, const char* element, double swing) {
+    if (!arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper())) return;
+    fault(element, number(degrees(swing), "deg"),
+          "the swing joint turns from " + number(degrees(arm.swing_lower()), "deg") + " to " +
+              number(degrees(arm.swing_upper()), "deg"),
+          "move the target or turn the machine");
+  }
+
+  void require_dump(const Arm& arm, const Pose& X_WS, const scene::Dig& dig) {
+    const double ground = surface_.height(dig.dump_at.x(), dig.dump_at.y());
+    const SwingPoint at = swing_point(X_WS, Vec3(dig.dump_at.x(), dig.dump_at.y(), ground));
+    require_swing(arm, "dig/dump_at", at.swing);
+    ArmAngles q;
+    double possible = 0;
+    const bool any = dump_pose(arm, X_WS, dig.dump_at, ground, dig.dump_height, q, possible);
+    if (any && possible > dig.dump_height - 0.026) return;
+    if (any) {
+      fault("dig/dump_height", metres(dig.dump_height),
+            "with a level bucket " + metres(at.reach) + " from the swing axis the tip opens at most " +
+                metres(possible) + " over the ground",
+            "dump lower, nearer or farther");
+      return;
+    }
+    double least = 0, most = 0;
+    const Vec2 axis = X_WS.translation().head<2>(), u = (dig.dump_at - axis).normalized();
+    for (double r = 1; r < arm.longest() + 2; r += 0.05) {
+      if (!dump_pose(arm, X_WS, axis + r * u, ground, 0.3, q, possible)) continue;
+      if (most == 0) least = r;
+      most = r;
+    }
+    fault("dig/dump_at", metres(at.reach) + " from the swing axis",
+          "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction",
+          "move the dump point or the machine");
   }
 
   const scene::Machine& machine_;
   const scene::Program& program_;
-  const heightfield::Ground& ground_;
+  const SurfaceView& surface_;
   std::string file_;
   std::size_t index_ = 0;
 };
@@ -91,20 +170,10 @@ class ReachCheck {
 
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
                                const heightfield::Ground& ground, const std::string& file) {
-  ReachCheck check(machine, program, ground, file);
+  const GroundSurface surface(ground);
+  ReachCheck check(machine, program, surface, file);
   Pose X = X_WB;
-  for (std::size_t i = 0; i < program.steps.size(); ++i) {
-    if (const auto* drive = std::get_if<scene::DriveTo>(&program.steps[i])) {
-      // Where the machine will stand, upright on the present ground.
-      const Vec2 way = drive->target - X.translation().head<2>();
-      const double sense = drive->speed < 0 ? -1 : 1;
-      const double yaw = drive->has_heading ? drive->heading : std::atan2(sense * way.y(), sense * way.x());
-      const double rise = X.translation().z() - ground.sample(X.translation().x(), X.translation().y());
-      X = make_pose(drive->target.x(), drive->target.y(), ground.sample(drive->target.x(), drive->target.y()) + rise, 0,
-                    0, yaw);
-    }
-    check.look(i, X);
-  }
+  for (std::size_t i = 0; i < program.steps.size(); ++i) check.look(i, X);
   return check.faults;
 }
 

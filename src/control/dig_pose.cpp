@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/dig_pose.h"
+
+#include <cmath>
+
+namespace navvy::control {
+
+SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
+  const Vec3 p = X_WS.inverse() * p_W;
+  SwingPoint out;
+  out.swing = std::atan2(p.y(), p.x());
+  out.reach = std::hypot(p.x(), p.y());
+  out.height = p.z();
+  const Vec3 outward = X_WS.linear() * Vec3(std::cos(out.swing), std::sin(out.swing), 0);
+  out.pitch = std::asin(outward.z());
+  return out;
+}
+
+bool dump_pose(const Arm& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
+               double& possible) {
+  constexpr double kLeast = 0.3, kStep = 0.05;
+  // Opened, the soil leaves about below the pin.
+  for (double c = clearance; c >= std::min(kLeast, clearance) - 1e-9; c -= kStep) {
+    const double pin = ground + c - arm.bucket_length() * std::sin(kOpen);
+    const SwingPoint p = swing_point(X_WS, Vec3(dump_at.x(), dump_at.y(), pin));
+    const double angle = p.level(kCarry);
+    possible = c;
+    if (arm.inverse(
+            {p.reach + arm.bucket_length() * std::cos(angle), p.height + arm.bucket_length() * std::sin(angle), angle},
+            q))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace navvy::control

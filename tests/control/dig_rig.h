@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// An operator in a closed loop with the kinematic engine and a soil that is geometry only: what the bucket's shell
+// sweeps leaves the ground and fills the bucket, what the opened bucket holds falls below it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/operator.h"
+#include "vehicle/engine.h"
+
+namespace navvy::control::testing {
+
+/// Flat ground of loam, 24 x 20 m about the origin, 4 m deep.
+heightfield::Ground flat_ground(double cell = 0.1);
+
+class DigRig {
+ public:
+  DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM);
+
+  /// One control step of 5 ms.
+  void step();
+  /// Until the program ends; false after `limit` [s].
+  bool run(double limit);
+
+  struct Cycle {
+    double start = 0, lift_out = 0, dump = 0, end = 0;  ///< [s]
+    double payload = 0;                                 ///< at lift-out [kg]
+    double spilt = 0;                                   ///< between lift-out and dump [kg]
+  };
+  std::vector<Cycle> cycles;
+  double time = 0;
+  double fastest_jump = 0;  ///< largest change of a joint's target in a step / its speed limit x step
+  double worst_tilt = 0;    ///< of the bucket from its carrying angle between lift-out and dump [rad]
+  heightfield::Ground ground;
+  std::unique_ptr<vehicle::Engine> engine;
+  Operator op;
+  /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
+  double rock_from = 0, rock_to = 0, rock_top = -100;
+  bool hit_rock = false;
+
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+  std::uint64_t digest() const;
+
+ private:
+  Observation look() const;
+  void note(CycleEvent event, const Observation& seen);
+  bool against_rock(const Command& command) const;
+  void sweep(const Pose& X_WB);
+  void pour(const Pose& X_WB);
+  void drop(const Vec2& around, double radius, double mass);
+
+  scene::Machine machine_;
+  std::vector<double> target_;
+  double payload_ = 0;
+  double capacity_ = 0;
+  double lifted_ = 0;
+  bool stalled_ = false;
+  bool carrying_ = false;
+};
+
+/// Ground now minus ground at the start, against the design.
+struct TrenchMeasure {
+  double removed_share = 0;  ///< of the design volume
+  double overdug_share = 0;  ///< removed below the floor or beside the outline within 1.5 m
+  double floor_share = 0;    ///< of the length with the floor within 0.10 m
+  double center_offset = 0;  ///< [m]
+  double removed = 0;        ///< [m3]
+};
+TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig);
+
+}  // namespace navvy::control::testing
