@@ -233,7 +233,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   WakePlan plan;
   wake_ahead_of_tools(s.ground, zones, plan);
   wake_around_motion(
-      s.ground, index, motion_threshold(zones),
+      s.ground, index, motion_threshold(zones), zones,
       [&](int ix, int iy) { return !s.rests_since_deposit(ix, iy, zones, time); }, plan);
   s.plan_slopes(index, zones, plan);
   s.fit_budget(zones, particles.size(), time, plan);

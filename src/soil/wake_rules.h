@@ -41,10 +41,11 @@ void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const Tool
 double motion_threshold(std::span<const ToolZone> zones);
 
 /// Rule B: a particle faster than `threshold` wakes the 3 x 3 columns around it that reach up to its cell. `may_wake`
-/// answers for a column whether this rule applies to it now.
+/// answers for a column whether this rule applies to it now. In a working tool's zone it goes three cells below the
+/// tool and no deeper.
 template <class MayWake>
 void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
-                        const MayWake& may_wake, WakePlan& plan);
+                        std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan);
 
 void plan_wake(WakePlan& plan, int ix, int iy, double bottom);
 
@@ -53,11 +54,12 @@ void plan_wake(WakePlan& plan, int ix, int iy, double bottom);
 /// Lowest cell that holds a moving particle of the column; false when there is none.
 bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> column, double threshold, int& cell);
 /// Height the column must wake to because soil moves in `cell` next to it; false when it need not.
-bool wakes_beside(const heightfield::Ground& ground, int ix, int iy, int cell, double& bottom);
+bool wakes_beside(const heightfield::Ground& ground, std::span<const ToolZone> zones, int ix, int iy, int cell,
+                  double& bottom);
 
 template <class MayWake>
 void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
-                        const MayWake& may_wake, WakePlan& plan) {
+                        std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan) {
   for (const PlanKey& block : index.blocks())
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
       const int ix = kBlockCells * block.second + c % kBlockCells, iy = kBlockCells * block.first + c / kBlockCells;
@@ -66,7 +68,7 @@ void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& in
       for (int y = iy - 1; y <= iy + 1; ++y)
         for (int x = ix - 1; x <= ix + 1; ++x) {
           double bottom = 0;
-          if (ground.contains(x, y) && wakes_beside(ground, x, y, cell, bottom) && may_wake(x, y))
+          if (ground.contains(x, y) && wakes_beside(ground, zones, x, y, cell, bottom) && may_wake(x, y))
             plan_wake(plan, x, y, bottom);
         }
     }
