@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRamp = 1.5;          // [m/s2] travel pedal to speed (U)
 constexpr double kSpeedTime = 0.3;     // [s] tuned: BulletDrive.KeepsTheAskedSpeed
-constexpr double kIntegralTime = 0.6;  // [s] tuned: same
+constexpr double kIntegralTime = 1.0;  // [s] tuned: same
 
 }  // namespace
 
@@ -30,6 +30,7 @@ double DriveTrain::wheel_torque(const scene::Drive& drive, double speed, double 
                                 double mass, double spin_inertia, double dt) {
   if (wheels <= 0) return 0;
   const double goal = std::clamp(speed, -drive.max_speed, drive.max_speed);
+  const double before = asked_;
   asked_ = std::clamp(goal, asked_ - kRamp * dt, asked_ + kRamp * dt);
   const double now = cage * radius;
   const double power_limit = drive.power / std::max(std::abs(now), 0.1);
@@ -38,7 +39,7 @@ double DriveTrain::wheel_torque(const scene::Drive& drive, double speed, double 
   const double rim = spin_inertia / (radius * radius);
   const double gain = std::min(mass / kSpeedTime, 0.3 * rim / dt);
   const double error = asked_ - now;
-  const double force = gain * error + integral_;
+  const double force = mass * (asked_ - before) / dt + gain * error + integral_;
   const double limited = std::clamp(force, -most, most);
   // Integrates only while it can act.
   if (force == limited || error * force < 0)

@@ -22,7 +22,8 @@ struct JointInput {
   double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
 };
 
-/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering.
+/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering. The brake also locks an
+/// oscillating axle; without it the axle swings freely.
 struct DriveInput {
   double speed = 0;   ///< forward [m/s]
   double steer = 0;   ///< bicycle angle at the middle of the front axle, positive to the left [rad]

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
 constexpr double kArcStep = radians(15);  // so that 0.1 m cells are not stepped over near the ground
-constexpr double kReboundSpeed = 0.8;     // [m/s] tuned: TyreOnGround.RaisedGroundDoesNotLaunch
+constexpr double kReboundSpeed = 0.25;    // [m/s] tuned: BulletDrive.DropsIntoATrenchWithoutBeingLaunched
 constexpr double kMaxDeflection = 0.25;   // of the radius: tread on the rim
 constexpr double kBristleShare = 0.8;     // tangential over radial stiffness of a bias truck tyre, 0.5 to 1 (U)
 constexpr double kRelaxation = 0.6;  // of the radius [Pacejka 2012, 7.2: about the contact's half length to radius]

@@ -36,7 +36,7 @@ struct TyreForce {
 
 /// Force of the ground on a wheel over the next step dt [s]; moves the bristles. Reads about 80 ground heights.
 ///
-/// A tyre's force never pushes it off the ground faster than 0.8 m/s, whatever the ground does under it.
+/// A tyre's force never pushes it off the ground faster than 0.25 m/s, whatever the ground does under it.
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
                      TyreState& state);
 

@@ -19,8 +19,8 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr int kGroundGroup = 1, kMachineGroup = 2;
-constexpr int kIterations = 60;      // tuned: BulletServo.HoldTorqueIsTheAnalyticOne
-constexpr double kResidual = 1e-12;  // [(N s)^2] solver may stop early below
+constexpr int kIterations = 60;     // tuned: BulletServo.HoldTorqueIsTheAnalyticOne
+constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 constexpr int kMostShapes = 4096;
 constexpr std::uint32_t kVersion = 1;
 

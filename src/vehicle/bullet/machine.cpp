@@ -85,6 +85,23 @@ void BulletMachine::add_tyres() {
     }
     tyres_.push_back(tyre);
   }
+  if (!machine_.has_drive) return;
+  // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate.
+  for (const Tyre& tyre : tyres_)
+    for (int link = tyre.carrier_link; link > 0;) {
+      int up = -1;
+      for (std::size_t j = 0; j < machine_.joints.size(); ++j)
+        if (machine_.joints[j].child == link) up = static_cast<int>(j);
+      if (up < 0) break;
+      const scene::Joint& joint = machine_.joints[index(up)];
+      const bool known = std::find(axle_joints_.begin(), axle_joints_.end(), up) != axle_joints_.end();
+      const bool steers = std::any_of(tyres_.begin(), tyres_.end(), [&](const Tyre& t) { return t.steer_joint == up; });
+      if (joint.type == JointType::kRevolute && !known && !steers) {
+        axle_joints_.push_back(up);
+        actuators_[index(up)].driven = true;
+      }
+      link = joint.parent;
+    }
 }
 
 void BulletMachine::add_colliders() {
@@ -121,6 +138,7 @@ void BulletMachine::set_drive(const DriveInput& input) {
     actuators_[index(tyre.spin_joint)].driven = machine_.has_drive;
     if (tyre.steer_joint >= 0) actuators_[index(tyre.steer_joint)].driven = machine_.has_drive;
   }
+  for (const int joint : axle_joints_) actuators_[index(joint)].driven = true;
 }
 
 void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) { pushes_.push_back({link, f_W, p_W}); }
@@ -164,7 +182,7 @@ void BulletMachine::begin_joints(double dt) {
     if (a.driven && spins) {
       // The drive has set constraint and torque.
     } else {
-      if (a.driven) {
+      if (a.driven && a.servo.input().mode == JointMode::kPosition) {
         a.limits.speed_positive = std::min(a.limits.speed_positive, machine_.drive.steer_rate);
         a.limits.speed_negative = std::min(a.limits.speed_negative, machine_.drive.steer_rate);
       }
@@ -189,18 +207,31 @@ void BulletMachine::hold_wheel(Tyre& tyre, double torque, double dt) {
   brake.command(back, -torque * dt, torque * dt);
 }
 
+void BulletMachine::steer_wheels() {
+  const SteerAngles steer = ackermann(machine_.drive, drive_input_.steer);
+  for (const Tyre& tyre : tyres_) {
+    if (tyre.steer_joint < 0 || !actuators_[index(tyre.steer_joint)].driven) continue;
+    const bool left = machine_.links[index(tyre.wheel_link)].X_ML.translation().y() > 0;
+    actuators_[index(tyre.steer_joint)].servo.set({JointMode::kPosition, left ? steer.left : steer.right});
+  }
+}
+
+void BulletMachine::lock_axles() {
+  // As the service brake of a wheeled excavator does: the axle is locked for work and free for travel.
+  for (const int joint : axle_joints_)
+    if (actuators_[index(joint)].driven)
+      actuators_[index(joint)].servo.set({drive_input_.brake ? JointMode::kVelocity : JointMode::kFree, 0});
+}
+
 void BulletMachine::begin_drive(double dt) {
   if (!machine_.has_drive) return;
   const scene::Drive& drive = machine_.drive;
-  const SteerAngles steer = ackermann(drive, drive_input_.steer);
+  steer_wheels();
+  lock_axles();
   double cage = 0, radius = 0, inertia = 0;
   int driven = 0;
   for (std::size_t w = 0; w < tyres_.size(); ++w) {
     const Tyre& tyre = tyres_[w];
-    if (tyre.steer_joint >= 0 && actuators_[index(tyre.steer_joint)].driven) {
-      const bool left = machine_.links[index(tyre.wheel_link)].X_ML.translation().y() > 0;
-      actuators_[index(tyre.steer_joint)].servo.set({JointMode::kPosition, left ? steer.left : steer.right});
-    }
     if (!machine_.wheels[w].driven || !actuators_[index(tyre.spin_joint)].driven) continue;
     cage += tree_.velocity(tyre.spin_joint);
     radius += machine_.wheels[w].radius - tyre.force.deflection;

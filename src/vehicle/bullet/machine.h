@@ -78,6 +78,8 @@ class BulletMachine {
   void add_colliders();
   void begin_joints(double dt);
   void begin_drive(double dt);
+  void steer_wheels();
+  void lock_axles();
   void hold_wheel(Tyre& tyre, double torque, double dt);
   void push_tyres(const GroundQuery& ground, double dt);
   Pose wheel_pose(const Tyre& tyre) const;
@@ -92,6 +94,7 @@ class BulletMachine {
   std::vector<LinkShape> shapes_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<Tyre> tyres_;
+  std::vector<int> axle_joints_;  // between chassis and wheel carriers: oscillation
   DriveInput drive_input_;
   DriveTrain drive_train_;
   std::vector<Push> pushes_;

@@ -9,7 +9,7 @@ constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks 
 }  // namespace
 
 ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper)
-    : btMultiBodyConstraint(body, body, link, body->getLink(link).m_parent, 3, true, kConstraintType),
+    : btMultiBodyConstraint(body, nullptr, link, -1, 3, true, kConstraintType),
       has_limits_(has_limits),
       lower_(lower),
       upper_(upper) {
@@ -31,15 +31,18 @@ void ServoConstraint::add_row(int row, double velocity, double low, double high,
   c.m_orgConstraint = this;
   c.m_orgDofIndex = row;
   c.m_multiBodyA = m_bodyA;
-  c.m_multiBodyB = m_bodyB;
+  // The other side is the world: a joint's motor is inside the one body, so the second half would be all zeros.
+  c.m_multiBodyB = nullptr;
+  c.m_solverBodyIdB = data.m_fixedBodyId;
   c.m_linkA = m_linkA;
-  c.m_linkB = m_linkB;
+  c.m_linkB = -1;
   const btVector3 zero(0, 0, 0);
   c.m_contactNormal1 = c.m_contactNormal2 = zero;
   c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
   c.m_angularComponentA = c.m_angularComponentB = zero;
-  fillMultiBodyConstraint(c, data, jacobianA(row), jacobianB(row), zero, zero, zero, zero, 0, info, low, high, true, 1,
-                          false, velocity);
+  fillMultiBodyConstraint(c, data, jacobianA(row), nullptr, zero, zero, zero, zero, 0, info, low, high, true, 1, false,
+                          velocity);
+  c.m_solverBodyIdB = -1;  // nothing to push there
 }
 
 void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
