@@ -81,6 +81,7 @@ struct Cylinder {
   int count = 1;                              ///< cylinders side by side
   double bore = 0.12, rod = 0.085;            ///< [m]
   double pressure = 35e6;                     ///< relief [Pa]
+  double spacing = 0.68;                      ///< between the middles of cylinders side by side, for pictures [m]
   double flow = 0.004;                        ///< most oil for this function [m3/s]
 };
 

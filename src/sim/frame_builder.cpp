@@ -10,7 +10,9 @@
 namespace navvy::sim {
 namespace {
 
-constexpr int kWindow = 1024;  // columns along one side of the drawn ground
+constexpr int kWindow = 1024;           // columns along one side of the drawn ground
+constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
+constexpr double kBarRadius = 0.05;     // [m]
 
 /// OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
@@ -118,18 +120,32 @@ void FrameBuilder::add_machines() {
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
-    for (const scene::Cylinder& cylinder : machine.cylinders) {
-      const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link);
-      if (joint < 0 || base < 0) continue;
-      const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(index, joint).position);
-      const Pose X_WL = world_.link(index, base).X_WL;
-      scene::FrameCylinder drawn;
-      drawn.p_base = X_WL * geometry.p_base;
-      drawn.p_rod = X_WL * geometry.p_rod;
-      drawn.radius = 0.6 * cylinder.bore;  // bore and wall
-      drawn.barrel_length = 0.55 * geometry.length;
-      frame_.cylinders.push_back(drawn);
-    }
+    for (const scene::Cylinder& cylinder : machine.cylinders) add_cylinder(index, cylinder);
+  }
+}
+
+void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
+  const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
+  const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link),
+            rod = machine.link_index(cylinder.rod_link);
+  if (joint < 0 || base < 0 || rod < 0) return;
+  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(m, joint).position);
+  const Pose X_WL = world_.link(m, base).X_WL;
+  const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel, double aside) {
+    const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
+    frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
+  };
+  for (int i = 0; i < cylinder.count; ++i)
+    add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
+        cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
+  if (!cylinder.has_linkage) return;
+  // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's pivot.
+  const Vec3 pin =
+      cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod * (geometry.p_rod - cylinder.p_rocker);
+  const Vec3 on_bucket = world_.link(m, rod).X_WL * cylinder.p_coupler;
+  for (const double aside : {-kLinkageAside, kLinkageAside}) {
+    add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
+    add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
   }
 }
 
@@ -139,6 +155,7 @@ void FrameBuilder::add_particles() {
   scene::FrameParticles& out = frame_.particles;
   out.position.clear();
   out.soil.clear();
+  out.id.clear();
   out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
   if (particles.empty()) return;
   const Vec3 corner(ground.origin().x(), ground.origin().y(), ground.datum());
@@ -151,6 +168,7 @@ void FrameBuilder::add_particles() {
     for (int i = 0; i < 3; ++i)
       out.position.push_back(static_cast<float>(block * (p.block[i] - first[i]) + ground.cell() * p.x[i]));
     out.soil.push_back(static_cast<std::uint8_t>(p.soil));
+    out.id.push_back(p.id);
   }
 }
 

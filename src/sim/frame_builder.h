@@ -23,6 +23,7 @@ class FrameBuilder {
   void place_window();
   void update_ground();
   void add_machines();
+  void add_cylinder(int m, const scene::Cylinder& cylinder);
   void add_particles();
 
   const World& world_;

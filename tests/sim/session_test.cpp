@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from soil.
+#include "sim/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "device/device.h"
+#include "scene_io/loader.h"
+
+namespace navvy::sim {
+namespace {
+
+scene::World load(const std::string& name, const std::vector<std::string>& settings = {}) {
+  scene_io::Overrides overrides;
+  overrides.render = false;
+  for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+}
+
+/// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.
+constexpr double kInSoil = 1.6;
+
+class SessionTest : public testing::Test {
+ protected:
+  std::unique_ptr<Session> make(const scene::World& description) {
+    return std::make_unique<Session>(description, device_);
+  }
+  static void run_to(Session& session, double time) {
+    while (session.world().time() < time) session.step();
+  }
+  device::Device device_;
+};
+
+TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
+  const scene::World description = load("bucket_path.sdf");
+  std::string hashes[2];
+  for (std::string& hash : hashes) {
+    const auto session = make(description);
+    run_to(*session, kInSoil);
+    EXPECT_GT(session->world().soil().stats().particles, 100);
+    hash = session->state_hash();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
+  const scene::World description = load("bucket_path.sdf");
+  const auto whole = make(description);
+  run_to(*whole, 1.3);
+  StateWriter writer;
+  whole->save(writer);
+  const std::string middle = whole->state_hash();
+  run_to(*whole, kInSoil);
+
+  const auto resumed = make(description);
+  StateReader reader(writer.bytes());
+  resumed->load(reader);
+  EXPECT_EQ(resumed->state_hash(), middle);
+  run_to(*resumed, kInSoil);
+  EXPECT_EQ(resumed->state_hash(), whole->state_hash());
+}
+
+TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
+  const auto bucket = make(load("bucket_path.sdf"));
+  StateWriter writer;
+  bucket->save(writer);
+  const auto block = make(load("block_collapse.sdf"));
+  StateReader reader(writer.bytes());
+  EXPECT_THROW(block->load(reader), InputError);
+}
+
+TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
+  const scene::World description = load("trench.sdf");
+  const auto whole = make(description);
+  run_to(*whole, 0.8);
+  StateWriter writer;
+  whole->save(writer);
+  run_to(*whole, 1.2);
+  const auto resumed = make(description);
+  StateReader reader(writer.bytes());
+  resumed->load(reader);
+  run_to(*resumed, 1.2);
+  EXPECT_EQ(resumed->state_hash(), whole->state_hash());
+}
+
+TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
+  const auto session = make(load("bucket_path.sdf"));
+  double in_air = 0, in_soil = 0;
+  while (session->world().time() < kInSoil) {
+    session->step();
+    const double force = session->world().coupling().tools().at(0).force_W.norm();
+    (session->world().time() < 0.3 ? in_air : in_soil) =
+        std::max(session->world().time() < 0.3 ? in_air : in_soil, force);
+  }
+  EXPECT_EQ(in_air, 0);  // 0.2 m above untouched ground
+  EXPECT_GT(in_soil, 500);
+}
+
+TEST_F(SessionTest, FourTimesTheCohesionNeedsMoreForce) {
+  double mean[2];
+  const char* cohesion[] = {"soil.cohesion_pa=5000", "soil.cohesion_pa=20000"};
+  for (int i = 0; i < 2; ++i) {
+    const auto session = make(load("bucket_path.sdf", {cohesion[i]}));
+    run_to(*session, kInSoil);
+    mean[i] = session->force().mean();
+  }
+  EXPECT_GT(mean[1], 1.2 * mean[0]);
+}
+
+TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
+  const auto session = make(load("bucket_path.sdf"));
+  while (session->world().time() < kInSoil) {
+    session->step();
+    if (session->world().steps() % 50 == 0) ASSERT_EQ(session->world().soil().ledger().error(), 0);
+  }
+  EXPECT_LE(session->force().residual_max, 1e-5);  // issue 2, "Momentum"
+  EXPECT_EQ(session->world().soil().stats().shell_crossings, 0u);
+}
+
+TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
+  const auto session = make(load("two_excavators.sdf"));
+  run_to(*session, 0.5);
+  for (int m = 0; m < 2; ++m) {
+    double load = 0;
+    for (int w = 0; w < 4; ++w) load += session->world().wheel(m, w).force_W.z();
+    // 18 t standing still; the springs still ring a little.
+    EXPECT_NEAR(load, 18000 * kGravity, 0.15 * 18000 * kGravity) << "machine " << m;
+  }
+}
+
+TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
+  scene::World description = load("trench.sdf");
+  for (scene::ProgramStep& step : description.machines[0].program.steps)
+    if (auto* dig = std::get_if<scene::Dig>(&step)) dig->from.x() += 4;
+  try {
+    make(description);
+    FAIL() << "a trench 12 m away was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("far"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
+  const auto session = make(load("trench.sdf"));
+  World& world = session->world();
+  EXPECT_NO_THROW(world.set("excavator/boom_joint/position", 0.5));
+  EXPECT_NEAR(world.get("excavator/pose/x"), -9, 1e-9);
+  EXPECT_THROW(world.set("excavator/boom_joint/position", std::nan("")), InputError);
+  try {
+    world.get("excavator/bom_joint/position");
+    FAIL() << "an unknown output was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("excavator/boom_joint/position"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace navvy::sim
