@@ -211,6 +211,8 @@ bool Operator::State::run(const scene::Dig& step, const Observation& seen, doubl
     case Phase::kSwing:
       if (!move(seen)) break;
       m.empty_scoops = seen.payload < kWorthPayload ? m.empty_scoops + 1 : 0;
+      if (m.empty_scoops > 0 && m.cleaning == 0)
+        with_surface(seen, [&](const SurfaceView& surface) { plan.refuse(surface, m.scoop_start); });
       event = CycleEvent::kDumpStart;
       start_dump(seen);
       break;

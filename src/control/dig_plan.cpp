@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
+constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
 constexpr double kWorth = 0.3;       // a slice's rest below this share of a bucket waits for the next slice
 
 }  // namespace
@@ -37,6 +38,7 @@ DigPlan::DigPlan(const scene::Dig& dig, const TrenchLine& line, double scoop_vol
   derive();
   start_.resize(static_cast<std::size_t>(std::max(2, static_cast<int>(std::lround(length_ / kSample)) + 1)));
   for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
+  deepest_.assign(start_.size(), dig.depth);
 }
 
 void DigPlan::derive() {
@@ -61,21 +63,30 @@ double DigPlan::start_height(double s) const {
   return start_[i] + (t - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
 }
 
-double DigPlan::remaining(const SurfaceView& surface, double s, double level) const {
-  return height(surface, s) - (start_height(s) - level);
+double DigPlan::remaining(const SurfaceView& surface, int i, double level) const {
+  const auto k = static_cast<std::size_t>(i);
+  return height(surface, at(i)) - start_[k] + std::min(level, deepest_[k]);
+}
+
+void DigPlan::refuse(const SurfaceView& surface, double s) {
+  for (int i = 0; i < samples(); ++i) {
+    if (at(i) > s + 0.5 * kRefused || at(i) < s - kRefused) continue;
+    const auto k = static_cast<std::size_t>(i);
+    deepest_[k] = std::min(deepest_[k], start_[k] - height(surface, at(i)));
+  }
 }
 
 double DigPlan::volume_above(const SurfaceView& surface, double level) const {
   double sum = 0;
-  for (int i = 0; i < samples(); ++i) sum += std::max(0.0, remaining(surface, at(i), level));
+  for (int i = 0; i < samples(); ++i) sum += std::max(0.0, remaining(surface, i, level));
   return sum * dig_.width * length_ / samples();
 }
 
-double DigPlan::fill_end(const SurfaceView& surface, double start, double level) const {
+double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
   double volume = 0;
-  for (double s = start; s > 0; s -= kSample) {
-    volume += std::max(0.0, remaining(surface, s, level)) * dig_.width * kSample;
-    if (volume >= scoop_volume_) return s;
+  for (int i = start; i > 0; --i) {
+    volume += std::max(0.0, remaining(surface, i, level)) * dig_.width * length_ / (samples() - 1);
+    if (volume >= scoop_volume_) return at(i);
   }
   return 0;
 }
@@ -87,8 +98,8 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
     if (k < slices && volume_above(surface, level) < kWorth * scoop_volume_) continue;
     for (int i = samples() - 1; i >= 1; --i)
       // Two neighbours must agree, a single crumb is not worth a cycle.
-      if (remaining(surface, at(i), level) > kTolerance && remaining(surface, at(i - 1), level) > kTolerance)
-        return {at(i), fill_end(surface, at(i), level), level, true};
+      if (remaining(surface, i, level) > kTolerance && remaining(surface, i - 1, level) > kTolerance)
+        return {at(i), fill_end(surface, i, level), level, true};
   }
   return {};
 }
@@ -96,6 +107,7 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
 void DigPlan::hash(StateHash& hash) const {
   hash.value(length_);
   hash.value(scoop_volume_);
+  hash.bytes(deepest_.data(), deepest_.size() * sizeof(double));
   hash.bytes(start_.data(), start_.size() * sizeof(double));
 }
 
@@ -105,6 +117,7 @@ void DigPlan::save(StateWriter& writer) const {
                          line_.swing, line_.offset, scoop_volume_})
     writer.value(v);
   writer.vector(start_);
+  writer.vector(deepest_);
 }
 
 void DigPlan::load(StateReader& reader) {
@@ -113,6 +126,7 @@ void DigPlan::load(StateReader& reader) {
                     &line_.swing, &line_.offset, &scoop_volume_})
     *v = reader.value<double>();
   start_ = reader.vector<double>();
+  deepest_ = reader.vector<double>();
   if (!start_.empty()) derive();  // a plan that was never made stays so
 }
 

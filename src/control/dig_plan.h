@@ -39,12 +39,12 @@ class DigPlan {
 
   /// The next scoop: the highest slice that still holds a worthwhile share of a bucket, begun at its far end.
   Scoop next(const SurfaceView& surface) const;
+  /// The soil where a scoop from `s` brought nothing is taken as undiggable below what it is now, and left.
+  void refuse(const SurfaceView& surface, double s);
   /// A pass along the whole floor.
   Scoop clean_up() const { return {length_, 0, dig_.depth, true}; }
   /// Soil above depth `level` over the trench's width [m3].
   double volume_above(const SurfaceView& surface, double level) const;
-  /// Height of soil above depth `level` at `s`, negative where it is dug deeper [m].
-  double remaining(const SurfaceView& surface, double s, double level) const;
   /// W height of the surface before the dig at `s` [m].
   double start_height(double s) const;
   Vec2 point(double s) const { return line_.near + s * along_; }
@@ -56,8 +56,10 @@ class DigPlan {
   void load(StateReader& reader);
 
  private:
-  double fill_end(const SurfaceView& surface, double start, double level) const;
+  double fill_end(const SurfaceView& surface, int start, double level) const;
   double height(const SurfaceView& surface, double s) const;
+  /// Height of soil above depth `level` at sample i that can be dug, negative where it is dug deeper [m].
+  double remaining(const SurfaceView& surface, int i, double level) const;
   double at(int i) const { return length_ * i / (samples() - 1); }
   int samples() const { return static_cast<int>(start_.size()); }
   void derive();
@@ -65,7 +67,8 @@ class DigPlan {
   scene::Dig dig_;
   TrenchLine line_;
   double scoop_volume_ = 0;
-  std::vector<double> start_;  // W heights from near to far [m]
+  std::vector<double> start_;    // W heights from near to far [m]
+  std::vector<double> deepest_;  // depth that can be dug there [m]
   Vec2 along_ = Vec2::UnitX();
   double length_ = 1;
 };

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "control/digger.h"
+#include "control/ew180_like.h"
 #include "core/error.h"
 #include "vehicle/kinematics.h"
 
@@ -13,7 +14,7 @@ namespace navvy::control {
 namespace {
 
 TEST(Arm, ForwardAgreesWithTheTreesKinematics) {
-  const scene::Machine machine = make_digger();
+  const scene::Machine machine = testing::ew180_like();
   const Arm arm(machine);
   const ArmAngles q{0.4, -1.7, -0.9};
   const auto links = vehicle::forward_kinematics(machine, Pose::Identity(), {0, q[0], q[1], q[2]});
@@ -25,7 +26,7 @@ TEST(Arm, ForwardAgreesWithTheTreesKinematics) {
 }
 
 TEST(Arm, InverseReturnsToEveryPoseThatForwardGives) {
-  const Arm arm(make_digger());
+  const Arm arm(testing::ew180_like());
   int tried = 0;
   for (double boom = -0.8; boom <= 1.0; boom += 0.15)
     for (double stick = -2.7; stick <= -0.65; stick += 0.2)
@@ -42,7 +43,7 @@ TEST(Arm, InverseReturnsToEveryPoseThatForwardGives) {
 }
 
 TEST(Arm, InverseRefusesWhatIsOutOfReachAndNearestTurnsTheBucket) {
-  const Arm arm(make_digger());
+  const Arm arm(testing::ew180_like());
   ArmAngles q;
   BucketPose far{12, 0, -kPi / 2};
   EXPECT_FALSE(arm.inverse_nearest(far, q));
@@ -54,8 +55,36 @@ TEST(Arm, InverseRefusesWhatIsOutOfReachAndNearestTurnsTheBucket) {
   EXPECT_NEAR(arm.forward(q).reach, 7.9, 1e-9);
 }
 
+TEST(Arm, NearestMovesWithoutJerksAlongALimit) {
+  const Arm arm(testing::ew180_like());
+  ArmAngles before{};
+  bool first = true;
+  double most = 0;
+  // Along the floor of a trench from far out: the wish of a digging angle is possible only nearer.
+  for (double reach = 7.8; reach > 4.4; reach -= 0.004) {
+    BucketPose pose{reach, -1.98, -radians(112)};
+    ArmAngles q;
+    ASSERT_TRUE(arm.inverse_nearest(pose, q)) << reach;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!first) most = std::max(most, std::abs(q[i] - before[i]));
+    first = false;
+    before = q;
+  }
+  EXPECT_LT(most, 0.02);  // 4 mm of tip path turn the bucket by 5 mrad in the mean; steps of 2 deg would be 35
+}
+
+TEST(Arm, ShellHangsBelowTheTipOnlyWhenTheBucketIsCurled) {
+  const Arm arm(testing::ew180_like());
+  EXPECT_NEAR(arm.below_tip(-radians(112)), 0, 1e-12);    // digging: the floor plate rises behind the edge
+  EXPECT_NEAR(arm.below_tip(-radians(180)), 0.63, 1e-9);  // level: the heel of the profile
+  // Upright cutting edge: nothing of the back is farther out than the tip; turned in, the back is.
+  EXPECT_NEAR(arm.beyond_tip(-radians(93) - arm.cut_angle(), 0.8), 0, 0.02);  // 3 deg over the plate's 0.31 m
+  EXPECT_GT(arm.beyond_tip(-radians(130), 0.8), 0.5);
+  EXPECT_LT(arm.beyond_tip(-radians(130), 0.1), arm.beyond_tip(-radians(130), 0.4));
+}
+
 TEST(Arm, NamesTheRoleThatIsMissing) {
-  scene::Machine machine = make_digger();
+  scene::Machine machine = testing::ew180_like();
   machine.stick_joint.clear();
   try {
     const Arm arm(machine);

@@ -82,5 +82,124 @@ TEST(Dig, MakesTheTrenchOfTheShippedScene) {
   EXPECT_LE(rig.fastest_jump, 2);  // the servo follows a jump of two steps' travel without notice
 }
 
+TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
+  // Turned by 25 deg, the line passing the swing axis 0.1 m aside, spoil to the right.
+  const double yaw = radians(25);
+  const Pose X_WM = make_pose(-5, -3, 0, 0, 0, yaw);
+  const auto at = [&](double x, double y) -> Vec2 { return (X_WM * Vec3(x, y, 0)).head<2>(); };
+  scene::Dig dig = trench();
+  dig.from = at(1.25 + 4.6, 0.1);
+  dig.to = at(1.25 + 7.6, 0.1);
+  dig.dump_at = at(1.25 + 1.5, -5.8);
+  DigRig rig(ew180_like(), program({dig}), X_WM);
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  const TrenchMeasure measured = measure(rig.ground, dig);
+  report(rig, measured);
+  expect_good(measured);
+}
+
+TEST(Dig, GivesWayToRockAndFinishesTheRest) {
+  // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
+  Lines log;
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  rig.rock_from = 2.6;
+  rig.rock_to = 3.2;
+  rig.rock_top = -0.3;
+  ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
+  report(rig, measure(rig.ground, trench()));
+  EXPECT_TRUE(rig.hit_rock);
+  // Behind and ahead of the rock the floor is down; on it something stays.
+  const auto depth = [&](double x) { return -rig.ground.sample(x, 0); };
+  EXPECT_GT(depth(4.2), 0.70);  // floor within 0.10 m
+  EXPECT_GT(depth(2.1), 0.70);  // floor within 0.10 m
+  EXPECT_LT(depth(2.9), 0.60);  // the tip sank at most a few steps' travel into the box
+  for (const DigRig::Cycle& cycle : rig.cycles) EXPECT_LT(cycle.end - cycle.start, 60);
+}
+
+TEST(Dig, EndsWhenScoopsBringNothing) {
+  // The whole line is rock at the surface: nothing can be dug, and the operator does not try for ever.
+  Lines log;
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  rig.rock_from = 1;
+  rig.rock_to = 6;
+  rig.rock_top = -0.01;
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  EXPECT_LE(rig.cycles.size(), 6u);
+  EXPECT_NE(log.text().find("empty scoops"), std::string::npos);
+}
+
+TEST(Dig, StopsAtItsLargestNumberOfCycles) {
+  scene::Dig dig = trench();
+  dig.max_cycles = 2;
+  DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(rig.run(200));
+  EXPECT_EQ(rig.cycles.size(), 2u);
+}
+
+TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
+  scene::Dig dig = trench();
+  dig.max_cycles = 2;
+  const scene::Program steps = program({dig});
+  DigRig whole(ew180_like(), steps, make_pose(-4, 0, 0));
+  for (int i = 0; i < 1700; ++i) whole.step();  // 8.5 s: in mid-scoop
+  EXPECT_EQ(whole.op.phase(), "curl");
+  StateWriter writer;
+  whole.save(writer);
+  DigRig resumed(ew180_like(), steps, make_pose(-4, 0, 0));
+  StateReader reader(writer.bytes());
+  resumed.load(reader);
+  EXPECT_EQ(resumed.op.phase(), "curl");
+  EXPECT_EQ(resumed.digest(), whole.digest());
+  while (!whole.op.done() && whole.time < 100) {
+    whole.step();
+    resumed.step();
+  }
+  EXPECT_TRUE(resumed.op.done());
+  EXPECT_EQ(resumed.digest(), whole.digest());
+  StateHash before, after;
+  DigRig fresh(ew180_like(), steps, make_pose(-4, 0, 0));
+  fresh.op.hash(before);
+  whole.op.hash(after);
+  EXPECT_NE(before.digest(), after.digest());
+}
+
+TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
+  scene::Trajectory path;
+  path.joints = {"boom_joint", "bucket_joint"};
+  path.times = {0, 1, 3};
+  path.positions = {{0.7, -1.3}, {0.6, -1.0}, {0.9, -1.6}};
+  DigRig rig(ew180_like(), program({scene::Swing{radians(50)}, scene::Dump{0.5}, scene::Wait{1.5}, path}),
+             make_pose(0, 0, 0));
+  const auto joint = [&](int j) { return rig.engine->joint(0, j).position; };
+  const double bucket = joint(3);
+  while (rig.op.phase() != "dump") rig.step();
+  EXPECT_NEAR(joint(0), radians(50), 0.03);  // what counts as arrived
+  double open = bucket;
+  while (rig.op.phase() != "wait") {
+    rig.step();
+    open = std::max(open, joint(3));
+    ASSERT_LT(rig.time, 30);
+  }
+  EXPECT_GT(open, bucket + 0.7);         // it opened ...
+  EXPECT_NEAR(joint(3), bucket, 0.031);  // ... and curled back; what counts as arrived
+  const double waiting = rig.time;
+  while (rig.op.phase() != "trajectory") rig.step();
+  EXPECT_NEAR(rig.time - waiting, 1.5, 0.02);  // two control steps and a half
+  const double start = rig.time;
+  while (rig.time < start + 2) rig.step();
+  EXPECT_NEAR(joint(1), 0.75, 0.01);  // linear between the knots at 1 s and 3 s, one control step of 0.15 rad/s late
+  EXPECT_NEAR(joint(3), -1.3, 0.01);
+  ASSERT_TRUE(rig.run(60));
+  EXPECT_NEAR(joint(1), 0.9, 0.01);
+}
+
+TEST(Program, RefusesATrajectoryOfAnUnknownJoint) {
+  scene::Trajectory path;
+  path.joints = {"nose"};
+  path.times = {0};
+  path.positions = {{0}};
+  EXPECT_THROW(Operator(ew180_like(), program({path})), InputError);
+}
+
 }  // namespace
 }  // namespace navvy::control::testing

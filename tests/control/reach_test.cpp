@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the check before the run says: which target, what it needs, what there is.
+#include <gtest/gtest.h>
+
+#include "control/dig_rig.h"
+#include "control/ew180_like.h"
+
+namespace navvy::control::testing {
+namespace {
+
+scene::Dig trench() {
+  scene::Dig dig;
+  dig.from = Vec2(4.85, 0);
+  dig.to = Vec2(1.65, 0);
+  dig.depth = 0.8;
+  dig.dump_at = Vec2(-1.7, 5.9);
+  dig.dump_height = 1.6;
+  return dig;
+}
+
+class Reach : public ::testing::Test {
+ protected:
+  /// All faults of one step seen from the machine at (-4, 0), as one text.
+  std::string told(const scene::ProgramStep& step) {
+    scene::Program program;
+    program.steps = {step};
+    program.lines = {42};
+    std::string all;
+    for (const Fault& fault : check_reach(machine, program, make_pose(-4, 0, 0), ground, "dig.sdf"))
+      all += fault.text() + "\n";
+    return all;
+  }
+  static void expect_in(const std::string& part, const std::string& text) {
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  }
+  scene::Machine machine = ew180_like();
+  heightfield::Ground ground = flat_ground();
+};
+
+TEST_F(Reach, FindsNothingWrongWithTheShippedTrench) { EXPECT_EQ(told(trench()), ""); }
+
+TEST_F(Reach, NamesFileLineStepAndBothDistancesOfAFarEndTooFar) {
+  scene::Dig dig = trench();
+  dig.from.x() = 7.5;
+  const std::string text = told(dig);
+  expect_in("dig.sdf:42", text);
+  expect_in("step 1/dig/far end", text);
+  expect_in("10.25 m from the swing axis", text);
+  expect_in("the bucket's tip reaches from", text);
+}
+
+TEST_F(Reach, TellsOfATrenchTooDeep) {
+  scene::Dig dig = trench();
+  dig.depth = 6.5;
+  expect_in("dig/far end", told(dig));
+}
+
+TEST_F(Reach, TellsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
+  scene::Dig dig = trench();
+  dig.from.y() = dig.to.y() = 1;
+  const std::string text = told(dig);
+  expect_in("1.00 m beside the swing axis", text);
+  expect_in("(-4.00 , 1.00 )", text);
+  expect_in("heading 0.00 deg", text);
+}
+
+TEST_F(Reach, TellsOfAnEndUnderTheMachine) {
+  scene::Dig dig = trench();
+  dig.to.x() = -0.5;
+  expect_in("must stay 3.00 m clear", told(dig));
+}
+
+TEST_F(Reach, TellsOfADumpTooHighAndTooFar) {
+  scene::Dig dig = trench();
+  dig.dump_height = 6;
+  const std::string high = told(dig);
+  expect_in("dig/dump_height", high);
+  expect_in("6.00 m", high);
+  expect_in("opens at most", high);
+  dig = trench();
+  dig.dump_at = Vec2(-2, 9.8);
+  const std::string far = told(dig);
+  expect_in("dig/dump_at", far);
+  expect_in("can be opened from", far);
+}
+
+TEST_F(Reach, TellsOfATrenchWiderThanTheBucket) {
+  scene::Dig dig = trench();
+  dig.width = 1.6;
+  expect_in("the bucket cuts 1.05 m", told(dig));
+}
+
+TEST_F(Reach, KnowsTheLimitsOfTheSwing) {
+  machine.joints[0].has_limits = true;
+  machine.joints[0].lower = radians(-40);
+  machine.joints[0].upper = radians(40);
+  expect_in("turns from -40.00 deg to 40.00 deg", told(scene::Swing{radians(70)}));
+  expect_in("dig/dump_at", told(trench()));
+  EXPECT_EQ(told(scene::Swing{radians(30)}), "");
+}
+
+TEST_F(Reach, LooksFromWhereTheDriveBeforeTheDigEnds) {
+  scene::DriveTo drive;
+  drive.target = Vec2(-4, 0);
+  drive.has_heading = true;
+  scene::Program program;
+  program.steps = {drive, trench()};
+  EXPECT_TRUE(check_reach(machine, program, make_pose(-9, 0, 0), ground, "").empty());
+  // From (-9, 0) alone the trench is out of reach.
+  program.steps = {trench()};
+  EXPECT_FALSE(check_reach(machine, program, make_pose(-9, 0, 0), ground, "").empty());
+  // A place that steering cannot get to.
+  drive.target = Vec2(-6, 2.5);
+  EXPECT_FALSE(check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), ground, "").empty());
+}
+
+}  // namespace
+}  // namespace navvy::control::testing
