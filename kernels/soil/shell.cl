@@ -11,14 +11,14 @@ static inline int3 window_of(global const float* tools, int tool) {
 }
 
 static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const float* tools,
-                         global const int* list, int begin, int end, Closest* best) {
+                         global const int* list, int begin, int end, float far, Closest* best) {
   best->distance2 = INFINITY;
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;
   for (int i = begin; i < end; ++i) {
     const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
     const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
-    closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], best);
+    closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], far, best);
   }
 }
 
@@ -50,7 +50,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   for (int layer = 0; layer < 4; ++layer) {
     Closest best;
     const real step_z = (float)layer;
-    query(step_x, step_y, step_z, key, triangles, tools, list, first[slot], first[slot + 1], &best);
+    query(step_x, step_y, step_z, key, triangles, tools, list, first[slot], first[slot + 1], band, &best);
     // Distance along the plate to its free edge; only plates of the same tool count.
     real inset2 = INFINITY;
     float d2[16], cx[16], cy[16], cz[16], inset[16];
@@ -102,7 +102,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     const int count = min(16, homes[home].x + homes[home].y - at);
     Closest best;
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    query(x, y, z, key, triangles, tools, list, first[near], first[near + 1], &best);
+    query(x, y, z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     float d2[16], cx[16], cy[16], cz[16], px[16], py[16], pz[16];
     int feature[16], tag[16];
     vstore16(best.feature, 0, feature);

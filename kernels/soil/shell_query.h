@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closest point on the triangles of shells, for 16 points at a time.
 //
-// A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool), unit
-// normal (w unused), pseudo-normals of the edges ab bc ca and of the corners a b c (w = 1 on a free edge). The sign of
-// the distance comes from the pseudo-normal of the feature that is closest [Baerentzen & Aanaes 2005], which is right on
+// A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
+// distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of
+// the corners a b c (w = 1 on a free edge). The sign of the distance comes from the pseudo-normal of the feature that is closest [Baerentzen & Aanaes 2005], which is right on
 // folds of either kind: with plain face normals a point before an inner corner would see one face from behind.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
@@ -32,20 +32,27 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   best->feature = select(best->feature, which, nearer);
 }
 
-// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner).
-static inline void closest_triangle(real px, real py, real pz, global const float4* triangles, int t, Closest* best) {
+// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips the triangle when all
+// points are farther than `far` from its plane, or from its centre by more than `far` and its radius.
+static inline void closest_triangle(real px, real py, real pz, global const float4* triangles, int t, float far,
+                                    Closest* best) {
   global const float4* at = triangles + SHELL_WORDS * t;
   const float3 a = at[0].xyz, b = at[1].xyz, c = at[2].xyz, n = at[3].xyz;
+  const real height = (px - a.x) * n.x + (py - a.y) * n.y + (pz - a.z) * n.z;
+  if (!any(fabs(height) < far)) return;
+  const float3 centre = (a + b + c) * (1.0f / 3.0f);
+  const float reach = far + at[1].w;
+  const real ox = px - centre.x, oy = py - centre.y, oz = pz - centre.z;
+  if (!any(ox * ox + oy * oy + oz * oz < reach * reach)) return;
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
-  const real h = (px - a.x) * n.x + (py - a.y) * n.y + (pz - a.z) * n.z;
   const int16 inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
                        ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
                        ((px - c.x) * mc.x + (py - c.y) * mc.y + (pz - c.z) * mc.z >= 0.0f);
-  const int16 nearer = inside & (h * h < best->distance2);
-  best->distance2 = select(best->distance2, h * h, nearer);
-  best->x = select(best->x, px - h * n.x, nearer);
-  best->y = select(best->y, py - h * n.y, nearer);
-  best->z = select(best->z, pz - h * n.z, nearer);
+  const int16 nearer = inside & (height * height < best->distance2);
+  best->distance2 = select(best->distance2, height * height, nearer);
+  best->x = select(best->x, px - height * n.x, nearer);
+  best->y = select(best->y, py - height * n.y, nearer);
+  best->z = select(best->z, pz - height * n.z, nearer);
   best->feature = select(best->feature, (int16)(8 * t), nearer);
   closest_edge(px, py, pz, a, b - a, 8 * t + 1, 8 * t + 4, 8 * t + 5, best);
   closest_edge(px, py, pz, b, c - b, 8 * t + 2, 8 * t + 5, 8 * t + 6, best);

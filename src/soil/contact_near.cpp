@@ -18,8 +18,9 @@ void put(std::vector<float>& out, const Vec3& v, float w) {
   out.push_back(w);
 }
 
-/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of a
-/// tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same dig.
+/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of
+/// a tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same
+/// dig.
 Vec3 snapped(const Vec3& cells) {
   constexpr double kSteps = 1 << 18;
   return (cells * kSteps).array().round().matrix() / kSteps;
@@ -195,7 +196,9 @@ void Contact::upload_frame() {
     const auto index = std::bit_cast<float>(static_cast<std::int32_t>(t));
     const Mat3 R = tool.X.linear();
     for (const ShellGeometry::Triangle& tri : tool.geometry->triangles()) {
-      for (const Vec3& p : tri.corner) put(words, place(p), index);
+      put(words, place(tri.corner[0]), index);
+      put(words, place(tri.corner[1]), static_cast<float>(tri.radius / cell_));
+      put(words, place(tri.corner[2]), 0.0f);
       put(words, R * tri.normal, 0.0f);
       for (std::size_t i = 0; i < 3; ++i) put(words, R * tri.edge_normal[i], tri.edge_free[i] ? 1.0f : 0.0f);
       for (std::size_t i = 0; i < 3; ++i) put(words, R * tri.corner_normal[i], tri.corner_free[i] ? 1.0f : 0.0f);

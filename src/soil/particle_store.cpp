@@ -183,6 +183,28 @@ std::vector<Particle> ParticleStore::records() const {
   return out;
 }
 
+std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
+  std::vector<std::int64_t> out(soils, 0);
+  if (count_ == 0) return out;
+  const auto view = state_[at_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  std::vector<float> sums;
+  for (const Home& home : homes_) {
+    const auto n = static_cast<std::size_t>(home.count);
+    const float* first = view.data() + home.start;
+    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the run is lost anyway.
+    sums.assign(n, 0.0f);
+    for (std::size_t f = 0; f < FIELD_MASS; ++f)
+      for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!std::isfinite(sums[i])) continue;
+      const auto tag = std::bit_cast<std::uint32_t>(first[FIELD_TAG * capacity + i]);
+      out.at(tag & 0xffff) += std::bit_cast<std::int32_t>(first[FIELD_MASS * capacity + i]);
+    }
+  }
+  return out;
+}
+
 std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts) {
   const std::vector<Particle> all = records();
   const std::vector<std::uint8_t> codes = codes_.read();

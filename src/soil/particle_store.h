@@ -36,6 +36,8 @@ class ParticleStore {
   void assign(const std::vector<Particle>& particles, bool homes_given = false);
   /// All particles in stored order; Particle::block is the home.
   std::vector<Particle> records() const;
+  /// Mass per soil, counted from the device's arrays; a particle with a value that is not finite is not counted.
+  std::vector<std::int64_t> masses(std::size_t soils) const;
   /// Sorts into new homes and drops particles beyond the site's edge, which are returned.
   std::vector<Particle> rebin();
   /// Marks which homes lie near shells (one flag each) and lays out tiles. Returns the number of tiles.

@@ -59,6 +59,9 @@ void ShellGeometry::find_normals() {
     const Vec3 area = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
     if (!(area.norm() > 1e-10)) refuse(shell_, "a triangle without area", "an area above 1e-10 m2");
     t.normal = area.normalized();
+    t.radius = 0;
+    const Vec3 centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    for (const Vec3& corner : t.corner) t.radius = std::max(t.radius, (corner - centre).norm());
     for (std::size_t i = 0; i < 3; ++i) {
       EdgeUse& use = edges[edge_key(index[i], index[(i + 1) % 3])];
       ++use.count;

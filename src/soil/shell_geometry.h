@@ -22,6 +22,7 @@ class ShellGeometry {
   struct Triangle {
     std::array<Vec3, 3> corner;
     Vec3 normal;
+    double radius;                                   ///< of the farthest corner from the centre [m]
     std::array<Vec3, 3> edge_normal, corner_normal;  ///< pseudo-normals of edges ab bc ca and of corners
     std::array<bool, 3> edge_free, corner_free;
   };

@@ -212,9 +212,11 @@ void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> m
 }
 
 void Solver::State::assign(const std::vector<Particle>& particles) {
-  if (static_cast<int>(particles.size()) > world.solver.max_particles)
+  const bool over = static_cast<int>(particles.size()) > world.solver.max_particles;
+  if (over && !over_budget)
     log_warning("soil: " + std::to_string(particles.size()) + " particles are awake, more than the budget of " +
                 std::to_string(world.solver.max_particles));
+  over_budget = over;
   store.assign(particles);
   blocks_changed = true;
   drift = 0;

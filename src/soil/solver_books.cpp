@@ -8,19 +8,6 @@
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
-namespace {
-
-bool finite(const Particle& p) {
-  double sum = 0;
-  for (const float v : p.x) sum += v;
-  for (const float v : p.v) sum += v;
-  for (const float v : p.c) sum += v;
-  for (const float v : p.s) sum += v;
-  return std::isfinite(sum + static_cast<double>(p.j) + p.j0 + p.shear);
-}
-
-}  // namespace
-
 std::int64_t Ledger::error() const {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -32,9 +19,7 @@ Ledger Solver::State::ledger() const {
   Ledger out;
   out.columns = ground.mass_change();
   out.columns.resize(world.soils.size(), 0);
-  out.particles.assign(world.soils.size(), 0);
-  for (const Particle& p : store.records())
-    if (finite(p)) out.particles[p.soil] += p.mass;
+  out.particles = store.masses(world.soils.size());
   out.left_site = left_site;
   out.inserted = inserted;
   return out;

@@ -44,10 +44,11 @@ struct Solver::State {
   Exchange exchange;
 
   bool blocks_changed = true;
-  double drift = 0;        ///< cells particles may have moved since the last re-bin
-  double time = 0;         ///< simulated, sum over steps; only handed to the exchange [s]
-  double since_check = 0;  ///< [s]
-  double travel = 0;       ///< of the fastest tool since the last check [m]
+  bool over_budget = false;  ///< said so already
+  double drift = 0;          ///< cells particles may have moved since the last re-bin
+  double time = 0;           ///< simulated, sum over steps; only handed to the exchange [s]
+  double since_check = 0;    ///< [s]
+  double travel = 0;         ///< of the fastest tool since the last check [m]
   std::uint32_t steps_since_check = 0;
   bool first_check = true;
   std::uint32_t next_id = 1;
