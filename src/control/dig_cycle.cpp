@@ -47,6 +47,7 @@ auto with_surface(const Observation& seen, Use use) {
 
 void Operator::State::begin_dig(const scene::Dig& dig, const Observation& seen) {
   smooth_base(seen, 0, true);
+  for (int i = 0; i < 3; ++i) m.up[i] = seen.X_WB.linear()(i, 2);
   const heightfield::Ground& ground = *seen.ground;
   const Vec2 middle = 0.5 * (dig.from + dig.to);
   const Vec2i cell = ground.column_at(middle.x(), middle.y());

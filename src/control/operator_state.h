@@ -55,6 +55,7 @@ struct Memory {
   double scoop_volume = 0, full_mass = 0;  ///< of a full bucket: bank volume [m3], mass [kg]
   double bucket_before = 0;                ///< bucket angle before a dump step [rad]
   double base[7] = {0, 0, 0, 1, 0, 0, 0};  ///< base link's pose, shaking smoothed away: x y z, quaternion w x y z
+  double up[3] = {0, 0, 1};                ///< the base's z axis in W when the dig began
   // Drive.
   double speed = 0, heading = 0, standing = 0, way = 0;
 };
@@ -116,6 +117,8 @@ struct Operator::State {
   bool drag(const Observation& seen, double dt);
   bool curl(const Observation& seen, double dt);
   void follow_tip(const Observation& seen, double dt);
+  /// 1 while the machine stands as it did when the dig began, 0 when the bucket tips it.
+  double footing(const Observation& seen) const;
   void feel_stall(const Observation& seen, const BucketPose& wanted, double dt);
   bool overdue(double limit) const;
   double floor_height() const;

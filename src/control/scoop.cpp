@@ -21,6 +21,7 @@ constexpr double kLag = 0.12;    // tip this far behind its path: the path waits
 constexpr double kHeld = 0.08;   // [m/s] a waiting tip slower than this is held by the soil
 constexpr double kGiveIn = 0.2;  // [s] of being held before the path rises
 constexpr double kLiftRate = 0.3, kSinkRate = 0.1;  // of the path while held, and back when free [m/s]
+constexpr double kTilt = radians(1.5);              // the chassis moves on its tyres; at twice this the arm waits
 constexpr double kPenetrateLift = 0.12;             // raised by so much on the way down: go on at that depth [m]
 constexpr double kPhaseLimit = 12;                  // [s]
 constexpr double kBaseTime = 0.25;                  // smoothing of the chassis' pose [s]
@@ -65,6 +66,11 @@ double Operator::State::floor_height() const {
   return plan.start_height(m.s) - m.scoop_level + arm->below_tip(m.reached);
 }
 
+double Operator::State::footing(const Observation& seen) const {
+  const double tilt = Vec3(m.up[0], m.up[1], m.up[2]).cross(Vec3(seen.X_WB.linear().col(2))).norm();
+  return std::clamp(2 - tilt / kTilt, 0.0, 1.0);
+}
+
 void Operator::State::feel_stall(const Observation& seen, const BucketPose& wanted, double dt) {
   ArmAngles real, soon;
   bool stalled = false;
@@ -78,10 +84,12 @@ void Operator::State::feel_stall(const Observation& seen, const BucketPose& want
   const BucketPose tip = arm->forward(real), next = arm->forward(soon);
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
   const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
-  m.slow = std::clamp(2 - 2 * lag / kLag, 0.0, 1.0);
+  m.slow = std::min(footing(seen), std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
   const bool held = (m.slow < 0.35 || stalled) && speed < kHeld;
   m.stall = held ? m.stall + dt : std::max(0.0, m.stall - 2 * dt);
-  if (held && m.stall > kGiveIn) m.lift += kLiftRate * dt;
+  // Rising helps against soil in front, but not while the curl pulls the machine over.
+  const bool tipping = phase() == Phase::kCurl && footing(seen) < 1;
+  if (held && !tipping && m.stall > kGiveIn) m.lift += kLiftRate * dt;
   if (!held) m.lift = std::max(0.0, m.lift - kSinkRate * dt);
 }
 
@@ -128,7 +136,8 @@ bool Operator::State::drag(const Observation& seen, double dt) {
 }
 
 bool Operator::State::curl(const Observation& seen, double dt) {
-  m.progress = std::min(1.0, m.progress + std::max(0.1, m.slow) * dt / kCurlTime);
+  const double least = footing(seen) < 1 ? 0 : 0.1;
+  m.progress = std::min(1.0, m.progress + std::max(least, m.slow) * dt / kCurlTime);
   m.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
   // First the bucket turns, its heel on the slice's floor; then it leaves the ground straight up.
   const double top = plan.start_height(m.s) + kOut + arm->below_tip(m.reached);
