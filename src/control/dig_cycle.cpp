@@ -158,6 +158,13 @@ void Operator::State::look_round(const Observation& seen) {
   enter(Phase::kLook);
 }
 
+void Operator::State::go_on(const scene::Dig& dig, Phase next, const Observation& seen) {
+  if (plan_scoop(dig, seen))
+    go_to_scoop(next, seen);
+  else
+    look_round(seen);
+}
+
 bool Operator::State::end_cycle(const scene::Dig& dig, const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there.
   if (!move(seen) || m.phase_time < kRest) return false;
@@ -174,20 +181,14 @@ bool Operator::State::end_cycle(const scene::Dig& dig, const Observation& seen) 
 bool Operator::State::run(const scene::Dig& step, const Observation& seen, double dt, Command&) {
   if (m.begun == 0) {
     begin_dig(step, seen);
-    if (plan_scoop(step, seen))
-      go_to_scoop(Phase::kReturn, seen);
-    else
-      look_round(seen);
+    go_on(step, Phase::kReturn, seen);
   }
   smooth_base(seen, dt, false);
   switch (phase()) {
     case Phase::kReturn:
       if (!move(seen)) break;
       // What lay loose when the bucket left has come to rest by now.
-      if (plan_scoop(step, seen))
-        go_to_scoop(Phase::kApproach, seen);
-      else
-        look_round(seen);
+      go_on(step, Phase::kApproach, seen);
       break;
     case Phase::kApproach:
       if (!move(seen)) break;
@@ -225,10 +226,7 @@ bool Operator::State::run(const scene::Dig& step, const Observation& seen, doubl
       if (!early && (!open || !dumped(seen))) break;
       ++m.cycles;
       event = CycleEvent::kCycleEnd;
-      if (plan_scoop(step, seen))
-        go_to_scoop(Phase::kReturn, seen);
-      else
-        look_round(seen);
+      go_on(step, Phase::kReturn, seen);
       break;
     }
     default:

@@ -103,6 +103,8 @@ struct Operator::State {
   void begin_dig(const scene::Dig& dig, const Observation& seen);
   bool plan_scoop(const scene::Dig& dig, const Observation& seen);
   void go_to_scoop(Phase next, const Observation& seen);
+  /// To the next scoop, or to a look round before the end.
+  void go_on(const scene::Dig& dig, Phase next, const Observation& seen);
   void start_lift(const Observation& seen);
   void start_swing(const scene::Dig& dig, const Observation& seen);
   void start_dump(const Observation& seen);
