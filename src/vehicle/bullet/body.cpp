@@ -38,6 +38,17 @@ Pose principal_frame(const scene::Link& link, Vec3& moments) {
   return X;
 }
 
+/// Switches off what Bullet adds for games: sleep, damping, caps.
+void leave_to_physics(btMultiBody& body) {
+  body.setHasSelfCollision(false);
+  body.setCanSleep(false);
+  body.setLinearDamping(0);
+  body.setAngularDamping(0);
+  body.setUseGyroTerm(true);
+  body.setMaxCoordinateVelocity(1e9);
+  body.setMaxAppliedImpulse(1e12);
+}
+
 }  // namespace
 
 TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
@@ -96,13 +107,7 @@ void TreeBody::build(const scene::Machine& machine) {
     add_joint(machine, order[k], static_cast<int>(k));
   }
   body_->finalizeMultiDof();
-  body_->setHasSelfCollision(false);
-  body_->setCanSleep(false);
-  body_->setLinearDamping(0);
-  body_->setAngularDamping(0);
-  body_->setUseGyroTerm(true);
-  body_->setMaxCoordinateVelocity(1e9);
-  body_->setMaxAppliedImpulse(1e12);
+  leave_to_physics(*body_);
   outward_.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     for (int up = static_cast<int>(k); up >= 0; up = body_->getParent(up))
