@@ -26,7 +26,6 @@ typedef struct LawSoil {
   LAW_T viscosity;   // [Pa s], where it does not yield
   LAW_T swell;       // largest J0
   LAW_T loosening;   // growth of J0 per plastic shear
-  LAW_T push;        // J0 may lead J by this share while it grows: the pressure loosening soil can push with / K
 } LawSoil;
 
 // Advances stress and state by dt [s] under the velocity gradient c (row major, c[3*i+j] = dv_i/dx_j [1/s]).
@@ -78,10 +77,11 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
-  // Plastic shear, and the density state it loosens: never further than J (plus a small push) allows.
+  // Plastic shear, and the density state it loosens: never further than J allows, so that
+  // loosening makes no pressure out of nothing.
   const LAW_T slip = q * (LAW_LIT(1.0) - keep) / soil->shear;
   *shear = *shear + slip;
-  const LAW_T grown = LAW_MIN(*j0 + soil->loosening * slip, *j * (LAW_LIT(1.0) + soil->push));
+  const LAW_T grown = LAW_MIN(*j0 + soil->loosening * slip, *j);
   *j0 = LAW_MAX(*j0, LAW_MIN(grown, soil->swell));
 }
 

@@ -38,9 +38,9 @@
 #define SOIL_VISCOSITY 7
 #define SOIL_SWELL 8
 #define SOIL_LOOSENING 9
-#define SOIL_PUSH 10
-#define SOIL_INV_DENSITY 11
-#define SOIL_TOOL_FRICTION 12
+#define SOIL_INV_DENSITY 10
+#define SOIL_LAW_WORDS 11  // those above are what the law needs
+#define SOIL_TOOL_FRICTION 11
 #define SOIL_WORDS 16
 
 // The frame: what changes every step about the tools, one buffer of float4. Triangles first, SHELL_WORDS each (see

@@ -11,19 +11,19 @@
 #include "soil/law.h"
 
 static inline void load_soil(constant float* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
-  float lanes[12][16];
+  float lanes[SOIL_LAW_WORDS][16];
   const int first = tag.s0 & 0xffff;
   int kinds[16];
   vstore16(tag & 0xffff, 0, kinds);
   int mixed = 0;
   for (int l = 1; l < count; ++l) mixed |= kinds[l] ^ first;
-  real value[12];
+  real value[SOIL_LAW_WORDS];
   if (mixed == 0) {
-    for (int k = 0; k < 12; ++k) value[k] = soils[first * SOIL_WORDS + k];
+    for (int k = 0; k < SOIL_LAW_WORDS; ++k) value[k] = soils[first * SOIL_WORDS + k];
   } else {
     for (int l = 0; l < 16; ++l)
-      for (int k = 0; k < 12; ++k) lanes[k][l] = soils[kinds[l] * SOIL_WORDS + k];
-    for (int k = 0; k < 12; ++k) value[k] = vload16(0, lanes[k]);
+      for (int k = 0; k < SOIL_LAW_WORDS; ++k) lanes[k][l] = soils[kinds[l] * SOIL_WORDS + k];
+    for (int k = 0; k < SOIL_LAW_WORDS; ++k) value[k] = vload16(0, lanes[k]);
   }
   soil->bulk = value[SOIL_BULK];
   soil->shear = value[SOIL_SHEAR];
@@ -35,7 +35,6 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   soil->viscosity = value[SOIL_VISCOSITY];
   soil->swell = value[SOIL_SWELL];
   soil->loosening = value[SOIL_LOOSENING];
-  soil->push = value[SOIL_PUSH];
   *inv_density = value[SOIL_INV_DENSITY];
 }
 

@@ -12,8 +12,6 @@ namespace {
 
 /// Viscosity of soil that does not yield, as a share of density x sound speed x cell [SOIL_SOLVER section 3].
 constexpr double kViscosityShare = 0.05;
-/// Pressure that loosening soil can push with [Pa]. tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell.
-constexpr double kLooseningPush = 0;
 /// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of bank instead of 1.23;
 /// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22.
 constexpr double kMixingTime = 0.02;
@@ -62,7 +60,6 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.viscosity = kViscosityShare * soil.bank_density * sound_speed(soil) * cell;
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
-  k.push = kLooseningPush / k.bulk;
   return k;
 }
 
@@ -90,7 +87,6 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
     at[SOIL_VISCOSITY] = static_cast<float>(k.viscosity);
     at[SOIL_SWELL] = static_cast<float>(k.swell);
     at[SOIL_LOOSENING] = static_cast<float>(k.loosening);
-    at[SOIL_PUSH] = static_cast<float>(k.push);
     at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
     at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));
   }

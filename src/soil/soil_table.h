@@ -20,7 +20,7 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
 
 /// Shared by the table and the reference: law constants derived from a soil.
 struct LawConstants {
-  double bulk, shear, alpha, k_residual, k_bond, inv_remould, inv_opening, viscosity, swell, loosening, push;
+  double bulk, shear, alpha, k_residual, k_bond, inv_remould, inv_opening, viscosity, swell, loosening;
 };
 LawConstants law_constants(const scene::Soil& soil, double cell);
 

@@ -28,8 +28,8 @@ namespace navvy::soil::reference {
 
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants k = law_constants(soil, cell);
-  return {k.bulk,        k.shear,     k.alpha, k.k_residual, k.k_bond, k.inv_remould,
-          k.inv_opening, k.viscosity, k.swell, k.loosening,  k.push};
+  return {k.bulk,        k.shear,       k.alpha,     k.k_residual, k.k_bond,
+          k.inv_remould, k.inv_opening, k.viscosity, k.swell,      k.loosening};
 }
 
 }  // namespace navvy::soil::reference
