@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/random.h"
+
+namespace navvy {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ =
+        fs::path(NAVVY_BINARY_DIR) / "test-cli" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+  }
+  std::string out() const { return (directory_ / "out").string(); }
+  static std::string scene(const std::string& name) { return NAVVY_SOURCE_DIR "/scenarios/" + name; }
+
+  /// Starts navvy; stdin holds `input`, stdout and stderr go to files.
+  pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
+    const std::string in = (directory_ / "stdin").string();
+    std::ofstream(in) << input;
+    const pid_t child = fork();
+    if (child != 0) return child;
+    const int in_fd = ::open(in.c_str(), O_RDONLY);
+    const int out_fd = ::open((directory_ / "stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int err_fd = ::open((directory_ / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    dup2(in_fd, 0);
+    dup2(out_fd, 1);
+    dup2(err_fd, 2);
+    std::vector<char*> argv{const_cast<char*>(NAVVY_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    execv(NAVVY_PROGRAM, argv.data());
+    _exit(127);
+  }
+  static int wait(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int run(const std::vector<std::string>& arguments, const std::string& input = "") {
+    return wait(start(arguments, input));
+  }
+  std::string said() const { return text_of(directory_ / "stdout"); }
+  std::string complained() const { return text_of(directory_ / "stderr"); }
+
+  fs::path directory_;
+};
+
+/// Every file of a run, if it is there at all, is whole.
+void expect_readable(const std::string& out) {
+  const fs::path summary = fs::path(out) / "summary.json", telemetry = fs::path(out) / "telemetry.csv";
+  if (fs::exists(summary)) EXPECT_TRUE(nlohmann::json::accept(text_of(summary))) << summary;
+  if (fs::exists(telemetry)) {
+    const std::string text = text_of(telemetry);
+    ASSERT_FALSE(text.empty());
+    EXPECT_EQ(text.back(), '\n');
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    const auto columns = std::count(line.begin(), line.end(), ',');
+    while (std::getline(lines, line)) EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
+  }
+  for (const char* name : {"terrain_start.tif", "terrain_end.tif"}) {
+    const fs::path path = fs::path(out) / name;
+    if (fs::exists(path)) EXPECT_EQ(text_of(path).substr(0, 2), "II") << path;  // little-endian TIFF
+  }
+}
+
+TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.3", "--out", out()}), 0)
+      << complained();
+  const auto summary = nlohmann::json::parse(text_of(out() + "/summary.json"));
+  EXPECT_EQ(summary.at("status"), "finished");
+  EXPECT_EQ(summary.at("mass_ledger").at("error_units"), 0);
+  for (const char* key : {"schema_version", "device", "steps", "wall_time_s", "simulated_time_s", "real_time_factor",
+                          "time_share", "cycles", "bank_volume_m3", "loose_volume_m3", "payload_kg", "energy_j",
+                          "bucket_force_peak_n", "bucket_force_mean_n", "particles_peak", "state_hash"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  for (const char* name : {"telemetry.csv", "terrain_start.tif", "terrain_end.tif"})
+    EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
+  expect_readable(out());
+}
+
+TEST_F(Program, KeepsAnEarlierRunAsPrevious) {
+  const std::vector<std::string> arguments{
+      "run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.05", "--out", out()};
+  ASSERT_EQ(run(arguments), 0);
+  ASSERT_EQ(run(arguments), 0);
+  EXPECT_TRUE(fs::exists(out() + ".previous/summary.json"));
+  EXPECT_TRUE(fs::exists(out() + "/summary.json"));
+}
+
+TEST_F(Program, TellsBadInputByStatusAndMessage) {
+  EXPECT_EQ(run({"run", "no_such_scene.sdf"}), 2);
+  EXPECT_NE(complained().find("no_such_scene.sdf"), std::string::npos) << complained();
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "solver.cell_m=0"}), 2);
+  EXPECT_NE(complained().find("cell_m"), std::string::npos) << complained();
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "soil.cohesion_pa=nan"}), 2);
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "soil.kohesion_pa=1"}), 2);
+  EXPECT_NE(complained().find("cohesion_pa"), std::string::npos) << complained();
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--at", "here"}), 2);
+  EXPECT_EQ(run({"run"}), 2);
+  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--device", "no such device", "--out", out()}), 3);
+  EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
+}
+
+TEST_F(Program, SaysWhenItCannotWriteThere) {
+  // A directory below a file cannot be made. (Core's tests have the full disk: PoCL's own cache would fail first here.)
+  const std::string impossible = (directory_ / "stdin" / "out").string();
+  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.1", "--out", impossible}), 4)
+      << complained();
+  EXPECT_NE(complained().find(impossible), std::string::npos) << complained();
+}
+
+TEST_F(Program, StopsCleanlyAtCtrlC) {
+  const pid_t child = start({"run", scene("bucket_path.sdf"), "--no-render", "--out", out()});
+  for (int i = 0; i < 600 && !fs::exists(out() + "/summary.json"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(child, SIGINT);
+  EXPECT_EQ(wait(child), 130) << complained();
+  EXPECT_EQ(nlohmann::json::parse(text_of(out() + "/summary.json")).at("status"), "interrupted");
+  EXPECT_TRUE(fs::exists(out() + "/terrain_end.tif"));
+  expect_readable(out());
+}
+
+TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
+  Random random(7);
+  int with_results = 0;
+  for (int i = 0; i < 20; ++i) {
+    fs::remove_all(out());
+    fs::remove_all(out() + ".previous");
+    const pid_t child = start({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "2", "--out", out()});
+    std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(200, 2500))));
+    kill(child, SIGKILL);
+    wait(child);
+    expect_readable(out());
+    with_results += fs::exists(out() + "/summary.json") ? 1 : 0;
+  }
+  EXPECT_GT(with_results, 0) << "every kill came before the first file";
+}
+
+TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
+  std::string lines;
+  for (int i = 0; i < 10; ++i)
+    lines += R"({"inputs": {"bucket/slide_x/velocity": 0.5}})"
+             "\n";
+  lines += R"({"end": true})"
+           "\n";
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--out", out()}, lines), 0)
+      << complained();
+  std::istringstream said_lines(said());
+  std::string line;
+  int count = 0;
+  double time = -1;
+  while (std::getline(said_lines, line)) {
+    const auto state = nlohmann::json::parse(line);
+    EXPECT_GT(state.at("time").get<double>(), time);
+    time = state.at("time").get<double>();
+    EXPECT_TRUE(state.at("outputs").contains("bucket/slide_x/position"));
+    ++count;
+  }
+  EXPECT_EQ(count, 11);  // ten answered, one ended
+  EXPECT_NEAR(time, 10 / 50.0, 0.01);
+}
+
+TEST_F(Program, NamesTheLineOfABadControlMessage) {
+  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--out", out()},
+                "{\"inputs\": {}}\n{\"inputs\": {\"bucket/slyde_x/velocity\": 1}}\n"),
+            2);
+  EXPECT_NE(complained().find("bucket/slide_x/velocity"), std::string::npos) << complained();
+}
+
+TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
+  const std::string snapshot = (directory_ / "middle.snapshot").string();
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out", out(), "--snapshot",
+                 snapshot, "--snapshot-at", "1.2"}),
+            0)
+      << complained();
+  const auto whole = nlohmann::json::parse(text_of(out() + "/summary.json"));
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out", out() + "2", "--resume",
+                 snapshot}),
+            0)
+      << complained();
+  const auto resumed = nlohmann::json::parse(text_of(out() + "2/summary.json"));
+  EXPECT_EQ(resumed.at("steps"), whole.at("steps"));
+  EXPECT_EQ(resumed.at("state_hash"), whole.at("state_hash"));
+}
+
+TEST_F(Program, ListsDevicesSoilsAndChannels) {
+  EXPECT_EQ(run({"devices"}), 0);
+  EXPECT_NE(said().find("0: "), std::string::npos);
+  EXPECT_EQ(run({"soils"}), 0);
+  EXPECT_NE(said().find("loam"), std::string::npos);
+  EXPECT_EQ(run({"channels", scene("trench.sdf")}), 0);
+  EXPECT_NE(said().find("excavator/boom_joint/position"), std::string::npos);
+  EXPECT_EQ(run({"check", scene("trench.sdf")}), 0);
+}
+
+}  // namespace
+}  // namespace navvy
