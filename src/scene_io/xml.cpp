@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/edit_distance.h"
 #include "core/file.h"
 #include "core/log.h"
 
@@ -110,21 +111,6 @@ std::string label(const Element& element) {
     if (other == &element) place = count;
   }
   return count > 1 ? name + "[" + std::to_string(place) + "]" : name;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t keep = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({keep, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 }  // namespace
 
