@@ -30,52 +30,57 @@ struct TrenchMeasure {
   double overdug = 0;        ///< removed below the design floor or beside the outline by the bucket [m3]
   double floor_share = 0;    ///< share of the length whose floor is within 0.10 m of the design
   double center_offset = 0;  ///< largest over the length of |centre of removed area - design line| [m]
-  double raised_volume = 0;  ///< spoil [m3]
-  double removed_bank = 0;   ///< [m3]
+};
+
+/// Share of a cell around p (in the line's frame: s along, t across) that lies inside the design, by 5 x 5 points.
+double covered(const Vec2& p, const Vec2& along, double cell, double length, double width) {
+  int inside = 0;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j) {
+      const Vec2 q = p + 0.2 * cell * Vec2(i, j);
+      const double s = q.dot(along), t = q.dot(Vec2(-along.y(), along.x()));
+      inside += s >= 0 && s <= length && std::abs(t) <= 0.5 * width ? 1 : 0;
+    }
+  return inside / 25.0;
+}
+
+/// One cell's share of the sums of a slice across the line.
+struct Slice {
+  double floor_sum = 0, floor_count = 0, moment = 0, removed = 0;
 };
 
 TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig) {
   TrenchMeasure out;
   const Vec2 along = (dig.to - dig.from).normalized(), across(-along.y(), along.x());
   const double length = (dig.to - dig.from).norm(), cell = ground.cell(), area = cell * cell;
-  const int slices = static_cast<int>(std::floor(length / cell));
-  std::vector<double> floor_sum(static_cast<std::size_t>(slices), 0), floor_count(floor_sum), moment(floor_sum),
-      removed(floor_sum);
+  std::vector<Slice> slices(static_cast<std::size_t>(std::floor(length / cell)));
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const double drop = ground.start_height(ix, iy) - ground.height(ix, iy);
-      if (drop == 0) continue;
       const Vec2 p = ground.origin() + cell * Vec2(ix + 0.5, iy + 0.5) - dig.from;
       const double s = p.dot(along), t = p.dot(across);
-      const bool inside = s >= 0 && s <= length && std::abs(t) <= 0.5 * dig.width;
-      const int slice = static_cast<int>(std::floor(s / cell));
-      if (inside) {
-        out.design_volume += 0;
-        out.inside_volume += area * std::min(std::max(drop, 0.0), dig.depth);
-        out.overdug += area * std::max(drop - dig.depth, 0.0);
-      } else if (s > -0.5 && s < length + 0.5 && std::abs(t) < 0.5 * dig.width + 0.5 && drop > 0.5 * cell) {
-        out.overdug += area * drop;
-      }
-      if (drop > 0.5 * cell && slice >= 0 && slice < slices && std::abs(t) < dig.width) {
-        moment[static_cast<std::size_t>(slice)] += drop * t;
-        removed[static_cast<std::size_t>(slice)] += drop;
-      }
+      // Half a metre around the design belongs to the dig; wheel ruts lie farther off.
+      if (s < -0.5 || s > length + 0.5 || std::abs(t) > 0.5 * dig.width + 0.5) continue;
+      const double inside = covered(p, along, cell, length, dig.width);
+      out.inside_volume += area * inside * std::clamp(drop, 0.0, dig.depth);
+      out.overdug += area * (inside * std::max(drop - dig.depth, 0.0) + (1 - inside) * std::max(drop, 0.0));
+      if (s < 0 || s >= cell * static_cast<double>(slices.size())) continue;
+      Slice& slice = slices[static_cast<std::size_t>(s / cell)];
+      if (drop > 0.5 * cell) slice.moment += drop * t, slice.removed += drop;
       // The floor is judged over the middle half of the width, clear of crumbs at the walls.
-      if (inside && slice < slices && std::abs(t) < 0.25 * dig.width) {
-        floor_sum[static_cast<std::size_t>(slice)] += drop;
-        floor_count[static_cast<std::size_t>(slice)] += 1;
-      }
+      if (std::abs(t) < 0.25 * dig.width) slice.floor_sum += drop, slice.floor_count += 1;
     }
   out.design_volume = length * dig.width * dig.depth;
   int good = 0;
-  for (int i = 0; i < slices; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (floor_count[k] > 0 && std::abs(floor_sum[k] / floor_count[k] - dig.depth) <= 0.10) ++good;
+  for (const Slice& slice : slices) {
+    if (!(slice.floor_count > 0)) continue;
+    const double depth = slice.floor_sum / slice.floor_count;
+    if (std::abs(depth - dig.depth) <= 0.10) ++good;
     // Ends are ramps; the line is judged where at least half the depth was taken.
-    if (floor_count[k] > 0 && floor_sum[k] / floor_count[k] > 0.5 * dig.depth)
-      out.center_offset = std::max(out.center_offset, std::abs(moment[k] / removed[k]));
+    if (depth > 0.5 * dig.depth)
+      out.center_offset = std::max(out.center_offset, std::abs(slice.moment / slice.removed));
   }
-  out.floor_share = static_cast<double>(good) / slices;
+  out.floor_share = good / static_cast<double>(slices.size());
   return out;
 }
 
