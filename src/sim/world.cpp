@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "heightfield/site.h"
 #include "sim/world_channels.h"
 
@@ -18,12 +19,20 @@ std::unique_ptr<vehicle::Engine> bullet(const scene::World& world) {
   return vehicle::make_bullet_engine(world.gravity);
 }
 
+/// The site; what was found in a terrain file goes to the log.
+heightfield::Ground make_site(const scene::World& world) {
+  std::string report;
+  heightfield::Ground ground = heightfield::make_ground(world, &report);
+  if (!report.empty()) log_info(report);
+  return ground;
+}
+
 }  // namespace
 
 struct World::State {
   State(scene::World world, device::Device& device)
       : description(std::move(world)),
-        ground(heightfield::make_ground(description)),
+        ground(make_site(description)),
         dynamic(bullet(description)),
         kinematic(vehicle::make_kinematic_engine()),
         soil(device, description, ground),
