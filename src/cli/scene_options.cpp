@@ -30,7 +30,8 @@ void SceneOptions::add_to(CLI::App& command) {
   command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
       ->required();
   command.add_option("--device", device, "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`)");
-  command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated");
+  command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
+      ->allow_extra_args(false);
   command.add_option("--seed", seed, "seed of everything random");
   command.add_option("--duration", duration, "most simulated time [s]")->check(CLI::PositiveNumber);
   command.add_flag("--no-render", no_render, "draw no pictures");
