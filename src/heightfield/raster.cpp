@@ -46,26 +46,34 @@ double HeightRaster::mean(double x, double y, double edge) const {
 
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
-  std::vector<std::int64_t> gaps;
-  for (std::size_t i = 0; i < raster.z.size(); ++i)
-    if (std::isnan(raster.z[i])) gaps.push_back(static_cast<std::int64_t>(i));
-  result.gaps = static_cast<std::int64_t>(gaps.size());
-  // Each ring sees only the ring before it, so the result does not depend on the order of the cells.
-  while (!gaps.empty()) {
-    std::vector<std::int64_t> filled, left;
-    std::vector<float> values;
-    for (const std::int64_t i : gaps) {
-      const float value = mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx));
-      if (std::isnan(value)) {
-        left.push_back(i);
-      } else {
-        filled.push_back(i);
-        values.push_back(value);
+  std::vector<std::int64_t> ring, next;
+  std::vector<char> queued(raster.z.size(), 0);
+  const auto queue_gaps_around = [&](std::int64_t i, std::vector<std::int64_t>& out) {
+    const int ix = static_cast<int>(i % raster.nx), iy = static_cast<int>(i / raster.nx);
+    for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, raster.ny - 1); ++y)
+      for (int x = std::max(ix - 1, 0); x <= std::min(ix + 1, raster.nx - 1); ++x) {
+        const std::int64_t k = static_cast<std::int64_t>(y) * raster.nx + x;
+        char& mark = queued[static_cast<std::size_t>(k)];
+        if (mark != 0 || !std::isnan(raster.at(x, y))) continue;
+        mark = 1;
+        out.push_back(k);
       }
-    }
-    if (filled.empty()) break;
-    for (std::size_t k = 0; k < filled.size(); ++k) raster.z[static_cast<std::size_t>(filled[k])] = values[k];
-    gaps.swap(left);
+  };
+  for (std::size_t i = 0; i < raster.z.size(); ++i)
+    if (std::isnan(raster.z[i]))
+      ++result.gaps;
+    else
+      queue_gaps_around(static_cast<std::int64_t>(i), ring);
+  // Each ring sees only the ring before it, so the result does not depend on the order of the cells.
+  std::vector<float> values;
+  while (!ring.empty()) {
+    values.clear();
+    for (const std::int64_t i : ring)
+      values.push_back(mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx)));
+    for (std::size_t k = 0; k < ring.size(); ++k) raster.z[static_cast<std::size_t>(ring[k])] = values[k];
+    next.clear();
+    for (const std::int64_t i : ring) queue_gaps_around(i, next);
+    ring.swap(next);
     ++result.farthest;
   }
   return result;
