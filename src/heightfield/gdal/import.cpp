@@ -17,7 +17,7 @@
 namespace navvy::heightfield {
 namespace {
 
-// Map cells kept in memory: 400 MB of float, a square of 10 km at 1 m.
+// Map cells kept in memory: 100 MB of float, a square of 5 km at 1 m.
 constexpr double kMostMapCells = 2.5e7;
 // One block of a file that is read at once; a damaged header may promise anything.
 constexpr double kMostBlockBytes = 256e6;
