@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function per rig, each in a file of the rig's name; rigs.cpp lists them.
+#pragma once
+
+#include "lab/lab.h"
+
+namespace navvy::lab {
+
+Rig rest();
+
+}  // namespace navvy::lab

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/rig_list.h"
+
+namespace navvy::lab {
+
+const std::vector<Rig>& rigs() {
+  static const std::vector<Rig> list = {
+      rest(),
+  };
+  return list;
+}
+
+}  // namespace navvy::lab

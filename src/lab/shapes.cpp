@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/shapes.h"
+
+#include <cmath>
+
+#include "core/math.h"
+
+namespace navvy::lab {
+
+scene::Shell open_box(double length, double width, double height) {
+  scene::Shell s;
+  s.name = "box";
+  const double x = length / 2, y = width / 2, h = height;
+  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
+  s.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
+                 {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
+  return s;
+}
+
+scene::Shell blade(double width, double height, double rake) {
+  scene::Shell s;
+  s.name = "blade";
+  const double y = width / 2, top = -height / std::tan(rake);
+  s.vertices = {{0, -y, 0}, {0, y, 0}, {top, y, height}, {top, -y, height}};
+  s.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return s;
+}
+
+scene::Shell plate(double length, double width) {
+  scene::Shell s;
+  s.name = "plate";
+  const double x = length / 2, y = width / 2;
+  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
+  s.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return s;
+}
+
+scene::Shell channel(double length, double gap, double bottom, double top, bool back) {
+  scene::Shell s;
+  s.name = "channel";
+  s.vertices = {{length, 0, bottom}, {length, 0, top}, {0, 0, bottom},        {0, 0, top},
+                {0, gap, bottom},    {0, gap, top},    {length, gap, bottom}, {length, gap, top}};
+  s.triangles = {{0, 3, 1}, {0, 2, 3}, {4, 7, 5}, {4, 6, 7}};
+  if (back) s.triangles.insert(s.triangles.end(), {{2, 5, 3}, {2, 4, 5}});
+  return s;
+}
+
+scene::Shell tube(double radius, double bottom, double top, int sides) {
+  scene::Shell s;
+  s.name = "tube";
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * kPi * i / sides;
+    s.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), bottom);
+    s.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), top);
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int a = 2 * i, b = 2 * ((i + 1) % sides);  // normals look at the axis
+    s.triangles.push_back({a, b + 1, b});
+    s.triangles.push_back({a, a + 1, b + 1});
+  }
+  return s;
+}
+
+}  // namespace navvy::lab
