@@ -18,5 +18,6 @@ void add_check(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);
 void add_soils(CLI::App& app, Action& action);
 void add_channels(CLI::App& app, Action& action);
+void add_lab(CLI::App& app, Action& action);
 
 }  // namespace navvy::cli

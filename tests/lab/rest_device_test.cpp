@@ -6,7 +6,7 @@ namespace navvy::lab {
 namespace {
 
 TEST(LabRest, StressIsTheWeightAbove) {
-  const Report report = run_rig("rest", {{"width", 2.0}, {"depth", 0.6}, {"time", 0.6}});
+  const Report report = run_rig("rest", {});
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(report.ledger_error, 0);
 }
