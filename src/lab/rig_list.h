@@ -7,5 +7,6 @@
 namespace navvy::lab {
 
 Rig rest();
+Rig column();
 
 }  // namespace navvy::lab

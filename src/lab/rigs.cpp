@@ -6,6 +6,7 @@ namespace navvy::lab {
 const std::vector<Rig>& rigs() {
   static const std::vector<Rig> list = {
       rest(),
+      column(),
   };
   return list;
 }

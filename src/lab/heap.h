@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pile of particles looks like from outside: its surface, volume, front and slope. Uses positions only, none of
+// the solver's own density states.
+#pragma once
+
+#include <vector>
+
+#include "lab/site.h"
+
+namespace navvy::lab {
+
+/// Positions of the particles that touch others: at least `neighbours` more in the 3 x 3 x 3 cells around. The rest are
+/// single grains that fly or lie about.
+std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours = 8);
+
+/// Heights over a rectangle, a quarter of a cell apart.
+struct Surface {
+  Vec2 origin = Vec2::Zero();  ///< W of the first column's middle [m]
+  double spacing = 0;          ///< [m]
+  int nx = 0, ny = 0;
+  std::vector<double> top;  ///< x fastest; `floor` where there is no soil [m]
+  double floor = 0;
+
+  double at(int ix, int iy) const { return top[static_cast<std::size_t>(ix + nx * iy)]; }
+  Vec2 middle(int ix, int iy) const { return origin + spacing * Vec2(ix, iy); }
+  double volume() const;  ///< between surface and floor [m3]
+  double highest() const;
+};
+
+/// The surface a ball rolls on over the pile (closing by balls of 0.75 and 0.5 cells), a quarter of a cell above the
+/// topmost particles as half the spacing of eight a cell demands.
+Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor);
+
+/// Least-squares line z = a + b x.
+struct Line {
+  double a = 0, b = 0;
+};
+Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
+
+/// Angle of the flank of a heap [rad]: line through the mean surface in rings around the axis (`axisymmetric`) or in
+/// strips along x, between 20 and 80 % of the heap's height over the floor. Distances count from `axis`.
+double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell);
+
+/// The value below which `share` of the values lie.
+double percentile(std::vector<double> values, double share);
+
+}  // namespace navvy::lab
