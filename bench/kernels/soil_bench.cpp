@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole steps of the particle soil: a block that collapses (re-binning included), and a load held in a bucket.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "bench.h"
 #include "core/hash.h"
@@ -16,13 +18,47 @@ using namespace navvy;
 /// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
 
-/// Runs `steps` steps from the same snapshot and prints a row.
-void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::span<const soil::ToolMotion> motions) {
+bool profile = false;
+std::string only;
+
+/// What the stages of the host and the kernels took in one run; the kernels' clock slows a step down a little.
+template <class Work>
+void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work, double particle_steps) {
+  device::Device& device = soil::rig::Rig::device();
+  StateReader reader(start);
+  rig.solver().load(reader);
+  device.set_profile(true);
+  device.clear_profile();
+  const auto before = rig.solver().stage_times();
+  work();
+  for (const device::KernelTime& time : device.profile())
+    std::printf("# kernel %-18s %6llu launches %9.3f ms %7.2f ns a particle-step\n", time.name.c_str(),
+                static_cast<unsigned long long>(time.launches), time.seconds * 1e3,
+                time.seconds * 1e9 / particle_steps);
+  device.set_profile(false);
+  for (const auto& [stage, seconds] : rig.solver().stage_times()) {
+    double took = seconds;
+    for (const auto& [name, earlier] : before) took -= name == stage ? earlier : 0;
+    std::printf("# stage  %-18s %26.3f ms %7.2f ns a particle-step\n", stage.c_str(), took * 1e3,
+                took * 1e9 / particle_steps);
+  }
+}
+
+/// Runs `steps` steps from the same snapshot and prints a row; tools go on at their speed.
+void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::vector<soil::ToolMotion> motions) {
   StateWriter writer;
   rig.solver().save(writer);
-  const double dt = rig.solver().step_limit(0);
+  double fastest = 0;
+  for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
+  const double dt = rig.solver().step_limit(fastest);
   std::vector<soil::ToolImpulse> impulses(motions.size());
-  std::string hash;
+  const auto work = [&] {
+    std::vector<soil::ToolMotion> now = motions;
+    for (int i = 0; i < steps; ++i) {
+      rig.solver().step(dt, now, impulses);
+      for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
+    }
+  };
   bench::Row row;
   row.bench = name;
   row.particles = rig.solver().particles().size();
@@ -35,14 +71,12 @@ void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::spa
         StateReader reader(writer.bytes());
         rig.solver().load(reader);
       },
-      [&] {
-        for (int i = 0; i < steps; ++i) rig.solver().step(dt, motions, impulses);
-      },
-      3);
+      work, 3);
   StateHash state;
   rig.solver().hash(state);
   row.hash = state.hex();
   bench::print(soil::rig::Rig::device().info(), row);
+  if (profile) print_profile(rig, writer.bytes(), work, static_cast<double>(row.particles) * steps);
 }
 
 void collapse(double edge, int steps) {
@@ -63,17 +97,37 @@ void held_bucket(int steps) {
     for (double y = -0.36; y < 0.37; y += 0.05)
       for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(rig.particle(X * Vec3(x, y, z), 1.25e-4));
   rig.solver().insert(load);
-  bench_row("soil_held_bucket", rig, steps, std::span(&motion, 1));
+  bench_row("soil_held_bucket", rig, steps, {motion});
+}
+
+/// A tilted bucket with its lip in a bed of 28 800 particles: what a trench costs.
+void dig(int steps) {
+  const soil::rig::Box bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
+  soil::rig::Rig rig({soil::rig::sand(35)}, bed);
+  rig.solver().insert(rig.fill(bed, true));
+  soil::ToolMotion motion;
+  motion.tool = rig.solver().add_tool(soil::rig::open_box(0.8, 0.8, 0.6));
+  motion.v_WT = Vec3(0.5, 0, 0);
+  motion.X_WT = make_pose(7.01, 7.02, 0.1, 0, radians(110), 0);
+  bench_row("soil_dig", rig, steps, {motion});
+}
+
+/// Rows whose name, before the colon of its size, holds the word given; everything without one.
+template <class Case>
+void run(const std::string& name, const Case& work) {
+  if (name.find(only) != std::string::npos) work();
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   try {
-    collapse(1.0, 200);
-    collapse(2.0, 100);
-    collapse(4.0, 20);
-    held_bucket(200);
+    for (int i = 1; i < argc; ++i) (std::string(argv[i]) == "--profile" ? profile = true : (only = argv[i], true));
+    run("dig", [] { dig(100); });
+    run("held_bucket", [] { held_bucket(200); });
+    run("collapse_8k", [] { collapse(1.0, 200); });
+    run("collapse_64k", [] { collapse(2.0, 100); });
+    run("collapse_512k", [] { collapse(4.0, 20); });
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

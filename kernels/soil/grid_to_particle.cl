@@ -36,18 +36,31 @@ static inline void copy_split(global const float* field1, global const int* spli
   }
 }
 
+// The nine rows of four nodes around the particles of one cell.
+typedef struct Rows {
+  float16 row[9];
+} Rows;
+
+static inline void load_rows(const float* tile, int node, Rows* rows) {
+  UNROLL
+  for (int k = 0; k < 3; ++k)
+    UNROLL
+    for (int j = 0; j < 3; ++j) rows->row[3 * k + j] = vload16(0, tile + 4 * (node + 8 * j + 64 * k));
+}
+
 // v and its first moments about the base node of one particle: (v | dx | dy | dz) as float4s.
-static inline void gather(const float* tile, int node, float4 wx, const float* wy, const float* wz, float4* v,
-                          float4* mx, float4* my, float4* mz) {
+static inline void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
+                          float4* my, float4* mz) {
   float16 sum = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
-  const float w0 = wy[0], w1 = wy[16], w2 = wy[32], w22 = 2.0f * w2;
+  const float w0 = wy[0], w1 = wy[16], w2 = wy[32];
+  UNROLL
   for (int k = 0; k < 3; ++k) {
-    const float* at = tile + 4 * (node + 64 * k);
-    const float16 a = vload16(0, at), b = vload16(0, at + 32), c = vload16(0, at + 64);
-    const float16 part = wz[16 * k] * (w0 * a + w1 * b + w2 * c);
-    sum += part;
-    sum_y += wz[16 * k] * (w1 * b + w22 * c);
-    sum_z += (float)k * part;
+    const float16 c = w2 * rows->row[3 * k + 2];
+    const float16 bc = fma((float16)(w1), rows->row[3 * k + 1], c);
+    const float16 abc = fma((float16)(w0), rows->row[3 * k], bc);
+    sum = fma((float16)(wz[16 * k]), abc, sum);
+    sum_y = fma((float16)(wz[16 * k]), bc + c, sum_y);
+    sum_z = fma((float16)(k * wz[16 * k]), abc, sum_z);
   }
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   sum *= w;
@@ -87,6 +100,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 
   float wxs[64], wy[48], wz[48], parts[4][64];
   int nodes[16];
+  Rows rows;
+  int cell = -1;
   real fastest = 0.0f;
   for (int at = home.x; at < home.x + home.y; at += 16) {
     const int count = min(16, home.x + home.y - at);
@@ -112,7 +127,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     for (int l = 0; l < count; ++l) {
       const int t = turned(l);
       float4 v, mx, my, mz;
-      gather(tile, nodes[l], vload4(t, wxs), wy + l, wz + l, &v, &mx, &my, &mz);
+      if (nodes[l] != cell) {
+        cell = nodes[l];
+        load_rows(tile, cell, &rows);
+      }
+      gather(&rows, vload4(t, wxs), wy + l, wz + l, &v, &mx, &my, &mz);
       vstore4(v, t, parts[0]);
       vstore4(mx, t, parts[1]);
       vstore4(my, t, parts[2]);

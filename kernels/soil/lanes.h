@@ -22,22 +22,32 @@ typedef float16 real;
 #define LAW_FN static inline
 
 
+// Loops over a particle's rows of nodes are unrolled by hand: then the rows stay in registers.
+#define UNROLL _Pragma("unroll")
+
+// One vector out of the lanes of two. Written as single lanes, or as shuffle2, PoCL makes three times the instructions.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_shufflevector)
+#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#endif
+#endif
+#ifndef PICK
+#define PICK(a, b, ...) shuffle2(a, b, (uint16)(__VA_ARGS__))
+#endif
+#define PICK_LOW(a, b) PICK(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29)
+#define PICK_HIGH(a, b) PICK(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31)
+#define PICK_LOW2(a, b) PICK(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
+#define PICK_HIGH2(a, b) PICK(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
 // Rows r0..r3 hold components 0..3 of 16 particles. Afterwards o0..o3 hold float4s: the one of particle 4 q + i is
 // part q of o_i. Applied again it undoes itself.
-#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                                                                    \
-  do {                                                                                                                \
-    const float16 t0_ = (float16)(r0.s0, r1.s0, r0.s1, r1.s1, r0.s4, r1.s4, r0.s5, r1.s5, r0.s8, r1.s8, r0.s9, r1.s9, \
-                                  r0.sc, r1.sc, r0.sd, r1.sd);                                                        \
-    const float16 t1_ = (float16)(r0.s2, r1.s2, r0.s3, r1.s3, r0.s6, r1.s6, r0.s7, r1.s7, r0.sa, r1.sa, r0.sb, r1.sb, \
-                                  r0.se, r1.se, r0.sf, r1.sf);                                                        \
-    const float16 t2_ = (float16)(r2.s0, r3.s0, r2.s1, r3.s1, r2.s4, r3.s4, r2.s5, r3.s5, r2.s8, r3.s8, r2.s9, r3.s9, \
-                                  r2.sc, r3.sc, r2.sd, r3.sd);                                                        \
-    const float16 t3_ = (float16)(r2.s2, r3.s2, r2.s3, r3.s3, r2.s6, r3.s6, r2.s7, r3.s7, r2.sa, r3.sa, r2.sb, r3.sb, \
-                                  r2.se, r3.se, r2.sf, r3.sf);                                                        \
-    o0 = (float16)(t0_.s01, t2_.s01, t0_.s45, t2_.s45, t0_.s89, t2_.s89, t0_.scd, t2_.scd);                           \
-    o1 = (float16)(t0_.s23, t2_.s23, t0_.s67, t2_.s67, t0_.sab, t2_.sab, t0_.sef, t2_.sef);                           \
-    o2 = (float16)(t1_.s01, t3_.s01, t1_.s45, t3_.s45, t1_.s89, t3_.s89, t1_.scd, t3_.scd);                           \
-    o3 = (float16)(t1_.s23, t3_.s23, t1_.s67, t3_.s67, t1_.sab, t3_.sab, t1_.sef, t3_.sef);                           \
+#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                         \
+  do {                                                                     \
+    const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1);         \
+    const float16 t2_ = PICK_LOW(r2, r3), t3_ = PICK_HIGH(r2, r3);         \
+    o0 = PICK_LOW2(t0_, t2_);                                              \
+    o1 = PICK_HIGH2(t0_, t2_);                                             \
+    o2 = PICK_LOW2(t1_, t3_);                                              \
+    o3 = PICK_HIGH2(t1_, t3_);                                             \
   } while (0)
 
 // Field of the 16 slots from `at`, in kernels that name their arguments state and capacity.

@@ -65,20 +65,37 @@ static inline void cell_openings(global const float* state, int capacity, int st
   for (int i = 0; i < CELLS; ++i) opening[i] = open[i] ? opening[i] / fmax(closed[i], 1.0f) : 0.0f;
 }
 
-// Adds one particle's nine rows of four nodes; q holds its turned components (momentum at the base node and mass, then
-// the change of momentum per node in x, y, z).
-static inline void scatter(global float* tile, int node, float4 start, float4 ax, float4 ay, float4 az, float4 wx,
-                           const float* wy, const float* wz) {
+// The nine rows of four nodes that the particles of one cell add to. Particles come sorted by cell, so the sums stay in
+// registers until the cell changes.
+typedef struct Rows {
+  float16 row[9];
+} Rows;
+
+static inline void flush(global float* tile, int node, const Rows* sums) {
+  UNROLL
+  for (int k = 0; k < 3; ++k)
+    UNROLL
+    for (int j = 0; j < 3; ++j) {
+      global float* at = tile + 4 * (node + 8 * j + 64 * k);
+      vstore16(vload16(0, at) + sums->row[3 * k + j], 0, at);
+    }
+}
+
+// Adds one particle's shares; its turned components are momentum at the base node and mass, then the change of momentum
+// per node in x, y, z.
+static inline void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wy,
+                           const float* wz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
   const float16 rx = w * (float16)(start, next, next + ax, (float4)(0.0f));
   const float16 ry = w * (float16)(ay, ay, ay, (float4)(0.0f));
   const float16 rz = w * (float16)(az, az, az, (float4)(0.0f));
+  UNROLL
   for (int k = 0; k < 3; ++k) {
     float16 row = rx + (float)k * rz;
+    UNROLL
     for (int j = 0; j < 3; ++j) {
-      global float* at = tile + 4 * (node + 8 * j + 64 * k);
-      vstore16(vload16(0, at) + (wz[16 * k] * wy[16 * j]) * row, 0, at);
+      sums->row[3 * k + j] = fma((float16)(wz[16 * k] * wy[16 * j]), row, sums->row[3 * k + j]);
       row += ry;
     }
   }
@@ -96,6 +113,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   cell_openings(state, capacity, home.x, home.x + home.y, openings);
   float wxs[4 * 16], wy[3 * 16], wz[3 * 16], turned_parts[4][64];
   int nodes[16];
+  Rows sums;
+  int cell = -1;
   int broken = 0;
   for (int at = home.x; at < home.x + home.y; at += 16) {
     const int count = min(16, home.x + home.y - at);
@@ -165,10 +184,17 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
              nodes);
     for (int l = 0; l < count; ++l) {
       const int t = turned(l);
-      scatter(tile, nodes[l], vload4(t, turned_parts[0]), vload4(t, turned_parts[1]), vload4(t, turned_parts[2]),
+      if (nodes[l] != cell) {
+        if (cell >= 0) flush(tile, cell, &sums);
+        UNROLL
+        for (int i = 0; i < 9; ++i) sums.row[i] = 0.0f;
+        cell = nodes[l];
+      }
+      scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]), vload4(t, turned_parts[2]),
               vload4(t, turned_parts[3]), vload4(t, wxs), wy + l, wz + l);
     }
   }
+  if (cell >= 0) flush(tile, cell, &sums);
   report[REPORT_WORDS * block + REPORT_BAD] = broken ? 1.0f : 0.0f;
   if (!home.w) report[REPORT_WORDS * block + REPORT_PUSH] = report[REPORT_WORDS * block + REPORT_CROSSED] = 0.0f;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks without atomics, in stable order.
+// Sorts particles into their new home blocks without atomics, inside a block by cell, in stable order.
 //
-// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many.
+// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many, and the
+//   cell of its base node there (0..63, x fastest).
 // 2 (host) builds the new homes from the counts, and for each the 27 old homes it takes from.
 // 3 rebin_gather: per new home, the old slot of each new slot.
 // 4 rebin_move: per new home, copies every field.
@@ -11,7 +12,8 @@
 // site: number of cells in x and y.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity, global const int4* restrict homes,
-    global const int4* restrict keys, global uchar* restrict codes, global int* restrict counts, const int2 site) {
+    global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
+    global int* restrict counts, const int2 site) {
   const int home = get_global_id(0);
   int count[28];
   for (int i = 0; i < 28; ++i) count[i] = 0;
@@ -23,26 +25,37 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     const bool outside = x < x0 || x >= x1 || y < y0 || y >= y1;
     const int code = outside ? 27 : (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1);
     codes[at] = code;
+    const int3 in_home = clamp(base - 4 * d, 0, 3);
+    cells[at] = in_home.x + 4 * in_home.y + 16 * in_home.z;
     ++count[code];
   }
   for (int i = 0; i < 28; ++i) counts[28 * home + i] = count[i];
 }
 
-// sources[27 * new + n] = old home from which code n leads here, or -1.
+// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand together, in the order
+// of their arrival: scatter and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
-    global const int4* restrict old_homes, global const uchar* restrict codes, global const int* restrict counts,
-    global const int4* restrict homes, global const int* restrict sources, global int* restrict from) {
+    global const int4* restrict old_homes, global const uchar* restrict codes, global const uchar* restrict cells,
+    global const int* restrict counts, global const int4* restrict homes, global const int* restrict sources,
+    global int* restrict from) {
   const int home = get_global_id(0);
-  int slot = homes[home].x;
-  for (int n = 0; n < 27; ++n) {
-    const int old = sources[27 * home + n];
-    if (old < 0) continue;
-    int left = counts[28 * old + n];
-    for (int at = old_homes[old].x; left > 0; ++at)
-      if (codes[at] == n) {
-        from[slot++] = at;
+  int next[65];
+  for (int i = 0; i < 65; ++i) next[i] = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int n = 0; n < 27; ++n) {
+      const int old = sources[27 * home + n];
+      if (old < 0) continue;
+      int left = counts[28 * old + n];
+      for (int at = old_homes[old].x; left > 0; ++at) {
+        if (codes[at] != n) continue;
+        if (pass == 0) ++next[cells[at] + 1];
+        else from[next[cells[at]]++] = at;
         --left;
       }
+    }
+    if (pass == 1) break;
+    next[0] = homes[home].x;
+    for (int i = 1; i < 65; ++i) next[i] += next[i - 1];
   }
 }
 

@@ -25,6 +25,13 @@ void find_home(Particle& p) {
 
 BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}; }
 
+/// Cell of the base node inside its home, x fastest.
+int cell_of(const Particle& p) {
+  int cell = 0;
+  for (int a = 2; a >= 0; --a) cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
+  return cell;
+}
+
 void put_record(const Particle& p, float* state, std::size_t capacity, std::size_t slot) {
   float* at = state + slot;
   for (std::size_t a = 0; a < 3; ++a) at[(FIELD_X + a) * capacity] = p.x[a];
@@ -127,8 +134,11 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
   std::vector<Particle> sorted = particles;
   if (!homes_given)
     for (Particle& p : sorted) find_home(p);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Particle& a, const Particle& b) { return key_of(a) < key_of(b); });
+  // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in.
+  std::stable_sort(sorted.begin(), sorted.end(), [homes_given](const Particle& a, const Particle& b) {
+    if (!(key_of(a) == key_of(b))) return key_of(a) < key_of(b);
+    return !homes_given && cell_of(a) < cell_of(b);
+  });
   std::vector<BlockKey> keys;
   std::vector<int> counts;
   for (const Particle& p : sorted) {
@@ -223,8 +233,9 @@ std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
   const std::size_t old_homes = homes_.size();
   fit(device_, codes_, static_cast<std::size_t>(capacity_[at_]));
+  fit(device_, cells_, static_cast<std::size_t>(capacity_[at_]));
   fit(device_, counts_, 28 * old_homes);
-  count_kernel_.args(state_[at_], capacity_[at_], homes_buffer_, home_keys_, codes_, counts_, site_)
+  count_kernel_.args(state_[at_], capacity_[at_], homes_buffer_, home_keys_, codes_, cells_, counts_, site_)
       .enqueue(old_homes, 1);
   std::vector<int> counts(28 * old_homes);
   counts_.read(counts);
@@ -262,7 +273,8 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, sources_, sources.size());
   sources_.write(sources);
   fit(device_, from_, static_cast<std::size_t>(slots));
-  gather_kernel_.args(old_homes_buffer_, codes_, counts_, homes_buffer_, sources_, from_).enqueue(homes_.size(), 1);
+  gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
+      .enqueue(homes_.size(), 1);
   move_kernel_
       .args(state_[at_], capacity_[at_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
             home_friction_)

@@ -26,7 +26,8 @@ struct Home {
 /// Holds all particle fields (kernels/soil/layout.h) and the block table; sorts, adds, removes, reads back.
 ///
 /// A particle's home is the block of its base node floor(x - 0.5). The stored order is repeatable: by home, inside a
-/// home in the order of arrival. Memory is 2 x 108 bytes a particle plus the tables of the touched blocks.
+/// home by cell as of the last re-bin, inside a cell in the order of arrival. Memory is 2 x 108 bytes a particle plus
+/// the tables of the touched blocks.
 class ParticleStore {
  public:
   /// `site` = cells of the site in x and y; `soils` the constant table.
@@ -75,7 +76,7 @@ class ParticleStore {
   std::vector<Home> homes_;
   device::Buffer<Home> homes_buffer_, old_homes_buffer_;
   device::Buffer<std::array<std::int32_t, 4>> home_keys_;
-  device::Buffer<std::uint8_t> codes_;
+  device::Buffer<std::uint8_t> codes_, cells_;
   device::Buffer<std::int32_t> counts_, sources_, from_;
 };
 
