@@ -5,6 +5,7 @@
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "common/portable.h"
 #include "soil/layout.h"
+#include "soil/room.h"
 
 typedef struct Reach {
   float h, ramp, edge, edge_ramp, rate;  // [cells]; rate = dt / reference step
@@ -149,7 +150,7 @@ kernel void contact_twist(global float4* restrict frame, const int first_tool, c
 }
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
-// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel. For the books: touched[slot]
+// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room (room.h). For the books: touched[slot]
 // = 1 when any node changed; books per node and field float8 (v before, m, v after contact and before the floor, normal
 // impulse), valid in touched blocks.
 kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
@@ -162,7 +163,10 @@ kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, 
   int changed = 0;
   for (int n = 0; n < BLOCK_NODES; ++n) {
     const int i = slot * BLOCK_NODES + n;
-    const bool held = (float)(n >> 4) <= floor_height[16 * block + (n & 15)];
+    const float z = (float)(n >> 4);
+    global const float* ground = floor_height + FLOOR_WORDS * block;
+    const bool held = z <= ground[n & 15];
+    const float above = room_above(z - vload4(n & 15, ground + FLOOR_COLUMNS));
     for (int s = 0; s < 2; ++s) {
       const float4 v = s == 0 ? before0[i] : before1[i];
       float4 after = (float4)(v.xyz, 0.0f);
@@ -177,7 +181,10 @@ kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, 
         }
       }
       books[2 * i + s] = (float8)(v, after);
-      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w);
+      // Mass per room, as far as ground and plate leave room on this side.
+      const float beside = (s == 0 ? 1.0f : -1.0f) * shell[i].s3 - tools[TOOL_WORDS * max(node_tool[i], 0) + TOOL_HALF];
+      const float room = above * (split[i] == 0 ? 1.0f : kernel_share((float4)(beside)).x);
+      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / fmax(room, LEAST_ROOM));
       if (s == 0) velocity0[(size_t)block * BLOCK_NODES + n] = felt;
       else velocity1[i] = felt;
     }

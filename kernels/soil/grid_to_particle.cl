@@ -76,7 +76,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global float* restrict state, const int capacity, global const int4* restrict homes,
     global const int* restrict neighbours, global const float* restrict velocity0, global const float* restrict velocity1,
     global const int* restrict near_slot, global const int* restrict node_split, global float* restrict report,
-    const float dt, const float dx) {
+    const float dt, const float dx, const float full, const float closing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];
   float tile[3 * TILE_NODES * 4];
@@ -144,12 +144,17 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     UNTURN(parts[0], v[0], v[1], v[2], mass);
     const real f[3] = {fx, fy, fz};
     for (int axis = 0; axis < 3; ++axis) {
-      UNTURN(parts[1 + axis], w0, w1, w2, mass);
+      real unused;
+      UNTURN(parts[1 + axis], w0, w1, w2, unused);
       const float scale = 4.0f / dx;
       STORE(FIELD_C + axis, scale * (w0 - f[axis] * v[0]));
       STORE(FIELD_C + 3 + axis, scale * (w1 - f[axis] * v[1]));
       STORE(FIELD_C + 6 + axis, scale * (w2 - f[axis] * v[2]));
     }
+    // mass is the nodes' mean mass now: soil packed tighter than its J says closes towards what the nodes hold.
+    const real j = LOAD(FIELD_J);
+    const real packed = full / fmax(mass, MASS_QUANTUM);
+    STORE(FIELD_J, j - closing * fmax(j - packed, 0.0f));
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
     STORE(FIELD_X, x + (dt / dx) * v[0]);
     STORE(FIELD_X + 1, y + (dt / dx) * v[1]);

@@ -2,11 +2,12 @@
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
 // In:  tiles of the home blocks; around = 27 home indices per active block (-1: no particles there); homes.
-//      floor_height = per active block and node column (x fastest) the height up to which nodes are held by resting
-//      ground [cells from the block's corner].
-// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass.
+//      floor_height = FLOOR_WORDS per active block: resting ground.
+// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
+//      share of the node's kernel that lies above the ground (room.h).
 // One work-item per active block, neighbours in fixed order. Host: src/soil/transfer.cpp.
 #include "soil/lanes.h"
+#include "soil/room.h"
 
 // Adds the part of a neighbour's tile that lies on this block; d: where the neighbour lies.
 static inline void add_part(global const float* tile, float16* rows, int3 d) {
@@ -35,10 +36,15 @@ static inline float16 velocity_of(float16 momentum, float4 dv) {
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity, not their mass.
-static inline float16 held(float16 v, float4 floor_height, float z) {
-  const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= floor_height);
-  return v * (float16)(on.xxx, 1.0f, on.yyy, 1.0f, on.zzz, 1.0f, on.www, 1.0f);
+// Rows of four nodes at or below the floor lose their velocity; masses become mass per room above the ground.
+static inline float16 held(float16 v, global const float* floor_height, int row) {
+  const float z = (float)(row >> 2);
+  const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, floor_height));
+  const float16 below = z - vload16(row & 3, floor_height + FLOOR_COLUMNS);
+  return v * (float16)(on.xxx, 1.0f / fmax(room_above(below.lo.lo), LEAST_ROOM),  //
+                       on.yyy, 1.0f / fmax(room_above(below.lo.hi), LEAST_ROOM),  //
+                       on.zzz, 1.0f / fmax(room_above(below.hi.lo), LEAST_ROOM),  //
+                       on.www, 1.0f / fmax(room_above(below.hi.hi), LEAST_ROOM));
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
@@ -57,7 +63,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   for (int i = 0; i < 16; ++i)
-    vstore16(held(velocity_of(rows[i], dv), vload4(i & 3, floor_height + 16 * block), (float)(i >> 2)), i, out);
+    vstore16(held(velocity_of(rows[i], dv), floor_height + FLOOR_WORDS * block, i), i, out);
 }
 
 // Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity, neither held yet.

@@ -27,6 +27,11 @@
 #define TILE_NODES 516  // 512 and a pad row end: a float16 read of the last row stays inside; not a power of two
 #define BLOCK_NODES 64
 
+// Resting ground of one active block [cells from its corner]: for its 16 node columns, x fastest, the height up to which
+// nodes are held; then for each the heights of the four columns around it.
+#define FLOOR_COLUMNS 16
+#define FLOOR_WORDS 80
+
 // One soil in the constant table.
 #define SOIL_BULK 0
 #define SOIL_SHEAR 1

@@ -2,17 +2,12 @@
 #include "soil/floor.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "soil/layout.h"
 #include "soil/particle.h"
 
 namespace navvy::soil {
-namespace {
-
-/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
-constexpr float kMargin = 0.25f;
-
-}  // namespace
-
 Floor::Patch Floor::make_patch(int bx, int by) const {
   // Node i touches the columns i - 1 and i, so 4 x 4 nodes need 5 x 5 columns.
   std::vector<float> columns;
@@ -24,8 +19,10 @@ Floor::Patch Floor::make_patch(int bx, int by) const {
   Patch patch;
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x) {
-      const double highest = std::max({height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)});
-      patch[static_cast<std::size_t>(x + 4 * y)] = static_cast<float>(highest) + kMargin;
+      const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)};
+      const auto at = static_cast<std::size_t>(x + 4 * y);
+      patch[at] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
+      for (std::size_t i = 0; i < 4; ++i) patch[FLOOR_COLUMNS + 4 * at + i] = static_cast<float>(around[i]);
     }
   return patch;
 }
@@ -44,7 +41,7 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   first_ = false;
 
   std::map<std::pair<int, int>, Patch> used;
-  heights_.resize(16 * active.size());
+  heights_.resize(FLOOR_WORDS * active.size());
   for (std::size_t b = 0; b < active.size(); ++b) {
     const std::pair<int, int> key{active[b].x, active[b].y};
     auto found = used.find(key);
@@ -53,7 +50,7 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
       found = used.emplace(key, known != patches_.end() ? known->second : make_patch(key.first, key.second)).first;
     }
     const float corner = static_cast<float>(kBlockCells * active[b].z);
-    for (std::size_t i = 0; i < 16; ++i) heights_[16 * b + i] = found->second[i] - corner;
+    for (std::size_t i = 0; i < FLOOR_WORDS; ++i) heights_[FLOOR_WORDS * b + i] = found->second[i] - corner;
   }
   patches_.swap(used);
   return true;

@@ -9,8 +9,12 @@
 
 #include "heightfield/ground.h"
 #include "soil/block_table.h"
+#include "soil/layout.h"
 
 namespace navvy::soil {
+
+/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
+inline constexpr double kHeldMargin = 0.25;
 
 /// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
 class Floor {
@@ -19,11 +23,12 @@ class Floor {
 
   /// Brings the list up to date for these active blocks; true when it changed since the last call.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
-  /// 16 per active block (node columns, x fastest): nodes k <= value are held [cells from the block's corner].
+  /// FLOOR_WORDS per active block: see kernels/soil/layout.h.
   const std::vector<float>& heights() const { return heights_; }
 
  private:
-  using Patch = std::array<float, 16>;  ///< highest column around each node column plus the margin [cells from datum]
+  /// One block's words with heights from the datum.
+  using Patch = std::array<float, FLOOR_WORDS>;
   Patch make_patch(int bx, int by) const;
 
   const heightfield::Ground* ground_;

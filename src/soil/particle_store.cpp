@@ -193,6 +193,13 @@ std::vector<Particle> ParticleStore::records() const {
   return out;
 }
 
+double ParticleStore::densest() const {
+  double out = 0;
+  for (std::size_t i = 0; i < soils_host_.size(); i += SOIL_WORDS)
+    out = std::max(out, 1 / static_cast<double>(soils_host_[i + SOIL_INV_DENSITY]));
+  return out;
+}
+
 std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   std::vector<std::int64_t> out(soils, 0);
   if (count_ == 0) return out;

@@ -51,6 +51,8 @@ class ParticleStore {
   device::Buffer<float>& state() { return state_[at_]; }
   const device::Buffer<float>& state() const { return state_[at_]; }
   device::Buffer<float>& soils() { return soils_; }
+  /// Largest bank density of all soils [kg/m3].
+  double densest() const;
   device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
   device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
   device::Buffer<float>& home_friction() { return home_friction_; }

@@ -60,7 +60,9 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
 void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
   gather_
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity_, near.velocity1, near.slot,
-            near.split, report_, static_cast<float>(dt), static_cast<float>(cell))
+            near.split, report_, static_cast<float>(dt), static_cast<float>(cell),
+            static_cast<float>(packed_mass(store.densest(), cell)),
+            static_cast<float>(std::min(1.0, dt / closing_time())))
       .enqueue(store.homes().size(), 1);
 }
 

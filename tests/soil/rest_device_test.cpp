@@ -153,5 +153,35 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
   }
 }
 
+TEST(SoilRest, CrowdedSoilMakesRoomUntilItsNodesHoldWhatItsDensityStateSays) {
+  // Twice the particles the bank has in a cell, each sure (J = 1) of having its full volume: J alone cannot tell.
+  Rig rig({rig::sand(35)});
+  const Box box{Vec3(9.5, 9.5, 0), Vec3(10.5, 10.5, 0.5)};
+  auto soil = rig.fill(box);
+  const auto twice = soil;
+  for (Particle p : twice) {
+    p.x[0] += 0.25f;
+    p.x[1] += 0.25f;
+    soil.push_back(p);
+  }
+  rig.solver().insert(soil);
+  rig.run(2.0);
+  // Mass of the cells over the middle of the heap, clear of its surface.
+  std::map<std::array<int, 3>, double> cells;
+  for (const Particle& p : rig.solver().particles()) {
+    const Vec3 at = rig.position(p) / rig.cell();
+    cells[{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+           static_cast<int>(std::floor(at.z()))}] += kilograms(p.mass);
+  }
+  double mass = 0;
+  for (int z = 0; z < 3; ++z)
+    for (int y = 98; y < 103; ++y)
+      for (int x = 98; x < 103; ++x) mass += cells[{x, y, z}];
+  const double density = mass / (75 * std::pow(rig.cell(), 3)) / rig.world().soils[0].bank_density;
+  rig::report("crowded soil after 2 s, density / bank", density, "1 .. 1.1", "closing of J; 2 at the start");
+  EXPECT_GT(density, 0.9);
+  EXPECT_LT(density, 1.1);
+}
+
 }  // namespace
 }  // namespace navvy::soil

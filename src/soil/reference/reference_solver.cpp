@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soil/reference/reference_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "soil/floor.h"
 #include "soil/reference/double_law.h"
 
 namespace navvy::soil::reference {
@@ -38,6 +40,13 @@ void for_nodes(const Weights& at, const Visit& visit) {
       }
 }
 
+/// See kernels/soil/room.h.
+double kernel_share(double t) {
+  const double a = std::clamp(t, -0.5, 0.5), low = std::clamp(1.5 + t, 0.0, 1.0), high = std::clamp(1.5 - t, 0.0, 1.0);
+  const double share = 0.5 + a * (0.75 - a * a / 3) + (low * low * low - high * high * high) / 6;
+  return std::max(share, 0.25);
+}
+
 }  // namespace
 
 Point from_particle(const Particle& particle) {
@@ -59,8 +68,8 @@ Point from_particle(const Particle& particle) {
 }
 
 ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
-                                 std::function<double(int, int)> held)
-    : soils_(std::move(soils)), cell_(cell), gravity_(gravity), held_(std::move(held)) {}
+                                 std::function<double(int, int)> ground)
+    : soils_(std::move(soils)), cell_(cell), gravity_(gravity), ground_(std::move(ground)) {}
 
 void ReferenceSolver::mix(double dt) {
   // In a cell with open soil J / J0 relaxes to the cell's mean; see particle_to_grid.cl.
@@ -109,18 +118,27 @@ void ReferenceSolver::step(double dt) {
   }
   // Velocity, gravity, resting ground. A node lighter than a mass quantum is empty.
   for (auto& [at, node] : nodes_) {
-    const bool empty = node.mass <= kMassQuantum, fixed = at[2] <= held_(at[0], at[1]);
+    const double above = at[2] - ground_(at[0], at[1]);
+    const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
     node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum / node.mass + gravity_ * dt);
+    node.mass /= kernel_share(above);
   }
   // Back to the particles; `momentum` of a node is its velocity now.
+  double densest = 0;
+  for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
+  const double packed = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
   for (Point& p : points) {
     Vec3 v = Vec3::Zero();
     Mat3 moment = Mat3::Zero();
+    double mass = 0;
     for_nodes(weights_at(p.x), [&](const std::array<int, 3>& at, double w, const Vec3& r) {
-      const Vec3& u = nodes_.at(at).momentum;
+      const Node& node = nodes_.at(at);
+      const Vec3& u = node.momentum;
+      mass += w * node.mass;
       v += w * u;
       moment += w * u * r.transpose();
     });
+    p.j -= closing * std::max(0.0, p.j - packed / mass);
     p.v = v;
     p.c = (4 / cell_) * moment;
     p.x += (dt / cell_) * v;

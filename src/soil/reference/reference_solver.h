@@ -30,9 +30,10 @@ Point from_particle(const Particle& particle);
 /// transfer, the law of kernels/soil/law.h. No tools. Slow: a map from node to momentum.
 class ReferenceSolver {
  public:
-  /// `held(i, j)`: nodes (i, j, k) with k <= held are fixed by resting ground [cells].
+  /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to soil::kHeldMargin
+  /// above it are fixed.
   ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
-                  std::function<double(int, int)> held);
+                  std::function<double(int, int)> ground);
 
   std::vector<Point> points;
 
@@ -49,7 +50,7 @@ class ReferenceSolver {
   std::vector<scene::Soil> soils_;
   double cell_;
   Vec3 gravity_;
-  std::function<double(int, int)> held_;
+  std::function<double(int, int)> ground_;
   std::map<std::array<int, 3>, Node> nodes_;
 };
 
