@@ -140,10 +140,12 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
 double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
   // Mean height per ring or strip of half a cell.
   std::map<int, std::pair<double, int>> rings;
+  const double across = surface.spacing * surface.ny / 6;  // a plane heap is read in the middle third of its width
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
       const Vec2 d = surface.middle(ix, iy) - axis;
       const double r = axisymmetric ? d.norm() : std::abs(d.x());
+      if (!axisymmetric && std::abs(d.y()) > across) continue;
       auto& [sum, count] = rings[static_cast<int>(r / (0.5 * cell))];
       sum += surface.at(ix, iy) - surface.floor;
       ++count;

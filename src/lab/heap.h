@@ -38,7 +38,8 @@ struct Line {
 Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
 
 /// Angle of the flank of a heap [rad]: line through the mean surface in rings around the axis (`axisymmetric`) or in
-/// strips along x, between 20 and 80 % of the heap's height over the floor. Distances count from `axis`.
+/// strips along x (the middle third of the width), between 20 and 80 % of the heap's height over the floor. Distances
+/// count from `axis`.
 double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell);
 
 /// The value below which `share` of the values lie.

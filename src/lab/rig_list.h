@@ -8,5 +8,8 @@ namespace navvy::lab {
 
 Rig rest();
 Rig column();
+Rig pour();
+Rig cone();
+Rig slope();
 
 }  // namespace navvy::lab

@@ -5,8 +5,7 @@ namespace navvy::lab {
 
 const std::vector<Rig>& rigs() {
   static const std::vector<Rig> list = {
-      rest(),
-      column(),
+      rest(), column(), pour(), cone(), slope(),
   };
   return list;
 }
