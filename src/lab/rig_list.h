@@ -11,5 +11,8 @@ Rig column();
 Rig pour();
 Rig cone();
 Rig slope();
+Rig slide();
+Rig throw_apart();
+Rig swell();
 
 }  // namespace navvy::lab

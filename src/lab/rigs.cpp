@@ -5,7 +5,9 @@ namespace navvy::lab {
 
 const std::vector<Rig>& rigs() {
   static const std::vector<Rig> list = {
-      rest(), column(), pour(), cone(), slope(),
+      // Soil by itself.
+      rest(), column(), pour(), cone(), slope(), slide(), throw_apart(), swell(),
+      // Soil and tools.
   };
   return list;
 }
