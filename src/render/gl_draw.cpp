@@ -5,6 +5,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
 #include <array>
 
 namespace navvy::render {
@@ -30,15 +31,32 @@ void set_plane(GLenum coordinate, const Eigen::Vector4f& plane) {
   glTexGenfv(coordinate, GL_OBJECT_PLANE, plane.data());
 }
 
-void draw(const Mesh& mesh) {
+void elements(const std::vector<std::uint32_t>& indices) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, indices.data());
+}
+
+void set_enabled(GLenum what, bool on) {
+  if (on)
+    glEnable(what);
+  else
+    glDisable(what);
+}
+
+void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   if (mesh.indices.empty()) return;
   glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &mesh.vertices[0].x);
   glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.indices.size()), GL_UNSIGNED_INT, mesh.indices.data());
-  if (mesh.flat.empty()) return;
+  elements(mesh.indices);
+  if (std::none_of(skirts.begin(), skirts.end(), [](bool on) { return on; })) return;
   glShadeModel(GL_FLAT);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.flat.size()), GL_UNSIGNED_INT, mesh.flat.data());
+  for (std::size_t k = 0; k < 4; ++k)
+    if (skirts[k]) elements(mesh.skirts[k]);
   glShadeModel(GL_SMOOTH);
+}
+
+/// Whether any point of the box is at least `distance` from the eye.
+bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
+  return (part.low - eye).cwiseAbs().cwiseMax((part.high - eye).cwiseAbs()).norm() >= distance;
 }
 
 }  // namespace
@@ -57,11 +75,14 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glDisable(GL_LIGHTING);
   glDisable(GL_TEXTURE_2D);
   glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
   glShadeModel(GL_SMOOTH);
   glEnableClientState(GL_VERTEX_ARRAY);
   glEnableClientState(GL_COLOR_ARRAY);
   glDisableClientState(GL_NORMAL_ARRAY);
   glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
   glClearColor(lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const GLfloat fog[] = {lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1};
@@ -71,7 +92,7 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glFogfv(GL_FOG_COLOR, fog);
 }
 
-// A dome around the eye: haze at the horizon, blue above, a glow around the sun.
+// A dome around the eye, only where nothing was drawn: haze at the horizon, blue above, a glow around the sun.
 void GlDraw::sky(const View& view, const Lighting& lighting) {
   constexpr int kSides = 40, kRings = 18;
   Mesh dome;
@@ -90,14 +111,12 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
       const auto c = static_cast<std::uint32_t>(dome.vertices.size() - 1), below = c - (kSides + 1);
       dome.indices.insert(dome.indices.end(), {below - 1, below, c, below - 1, c, c - 1});
     }
-  glDisable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
   glDisable(GL_FOG);
+  glDepthMask(GL_FALSE);
+  glDepthRange(1, 1);  // farther than everything
   draw(dome);
+  glDepthRange(0, 1);
   glDepthMask(GL_TRUE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glEnable(GL_FOG);
 }
 
 void GlDraw::make_grain() {
@@ -143,25 +162,25 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   glActiveTexture(GL_TEXTURE1);
   if (shadow_ == 0) glGenTextures(1, &shadow_);
   glBindTexture(GL_TEXTURE_2D, shadow_);
-  // What is left of level ground's light without the sun.
-  const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
-  const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
-  std::vector<std::uint8_t> texels(3 * shadows.mask().size());
-  for (std::size_t i = 0; i < shadows.mask().size(); ++i) {
-    const float lit = static_cast<float>(shadows.mask()[i]) / 255.0f;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float dark = left[static_cast<Eigen::Index>(c)];
-      texels[3 * i + c] = to_byte(dark + (1 - dark) * lit);
+  if (shadow_version_ != shadows.version()) {
+    shadow_version_ = shadows.version();
+    // What is left of level ground's light without the sun.
+    const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
+    const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
+    std::array<std::array<std::uint8_t, 4>, 256> tone;
+    for (std::size_t i = 0; i < 256; ++i) {
+      const Vec3f lit = left + (Vec3f::Ones() - left) * (static_cast<float>(i) / 255.0f);
+      tone[i] = {to_byte(lit.x()), to_byte(lit.y()), to_byte(lit.z()), 255};
     }
+    std::vector<std::array<std::uint8_t, 4>> texels(shadows.mask().size());
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = tone[shadows.mask()[i]];
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, ShadowMap::kSize, ShadowMap::kSize, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 texels.data());
   }
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, ShadowMap::kSize, ShadowMap::kSize, 0, GL_RGB, GL_UNSIGNED_BYTE,
-               texels.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glEnable(GL_TEXTURE_2D);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
   set_plane(GL_S, shadows.plane_s());
   set_plane(GL_T, shadows.plane_t());
@@ -169,10 +188,16 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   glEnable(GL_TEXTURE_GEN_T);
 }
 
-void GlDraw::ground(const std::vector<const Mesh*>& meshes, const ShadowMap& shadows, const Lighting& lighting) {
+void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, const ShadowMap& shadows,
+                    const Lighting& lighting) {
   bind_grain();
   if (!shadows.empty()) bind_shadow(shadows, lighting);
-  for (const Mesh* mesh : meshes) draw(*mesh);
+  glActiveTexture(GL_TEXTURE1);
+  for (const GroundPart& part : parts) {
+    set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
+    set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
+    draw(*part.mesh, part.skirts);
+  }
   for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
     glActiveTexture(unit);
     glDisable(GL_TEXTURE_2D);
@@ -181,7 +206,13 @@ void GlDraw::ground(const std::vector<const Mesh*>& meshes, const ShadowMap& sha
   }
 }
 
-void GlDraw::mesh(const Mesh& mesh) { draw(mesh); }
+// Closed bodies: their far sides are never seen.
+void GlDraw::lumps(const Mesh& mesh) {
+  glEnable(GL_FOG);
+  glEnable(GL_CULL_FACE);
+  draw(mesh);
+  glDisable(GL_CULL_FACE);
+}
 
 void GlDraw::end() {
   glMatrixMode(GL_PROJECTION);

@@ -17,10 +17,14 @@ class GlDraw {
 
   /// Clears the picture and sets the camera.
   void begin(const View& view, const Lighting& lighting);
+  /// Ground with a fine grain over it and the machines' shadow. Haze and shadow cost time at every pixel, so that a
+  /// part has them only where they reach.
+  void ground(const std::vector<GroundPart>& parts, const View& view, const ShadowMap& shadows,
+              const Lighting& lighting);
+  /// Where nothing stands before it: comes after the ground.
   void sky(const View& view, const Lighting& lighting);
-  /// Ground with a fine grain over it and the machines' shadow.
-  void ground(const std::vector<const Mesh*>& meshes, const ShadowMap& shadows, const Lighting& lighting);
-  void mesh(const Mesh& mesh);
+  /// Closed bodies.
+  void lumps(const Mesh& mesh);
   void end();
 
  private:
@@ -29,6 +33,7 @@ class GlDraw {
   void bind_shadow(const ShadowMap& shadows, const Lighting& lighting);
 
   unsigned grain_ = 0, shadow_ = 0;
+  std::uint64_t shadow_version_ = 0;  ///< of the mask in the texture
 };
 
 }  // namespace navvy::render

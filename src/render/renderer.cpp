@@ -31,6 +31,7 @@ namespace {
 struct Placed {
   const Shape* shape;
   Eigen::Matrix4f X_WS;
+  bool operator==(const Placed& o) const { return shape == o.shape && X_WS == o.X_WS; }
 };
 
 SbColor to_coin(const Vec3f& c) { return {c.x(), c.y(), c.z()}; }
@@ -77,6 +78,9 @@ class Renderer::Impl {
   ParticleMesh particles_;
   ShapeCache shapes_;
   std::vector<Placed> placed_;
+  std::vector<Placed> casters_;  ///< what the shadow map holds, with `falling_` under `shadow_lighting_`
+  std::vector<Vec3f> falling_;
+  Lighting shadow_lighting_;
   SoSeparator* root_ = nullptr;
   SoPerspectiveCamera* camera_ = nullptr;
   SoEnvironment* environment_ = nullptr;
@@ -149,17 +153,24 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  // Another camera at the same instant finds the shadow made.
+  if (casters_ == placed_ && falling_ == falling && shadow_lighting_ == lighting && shadows_.version() != 0) return;
+  casters_ = placed_;
+  falling_ = falling;
+  shadow_lighting_ = lighting;
   if (!(low.x() <= high.x()) || !options_.shadows) {
     shadows_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
     return;
   }
   shadows_.begin(lighting, low, high);
   for (const Placed& p : placed_) {
-    const std::vector<Vec3f>& t = p.shape->triangles;
     const Eigen::Matrix3f turn = p.X_WS.topLeftCorner<3, 3>();
     const Vec3f at = p.X_WS.topRightCorner<3, 1>();
-    for (std::size_t i = 0; i + 2 < t.size(); i += 3)
-      shadows_.add_triangle(turn * t[i] + at, turn * t[i + 1] + at, turn * t[i + 2] + at);
+    for (const bool solid : {true, false}) {
+      const std::vector<Vec3f>& t = solid ? p.shape->solid_triangles : p.shape->open_triangles;
+      for (std::size_t i = 0; i + 2 < t.size(); i += 3)
+        shadows_.add_triangle(turn * t[i] + at, turn * t[i + 1] + at, turn * t[i + 2] + at, solid);
+    }
   }
   for (const Vec3f& p : falling) shadows_.add_point(p, static_cast<float>(frame.particles.radius));
   shadows_.finish();
@@ -216,12 +227,11 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   const std::size_t known = shapes_.size();
   place(frame);
   cast_shadows(frame, lighting);
-  std::vector<const Mesh*> tiles = terrain_.select(view, options_.triangle_budget);
+  std::vector<GroundPart> tiles = terrain_.select(view, options_.triangle_budget);
   stats = {};
   stats.ground_tiles = static_cast<int>(tiles.size());
-  if (options_.surroundings && !frame.ground.height.empty()) tiles.push_back(&terrain_.surroundings(lighting));
-  for (const Mesh* mesh : tiles)
-    stats.ground_triangles += static_cast<int>((mesh->indices.size() + mesh->flat.size()) / 3);
+  if (options_.surroundings && !frame.ground.height.empty()) tiles.push_back(terrain_.surroundings(lighting));
+  for (const GroundPart& tile : tiles) stats.ground_triangles += static_cast<int>(tile.triangles());
   const Mesh& soil = particles_.build(frame, lighting, shadows_, terrain_.surface(), view);
   stats.particles_drawn = particles_.drawn();
   stats.particle_triangles = static_cast<int>(soil.indices.size() / 3);
@@ -231,9 +241,9 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   // Coin draws a body another way the first time (rounding differs): draw new ones once for nothing.
   if (shapes_.size() != known) draw_machines(view, camera, lighting);
   draw_.begin(view, lighting);
+  draw_.ground(tiles, view, shadows_, lighting);
+  draw_.lumps(soil);
   draw_.sky(view, lighting);
-  draw_.ground(tiles, shadows_, lighting);
-  draw_.mesh(soil);
   draw_.end();
   draw_machines(view, camera, lighting);
 

@@ -13,7 +13,7 @@ struct RenderOptions {
   int samples = 1;              ///< per pixel, 1 or 4; 4 smooths edges and costs about two to three times the time
   bool surroundings = true;     ///< ground beyond the site's edge, fading into haze; false: the site stands free
   bool shadows = true;          ///< machines and falling soil throw the sun's shadow on the ground
-  int triangle_budget = 60000;  ///< most ground triangles of one picture; the level of detail gets coarser to keep it
+  int triangle_budget = 40000;  ///< most ground triangles of one picture; the level of detail gets coarser to keep it
 };
 
 /// What the last picture took.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shadow_map.h"
 
+#include <array>
+
 namespace navvy::render {
 namespace {
 constexpr float kNothing = -1e30f;
@@ -9,6 +11,7 @@ constexpr int kMargin = 4;  // texels kept lit along the border
 
 void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high) {
   used_ = false;
+  ++version_;
   to_sun_ = lighting.to_sun;
   nearest_.assign(kSize * kSize, kNothing);
   const Vec3f side = std::abs(to_sun_.z()) > 0.95f ? Vec3f::UnitX() : Vec3f::UnitZ();
@@ -32,26 +35,44 @@ Vec3f ShadowMap::project(const Vec3f& p) const {
           to_sun_.dot(p)};
 }
 
-void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc) {
+// Row by row: the three edges bound the texels of a row, so that the inner loop is only depth.
+void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, bool solid) {
   const Vec3f a = project(wa), b = project(wb), c = project(wc);
-  const int x0 = std::max(kMargin, static_cast<int>(std::floor(std::min({a.x(), b.x(), c.x()}))));
-  const int x1 = std::min(kSize - 1 - kMargin, static_cast<int>(std::ceil(std::max({a.x(), b.x(), c.x()}))));
-  const int y0 = std::max(kMargin, static_cast<int>(std::floor(std::min({a.y(), b.y(), c.y()}))));
-  const int y1 = std::min(kSize - 1 - kMargin, static_cast<int>(std::ceil(std::max({a.y(), b.y(), c.y()}))));
   const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
-  if (std::abs(area) < 1e-6f) return;
+  if (solid ? area < 1e-6f : std::abs(area) < 1e-6f) return;
   used_ = true;
+  const auto floor_of = [](float v) { return static_cast<int>(std::floor(v)); };
+  const int low_x = std::max(kMargin, floor_of(std::min({a.x(), b.x(), c.x()})));
+  const int high_x = std::min(kSize - 1 - kMargin, floor_of(std::max({a.x(), b.x(), c.x()})) + 1);
+  const int low_y = std::max(kMargin, floor_of(std::min({a.y(), b.y(), c.y()})));
+  const int high_y = std::min(kSize - 1 - kMargin, floor_of(std::max({a.y(), b.y(), c.y()})) + 1);
+  // Shares of b and c (and a, the rest) at a texel's centre are linear in x and y.
   const float inverse = 1.0f / area;
+  const std::array<float, 3> per_x = {(c.y() - a.y()) * inverse, (a.y() - b.y()) * inverse, (b.y() - c.y()) * inverse};
+  const std::array<float, 3> per_y = {(a.x() - c.x()) * inverse, (b.x() - a.x()) * inverse, (c.x() - b.x()) * inverse};
+  const float slope = per_x[0] * (b.z() - a.z()) + per_x[1] * (c.z() - a.z());
   constexpr float kSlack = -0.02f;  // no gaps between neighbours
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) {
-      const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
-      const float wb2 = ((px - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (py - a.y())) * inverse;
-      const float wc2 = ((b.x() - a.x()) * (py - a.y()) - (px - a.x()) * (b.y() - a.y())) * inverse;
-      if (wb2 < kSlack || wc2 < kSlack || wb2 + wc2 > 1 - kSlack) continue;
-      float& near = nearest_[static_cast<std::size_t>(y * kSize + x)];
-      near = std::max(near, a.z() + wb2 * (b.z() - a.z()) + wc2 * (c.z() - a.z()));
+  for (int y = low_y; y <= high_y; ++y) {
+    const float px = static_cast<float>(low_x) + 0.5f - a.x(), py = static_cast<float>(y) + 0.5f - a.y();
+    std::array<float, 3> share = {per_x[0] * px + per_y[0] * py, per_x[1] * px + per_y[1] * py, 0};
+    share[2] = 1 - share[0] - share[1];
+    float first = 0, last = static_cast<float>(high_x - low_x);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float room = kSlack - share[k];
+      if (per_x[k] > 0)
+        first = std::max(first, room / per_x[k]);
+      else if (per_x[k] < 0)
+        last = std::min(last, room / per_x[k]);
+      else if (room > 0)
+        last = -1;
     }
+    if (!(first <= last)) continue;
+    float* row = &nearest_[static_cast<std::size_t>(y * kSize + low_x)];
+    const float start = a.z() + share[0] * (b.z() - a.z()) + share[1] * (c.z() - a.z());
+    const int end = static_cast<int>(last);
+    for (int x = static_cast<int>(std::ceil(first)); x <= end; ++x)
+      row[x] = std::max(row[x], start + slope * static_cast<float>(x));
+  }
 }
 
 void ShadowMap::add_point(const Vec3f& p, float radius) {
@@ -67,22 +88,35 @@ void ShadowMap::add_point(const Vec3f& p, float radius) {
     }
 }
 
+namespace {
+
+/// Weighted mean (1 2 2 2 1) / 8 of five values `stride` apart, along a run of texels.
+void smooth(const std::uint8_t* __restrict in, std::uint8_t* __restrict out, int n, int stride) {
+  for (int i = 0; i < n; ++i) {
+    const int sum = in[i - 2 * stride] + 2 * (in[i - stride] + in[i] + in[i + stride]) + in[i + 2 * stride];
+    out[i] = static_cast<std::uint8_t>(sum >> 3);
+  }
+}
+
+}  // namespace
+
 void ShadowMap::finish() {
   mask_.resize(nearest_.size());
-  blur_.resize(nearest_.size());
+  blur_.assign(nearest_.size(), 255);
   for (std::size_t i = 0; i < nearest_.size(); ++i) mask_[i] = nearest_[i] > kNothing ? 0 : 255;
-  const auto at = [](int x, int y) { return static_cast<std::size_t>(y * kSize + x); };
-  const auto smooth = [&](const std::vector<std::uint8_t>& in, std::vector<std::uint8_t>& out, int dx, int dy) {
-    out.assign(in.size(), 255);
-    for (int y = 2; y < kSize - 2; ++y)
-      for (int x = 2; x < kSize - 2; ++x)
-        out[at(x, y)] =
-            static_cast<std::uint8_t>((in[at(x - 2 * dx, y - 2 * dy)] + 2 * in[at(x - dx, y - dy)] + 2 * in[at(x, y)] +
-                                       2 * in[at(x + dx, y + dy)] + in[at(x + 2 * dx, y + 2 * dy)]) /
-                                      8);
-  };
-  smooth(mask_, blur_, 1, 0);
-  smooth(blur_, mask_, 0, 1);
+  constexpr int kInner = (kSize - 4) * kSize - 4;  // rows run on into each other: their ends are margin, all lit
+  smooth(&mask_[2 * kSize + 2], &blur_[2 * kSize + 2], kInner, 1);
+  smooth(&blur_[2 * kSize + 2], &mask_[2 * kSize + 2], kInner, kSize);
+}
+
+bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
+  if (!used_) return false;
+  const Vec3f middle = 0.5f * (low + high), half = 0.5f * (high - low);
+  for (const Eigen::Vector4f* plane : {&plane_s_, &plane_t_}) {
+    const float at = plane->head<3>().dot(middle) + plane->w(), reach = plane->head<3>().cwiseAbs().dot(half);
+    if (at + reach < 0 || at - reach > 1) return false;
+  }
+  return true;
 }
 
 float ShadowMap::sun_at(const Vec3f& p, float bias) const {

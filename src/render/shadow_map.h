@@ -16,12 +16,17 @@ class ShadowMap {
 
   /// Starts anew for casters inside the box `low`..`high` of W.
   void begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high);
-  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
+  /// Of a solid body only the triangles that face the sun count.
+  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool solid);
   void add_point(const Vec3f& p, float radius);
   /// Makes the mask, its edge softened.
   void finish();
 
   bool empty() const { return !used_; }
+  /// Changes with every new mask.
+  std::uint64_t version() const { return version_; }
+  /// Whether the shadow may fall on anything inside a box (never false where it does).
+  bool reaches(const Vec3f& low, const Vec3f& high) const;
   const std::vector<std::uint8_t>& mask() const { return mask_; }
   /// Texture coordinate = dot(plane.head<3>(), p) + plane.w.
   const Eigen::Vector4f& plane_s() const { return plane_s_; }
@@ -33,6 +38,7 @@ class ShadowMap {
   Vec3f project(const Vec3f& p) const;
 
   bool used_ = false;
+  std::uint64_t version_ = 0;
   Vec3f to_sun_ = Vec3f::UnitZ();
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
   std::vector<float> nearest_;  ///< largest height along the sun's direction, per texel

@@ -13,6 +13,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "render/solid.h"
 
 namespace navvy::render {
 namespace {
@@ -147,21 +148,23 @@ Body make_body(const scene::Visual& visual) {
   return read_obj(g.mesh_file, g.scale.cast<float>(), look);
 }
 
-SoNode* make_node(const Body& body) {
+SoNode* make_node(const Body& body, const std::vector<bool>& solid) {
   auto* root = new SoSeparator;
   root->ref();
-  auto* hints = new SoShapeHints;
-  hints->vertexOrdering = SoShapeHints::COUNTERCLOCKWISE;
-  hints->shapeType = SoShapeHints::UNKNOWN_SHAPE_TYPE;  // open meshes are lit from both sides
-  hints->creaseAngle = kCrease;
-  root->addChild(hints);
   auto* coordinates = new SoCoordinate3;
   coordinates->point.setNum(static_cast<int>(body.points.size()));
   for (std::size_t i = 0; i < body.points.size(); ++i)
     coordinates->point.set1Value(static_cast<int>(i), body.points[i].x(), body.points[i].y(), body.points[i].z());
   root->addChild(coordinates);
-  for (const Part& part : body.parts) {
+  for (std::size_t k = 0; k < body.parts.size(); ++k) {
+    const Part& part = body.parts[k];
     if (part.indices.empty()) continue;
+    auto* hints = new SoShapeHints;
+    hints->vertexOrdering = SoShapeHints::COUNTERCLOCKWISE;
+    // Open parts are lit from both sides, the inner side of solid ones is left out.
+    hints->shapeType = solid[k] ? SoShapeHints::SOLID : SoShapeHints::UNKNOWN_SHAPE_TYPE;
+    hints->creaseAngle = kCrease;
+    root->addChild(hints);
     auto* material = new SoMaterial;
     const SbColor color(part.look.color.r, part.look.color.g, part.look.color.b);
     material->diffuseColor = color;
@@ -179,14 +182,18 @@ SoNode* make_node(const Body& body) {
 
 Shape make_shape(const Body& body) {
   Shape out;
-  out.node = make_node(body);
-  for (const Part& part : body.parts) {
+  std::vector<bool> solid;
+  for (const Part& part : body.parts) solid.push_back(is_solid(body.points, part.indices));
+  out.node = make_node(body, solid);
+  for (std::size_t p = 0; p < body.parts.size(); ++p) {
+    const Part& part = body.parts[p];
+    std::vector<Vec3f>& triangles = solid[p] ? out.solid_triangles : out.open_triangles;
     std::size_t first = 0;
     for (std::size_t i = 0; i < part.indices.size(); ++i) {
       if (part.indices[i] >= 0) continue;
       for (std::size_t k = first + 2; k < i; ++k)
         for (const std::size_t j : {first, k - 1, k})
-          out.triangles.push_back(body.points[static_cast<std::size_t>(part.indices[j])]);
+          triangles.push_back(body.points[static_cast<std::size_t>(part.indices[j])]);
       first = i + 1;
     }
   }

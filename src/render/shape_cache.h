@@ -13,10 +13,11 @@ class SoNode;
 
 namespace navvy::render {
 
-/// A body in its visual's frame: Coin nodes to draw and triangles (three points each) that throw shadows.
+/// A body in its visual's frame: Coin nodes to draw and triangles (three points each) that throw shadows; those of
+/// solid parts throw it only where they face the sun.
 struct Shape {
   SoNode* node = nullptr;
-  std::vector<Vec3f> triangles;
+  std::vector<Vec3f> solid_triangles, open_triangles;
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
 };
 

@@ -4,6 +4,7 @@
 namespace navvy::render {
 namespace {
 
+constexpr float kFinest = 7.0f;     // [pixels] smaller cells than this show nothing more
 constexpr float kWallSlope = 1.6f;  // steeper than this (58 degrees) is a wall with own triangles
 
 /// Node coordinates along one axis of a tile at a stride, always with both ends.
@@ -62,7 +63,7 @@ void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::ar
 }
 
 /// A strip hanging down from a line of vertices.
-void add_skirt(Mesh& mesh, const std::vector<std::uint32_t>& line, float drop) {
+void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt, const std::vector<std::uint32_t>& line, float drop) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     Vertex v = mesh.vertices[line[i]];
     v.z -= drop;
@@ -70,11 +71,17 @@ void add_skirt(Mesh& mesh, const std::vector<std::uint32_t>& line, float drop) {
     if (i == 0) continue;
     const auto low = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
     const std::uint32_t a = line[i - 1], b = line[i];
-    mesh.flat.insert(mesh.flat.end(), {a, b, low, a, low, low - 1});
+    skirt.insert(skirt.end(), {a, b, low, a, low, low - 1});
   }
 }
 
 }  // namespace
+
+std::size_t GroundPart::triangles() const {
+  std::size_t count = mesh->indices.size();
+  for (std::size_t k = 0; k < 4; ++k) count += skirts[k] ? mesh->skirts[k].size() : 0;
+  return count / 3;
+}
 
 void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const int old_x = surface_.nx(), old_y = surface_.ny();
@@ -119,14 +126,23 @@ void Terrain::measure(int tx, int ty) {
 
 int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) const {
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
-  const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max((nearest - view.eye).norm(), 0.1f);
-  if (tile.rough) pixels *= 0.35f;
+  const float distance = (nearest - view.eye).norm();
+  const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max(distance, 0.1f);
+  // Level ground seen at a low angle is short in the picture: what counts is the mean of a cell's two sides there.
+  const float rise = std::max(0.0f, view.eye.z() - tile.high.z()) / std::max(distance, 0.1f);
+  pixels *= tile.rough ? 0.35f : 1.0f / std::sqrt(std::clamp(rise, 0.15f, 1.0f));
   int level = 0;
   while (level < kMaxLevel && cell_pixels * static_cast<float>(1 << (level + 1)) <= pixels) ++level;
   return level;
 }
 
-std::vector<const Mesh*> Terrain::select(const View& view, int budget) {
+int Terrain::neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const {
+  const int tx = tile % tiles_x_ + dx, ty = tile / tiles_x_ + dy;
+  if (tx < 0 || ty < 0 || tx >= tiles_x_ || ty >= tiles_y_) return -1;
+  return wanted_level(tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)], view, pixels);
+}
+
+std::vector<GroundPart> Terrain::select(const View& view, int budget) {
   struct Candidate {
     float distance;
     int tile;
@@ -141,7 +157,7 @@ std::vector<const Mesh*> Terrain::select(const View& view, int budget) {
     return a.distance != b.distance ? a.distance < b.distance : a.tile < b.tile;
   });
   // The finest detail whose triangles fit: a coarse cell covers at most `pixels` of the picture.
-  float pixels = 4.0f;
+  float pixels = kFinest;
   for (; pixels < 64; pixels *= 1.25f) {
     std::int64_t triangles = 0;
     for (const Candidate& c : seen) {
@@ -150,12 +166,16 @@ std::vector<const Mesh*> Terrain::select(const View& view, int budget) {
     }
     if (triangles <= budget) break;
   }
-  std::vector<const Mesh*> out;
+  constexpr std::array<std::array<int, 2>, 4> kSides = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  std::vector<GroundPart> out;
   for (const Candidate& c : seen) {
     Tile& tile = tiles_[static_cast<std::size_t>(c.tile)];
     const int level = wanted_level(tile, view, pixels);
     if (tile.level != level) build(c.tile % tiles_x_, c.tile / tiles_x_, level);
-    out.push_back(&tile.mesh);
+    GroundPart part{&tile.mesh, {}, tile.low, tile.high};
+    for (std::size_t k = 0; k < 4; ++k)
+      part.skirts[k] = neighbour_level(c.tile, kSides[k][0], kSides[k][1], view, pixels) != level;
+    out.push_back(part);
   }
   return out;
 }
@@ -165,7 +185,7 @@ void Terrain::build(int tx, int ty, int level) {
   Mesh& mesh = tile.mesh;
   mesh.vertices.clear();
   mesh.indices.clear();
-  mesh.flat.clear();
+  for (auto& skirt : mesh.skirts) skirt.clear();
   tile.level = level;
   ++rebuilt_;
   const int stride = 1 << level;
@@ -202,11 +222,14 @@ void Terrain::build(int tx, int ty, int level) {
     east.push_back(j * width + width - 1);
     west.push_back((rows - 1 - j) * width);
   }
-  for (const auto* line : {&south, &east, &north, &west}) add_skirt(mesh, *line, drop);
+  const std::array<const std::vector<std::uint32_t>*, 4> sides = {&south, &east, &north, &west};
+  for (std::size_t k = 0; k < 4; ++k) add_skirt(mesh, mesh.skirts[k], *sides[k], drop);
 }
 
-const Mesh& Terrain::surroundings(const Lighting& lighting) {
-  if (!surroundings_stale_ || tiles_.empty()) return surroundings_;
+GroundPart Terrain::surroundings(const Lighting& lighting) {
+  constexpr float kFar = 1e4f;
+  const GroundPart part{&surroundings_, {true, false, false, false}, Vec3f::Constant(-kFar), Vec3f::Constant(kFar)};
+  if (!surroundings_stale_ || tiles_.empty()) return part;
   surroundings_stale_ = false;
   surroundings_ = {};
   // The edge as one closed line, counter-clockwise from the lower-left corner, with its way outwards.
@@ -249,7 +272,11 @@ const Mesh& Terrain::surroundings(const Lighting& lighting) {
       const std::uint32_t k = (i + 1) % around;
       add_quad(surroundings_, ring * around + k, ring * around + i, (ring + 1) * around + i, (ring + 1) * around + k);
     }
-  return surroundings_;
+  // The site's edge is finer than this one: what shows between the two is soil, not sky.
+  std::vector<std::uint32_t> line;
+  for (std::uint32_t i = 0; i <= around; ++i) line.push_back(i % around);
+  add_skirt(surroundings_, surroundings_.skirts[0], line, 2.0f);
+  return part;
 }
 
 }  // namespace navvy::render

@@ -2,6 +2,7 @@
 // The ground as triangles: tiles of 64 x 64 columns, each at the level of detail that the camera needs.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "render/ground_surface.h"
@@ -13,7 +14,17 @@ namespace navvy::render {
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
-  std::vector<std::uint32_t> flat;  ///< triangles of one colour each (skirts: slivers would smear shaded colours)
+  /// Strips hanging from the south, east, north and west edge, triangles of one colour each (slivers would smear
+  /// shaded colours).
+  std::array<std::vector<std::uint32_t>, 4> skirts;
+};
+
+/// One piece of ground to draw: its mesh, which of its skirts are needed, and the box it lies in.
+struct GroundPart {
+  const Mesh* mesh = nullptr;
+  std::array<bool, 4> skirts = {true, true, true, true};
+  Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
+  std::size_t triangles() const;
 };
 
 /// Tiles are made when first seen at a level and kept until their columns change. Seams between levels are closed by
@@ -25,10 +36,11 @@ class Terrain {
 
   /// Brings the copy of the ground up to date.
   void update(const scene::FrameGround& ground, const Lighting& lighting);
-  /// Chooses and builds the tiles that `view` needs, nearest first, at most about `budget` triangles.
-  std::vector<const Mesh*> select(const View& view, int budget);
+  /// Chooses and builds the tiles that `view` needs, nearest first, at most about `budget` triangles. Skirts are wanted
+  /// where the neighbour has another level.
+  std::vector<GroundPart> select(const View& view, int budget);
   /// Ground beyond the site's edge, from the edge's heights out to the haze.
-  const Mesh& surroundings(const Lighting& lighting);
+  GroundPart surroundings(const Lighting& lighting);
 
   const GroundSurface& surface() const { return surface_; }
   int rebuilt() const { return rebuilt_; }
@@ -44,6 +56,8 @@ class Terrain {
   int nodes_y(int tile) const { return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile; }
   void measure(int tx, int ty);
   void build(int tx, int ty, int level);
+  /// Level of the neighbour at (dx, dy) of a tile, -1 beyond the site's edge.
+  int neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const;
   int wanted_level(const Tile& tile, const View& view, float pixels) const;
 
   GroundSurface surface_;

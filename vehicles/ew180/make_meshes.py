@@ -129,8 +129,8 @@ class Mesh:
         self.rings(material, rings)
 
     def cylinder(self, material, center, axis, radius, low, high, n=20, bevel=0.01):
-        self.lathe(material, [(1e-4, low), (radius - bevel, low), (radius, low + bevel), (radius, high - bevel),
-                              (radius - bevel, high), (1e-4, high)], center, axis, n)
+        self.lathe(material, [(0, low), (radius - bevel, low), (radius, low + bevel), (radius, high - bevel),
+                              (radius - bevel, high), (0, high)], center, axis, n)
 
     def tube(self, material, path, radius, n=8):
         """A round bar along a line of points."""
@@ -214,11 +214,11 @@ def wheel_pair():
     m = Mesh()
     for k, y in enumerate((-0.16, 0.16)):
         side = 1 if y > 0 else -1
-        # Tyre: bead, side wall, shoulder, crown; then tread blocks up to the full radius.
+        # Tyre: bead, side wall, shoulder, crown, back along the rim; then tread blocks up to the full radius.
         m.lathe("rubber", [(0.285, y - 0.115), (0.33, y - 0.135), (0.40, y - 0.140), (0.46, y - 0.137),
                            (0.492, y - 0.118), (0.502, y - 0.06), (0.504, y), (0.502, y + 0.06),
                            (0.492, y + 0.118), (0.46, y + 0.137), (0.40, y + 0.140), (0.33, y + 0.135),
-                           (0.285, y + 0.115)], n=36)
+                           (0.285, y + 0.115), (0.285, y - 0.115)], n=32)
         for i in range(40):
             left = i % 2 == 0
             a = 2 * math.pi * (i + 0.5 * k) / 40
@@ -232,17 +232,18 @@ def wheel_pair():
                     for s in (-half, half):
                         b = a + s + turn * 0.6
                         blocks.append((r * math.sin(b), yy, r * math.cos(b)))
-            m.add("rubber", blocks, [[4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]])
+            m.add("rubber", blocks, [[4, 5, 7, 6], [0, 2, 3, 1], [0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]])
         # Rim: flange outside, dish towards the axle.
         flange = y + side * 0.125
-        m.lathe("rim", [(0.285, y - side * 0.115), (0.292, flange), (0.272, flange), (0.250, y + side * 0.085),
-                        (0.235, y + side * 0.02), (0.10, y + side * 0.03), (0.10, y + side * 0.05)], n=28)
+        rim = [(0.10, y - side * 0.115), (0.285, y - side * 0.115), (0.292, flange), (0.272, flange),
+               (0.250, y + side * 0.085), (0.235, y + side * 0.02), (0.10, y + side * 0.03), (0.10, y - side * 0.115)]
+        m.lathe("rim", rim[::side], n=28)
     for side in (-1, 1):
         m.cylinder("dark", (0, 0, 0), "y", 0.13, min(side * 0.17, side * 0.26), max(side * 0.17, side * 0.26), 20, 0.02)
         for i in range(10):
             a = 2 * math.pi * i / 10
             m.cylinder("steel", (0.175 * math.sin(a), 0, 0.175 * math.cos(a)), "y", 0.018,
-                       min(side * 0.17, side * 0.215), max(side * 0.17, side * 0.215), 6, 0.004)
+                       min(side * 0.17, side * 0.215), max(side * 0.17, side * 0.215), 6, 0)
     m.cylinder("dark", (0, 0, 0), "y", 0.24, -0.12, 0.12, 20)
     return m
 
@@ -381,7 +382,7 @@ def cab(m):
     m.box("black", (0.30, 0.58, 0.60), (0.70, 0.66, 0.86), 0.02)
     m.box("black", (0.30, 1.08, 0.60), (0.70, 1.16, 0.86), 0.02)
     m.tube("black", [(0.95, 0.87, 0.35), (0.86, 0.87, 0.98)], 0.03)
-    m.lathe("black", [(0.17, 0.99), (0.19, 1.01), (0.17, 1.03)], (0.86, 0.87, 0), "z", 18)
+    m.lathe("black", [(0.17, 0.99), (0.19, 1.01), (0.17, 1.03), (0.17, 0.99)], (0.86, 0.87, 0), "z", 18)
     m.tube("black", [(1.25, y1, 0.8), (1.36, y1 + 0.12, 1.1), (1.34, y1 + 0.15, 1.5)], 0.013)
     m.box("black", (1.30, y1 + 0.06, 1.28), (1.35, y1 + 0.22, 1.58), 0.015)
     m.tube("black", [(1.16, -1.16, 0.62), (1.28, -1.26, 0.95), (1.28, -1.28, 1.2)], 0.013)
