@@ -20,6 +20,9 @@ constexpr double kDensest = 0.88;
 constexpr double kMostRise = 1.15, kCrowded = 0.8;
 /// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
 constexpr double kLeastRoom = 4;
+/// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
+/// number of particles over a column scatters by 0.65.
+constexpr double kCliff = 1.5;
 /// Columns' shares of a block's volume are counted in this fraction of a cell.
 constexpr double kShareUnit = 1.0 / (1 << 20);
 
@@ -92,9 +95,9 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
   return true;
 }
 
-std::vector<Depositor::Share> Depositor::shares(int block) const {
+std::vector<Depositor::Share> Depositor::shares(Grains grains) const {
   std::vector<Share> out;
-  for (const std::uint32_t i : index_.block(block)) {
+  for (const std::uint32_t i : grains) {
     const Particle& p = index_[i];
     auto share = std::find_if(out.begin(), out.end(), [&](const Share& s) { return s.soil == p.soil; });
     if (share == out.end()) {
@@ -113,69 +116,115 @@ std::vector<Depositor::Share> Depositor::shares(int block) const {
   return out;
 }
 
-// Integer shares of the block's columns; at least one is positive.
-std::array<std::int64_t, 16> Depositor::weights(const BlockShape& shape, int block) const {
+/// Where a column's surface is with what lies on it [cells above datum].
+double Depositor::surface(int ix, int iy) const {
+  return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
+}
+
+std::array<bool, 16> Depositor::cliffs(int block) const {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  std::array<bool, 16> out{};
+  for (int c = 0; c < 16; ++c) {
+    const int ix = kBlockCells * key.second + c % 4, iy = kBlockCells * key.first + c / 4;
+    if (!ground_.contains(ix, iy)) continue;
+    const double here = surface(ix, iy);
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+      if (ground_.contains(ix + dx, iy + dy) && std::abs(surface(ix + dx, iy + dy) - here) > kCliff)
+        out[static_cast<std::size_t>(c)] = true;
+  }
+  return out;
+}
+
+// Integer shares of the block's columns that stand at no cliff; at least one is positive when soil lies over them.
+std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) const {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<std::int64_t, 16> out{};
   std::int64_t sum = 0;
   for (std::size_t c = 0; c < 16; ++c) {
-    if (!ground_.contains(kBlockCells * key.second + static_cast<int>(c % 4),
-                          kBlockCells * key.first + static_cast<int>(c / 4)))
+    if (plan.cliff[c] || !ground_.contains(kBlockCells * key.second + static_cast<int>(c % 4),
+                                           kBlockCells * key.first + static_cast<int>(c / 4)))
       continue;
-    out[c] = std::llround((shape.surface[c] - shape.ground[c]) / kShareUnit);
+    out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
   }
   if (sum > 0) return out;
   // A few grains that do not show in the surface stay in their columns.
-  for (std::size_t c = 0; c < 16; ++c)
+  for (std::size_t c = 0; c < 16; ++c) {
+    if (plan.cliff[c]) continue;
     for (const std::uint32_t i : index_.column(kBlockCells * key.second + static_cast<int>(c % 4),
                                                kBlockCells * key.first + static_cast<int>(c / 4)))
       out[c] += index_[i].mass;
+  }
   return out;
 }
 
 std::vector<int> Depositor::deposit(std::span<const int> blocks) {
   ShapeFinder finder(ground_, index_);
   std::vector<int> taken;
-  std::vector<BlockShape> shapes;
+  std::vector<Plan> plans;
   for (const int block : blocks) {
     const BlockShape shape = finder.find(index_.blocks()[static_cast<std::size_t>(block)]);
     if (shape.hollow) continue;
     taken.push_back(block);
-    shapes.push_back(shape);
+    plans.push_back({shape, cliffs(block)});
   }
-  for (std::size_t i = 0; i < taken.size(); ++i) book(shapes[i], taken[i]);
+  for (std::size_t i = 0; i < taken.size(); ++i) book(plans[i], taken[i]);
   return taken;
 }
 
-// Volume of the soils' density states over that under the surface.
-double Depositor::crowding(const std::vector<Share>& shares, const BlockShape& shape) const {
+// Volume of the soils' density states over that under the surface, cliffs left out.
+double Depositor::crowding(const std::vector<Share>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
   double state = 0, room = 0;
   for (const Share& share : shares)
     state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
-  for (std::size_t c = 0; c < 16; ++c) room += shape.surface[c] - shape.ground[c];
+  for (std::size_t c = 0; c < 16; ++c)
+    if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
   // A few crumbs that the surface does not show are not crowded.
   return room > kLeastRoom ? state / room : 1.0;
 }
 
-void Depositor::book(const BlockShape& shape, int block) {
+// The soil's layer, still without mass; `rise`: how much its state stands over its surface.
+heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
+  const double mass = static_cast<double>(share.mass);
+  heightfield::Layer layer;
+  layer.soil = share.soil;
+  double state = std::clamp(share.volume / mass, kDensest, ground_.setup().soils[share.soil].swell);
+  if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
+  layer.specific_volume = static_cast<float>(state);
+  layer.plastic_shear = static_cast<float>(share.shear / mass);
+  return layer;
+}
+
+void Depositor::book_column(int ix, int iy) {
+  for (const Share& share : shares(index_.column(ix, iy))) {
+    heightfield::Layer layer = layer_of(share, 1);
+    layer.mass = share.mass;
+    ground_.put(ix, iy, layer);
+  }
+}
+
+void Depositor::book(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
-  const std::array<std::int64_t, 16> weight = weights(shape, block);
+  const std::array<std::int64_t, 16> weight = weights(plan, block);
   const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   std::int64_t sum = 0;
   for (const std::int64_t w : weight) sum += w;
 
-  const std::vector<Share> found = shares(block);
-  const double rise = crowding(found, shape);
+  std::vector<std::uint32_t> pooled;
+  for (std::size_t c = 0; c < 16; ++c) {
+    const int ix = kBlockCells * key.second + static_cast<int>(c % 4),
+              iy = kBlockCells * key.first + static_cast<int>(c / 4);
+    const Grains grains = index_.column(ix, iy);
+    if (plan.cliff[c])
+      book_column(ix, iy);
+    else
+      pooled.insert(pooled.end(), grains.begin(), grains.end());
+  }
+  const std::vector<Share> found = shares(pooled);
+  const double rise = crowding(found, plan);
   for (const Share& share : found) {
-    const double mass = static_cast<double>(share.mass);
-    heightfield::Layer layer;
-    layer.soil = share.soil;
-    double state = std::clamp(share.volume / mass, kDensest, ground_.setup().soils[share.soil].swell);
-    if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
-    layer.specific_volume = static_cast<float>(state);
-    layer.plastic_shear = static_cast<float>(share.shear / mass);
+    heightfield::Layer layer = layer_of(share, rise);
     std::array<std::int64_t, 16> part{};
     std::int64_t left = share.mass;
     for (std::size_t c = 0; c < 16; ++c) {

@@ -2,6 +2,7 @@
 // Books soil that came to rest back into the columns, a block of 4 x 4 columns at a time.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <span>
@@ -28,7 +29,8 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 /// The density state alone decides the volume: each soil of a block becomes one layer a column with the mass-weighted
 /// mean j0 of its particles, clamped to [0.88, swell] (denser only where particles crowd into much less room than
 /// that). The iso-surface decides how the block's volume is spread over its columns; masses are shared in integers,
-/// what rounding leaves goes to the highest column.
+/// what rounding leaves goes to the highest column. Beside a cliff the iso-surface is round and would wear the edge a
+/// little at every wake and deposit: columns there keep what lies over each of them.
 class Depositor {
  public:
   Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
@@ -43,11 +45,21 @@ class Depositor {
     std::int64_t mass = 0;
     double volume = 0, shear = 0, height = 0;  // mass-weighted sums
   };
-  std::vector<Share> shares(int block) const;
-  std::array<std::int64_t, 16> weights(const BlockShape& shape, int block) const;
+  /// A block about to be booked: its surface, and which columns (x fastest) stand beside a cliff.
+  struct Plan {
+    BlockShape shape;
+    std::array<bool, 16> cliff{};
+  };
+  using Grains = std::span<const std::uint32_t>;
+  std::vector<Share> shares(Grains grains) const;
+  std::array<std::int64_t, 16> weights(const Plan& plan, int block) const;
+  std::array<bool, 16> cliffs(int block) const;
+  double surface(int ix, int iy) const;
 
-  double crowding(const std::vector<Share>& shares, const BlockShape& shape) const;
-  void book(const BlockShape& shape, int block);
+  double crowding(const std::vector<Share>& shares, const Plan& plan) const;
+  heightfield::Layer layer_of(const Share& share, double rise) const;
+  void book(const Plan& plan, int block);
+  void book_column(int ix, int iy);
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;
