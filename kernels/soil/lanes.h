@@ -71,6 +71,13 @@ typedef float16 real;
     TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                                    \
   } while (0)
 
+// Whether a lane of a comparison is true. any() of PoCL asks one lane after the other.
+static inline bool some(int16 lanes) {
+  const int8 eight = lanes.lo | lanes.hi;
+  const int4 four = eight.lo | eight.hi;
+  return ((four.x | four.y) | (four.z | four.w)) != 0;
+}
+
 // Slot of particle l among the float4s of a turned pack.
 static inline int turned(int l) { return (l & 3) * 4 + (l >> 2); }
 

@@ -159,7 +159,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
 
     // A sum is finite only if each term is; lanes past the count hold zeros.
     const real sum = (x + y + z) + (px + py + pz) + (axx + ayy + azz) + (j + j0 + shear) + (s[3] + s[4] + s[5]);
-    broken |= any(!isfinite(sum));
+    broken |= some(!isfinite(sum));
 
     real w0, w1, w2;
     spline(fy, &w0, &w1, &w2);

@@ -59,7 +59,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     for (int l = 0; l < 16; ++l)
       tool_of[l] = feature[l] < 0 ? -1 : as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
     const int16 tool_lanes = vload16(0, tool_of);
-    if (any(best.distance2 < band * band))
+    if (some(best.distance2 < band * band))
       for (int r = first_rim; r < first_tool; r += 2) {
         const real e2 = segment_distance2(best.x, best.y, best.z, triangles[r].xyz, triangles[r + 1].xyz);
         inset2 = select(inset2, fmin(inset2, e2), tool_lanes == as_int(triangles[r].w));
@@ -103,8 +103,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     Closest best;
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
     query(x, y, z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
+    // Out of the band and never inside it: nothing to keep.
+    const int16 tags = as_int16(LOAD(FIELD_TAG));
+    const int16 near_shell = best.distance2 < band * band | tags >> 16 != 0;
+    if (!some(near_shell)) continue;
     float d2[16], cx[16], cy[16], cz[16], px[16], py[16], pz[16];
-    int feature[16], tag[16];
+    int feature[16], tag[16], concerned[16];
+    vstore16(near_shell, 0, concerned);
     vstore16(best.feature, 0, feature);
     vstore16(best.distance2, 0, d2);
     vstore16(best.x, 0, cx);
@@ -113,8 +118,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     vstore16(x, 0, px);
     vstore16(y, 0, py);
     vstore16(z, 0, pz);
-    vstore16(as_int16(LOAD(FIELD_TAG)), 0, tag);
+    vstore16(tags, 0, tag);
     for (int l = 0; l < count; ++l) {
+      if (!concerned[l]) continue;
       const int old_side = tag[l] >> 16;
       int side = 0;
       float phi = 0.0f;

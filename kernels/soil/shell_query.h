@@ -39,11 +39,11 @@ static inline void closest_triangle(real px, real py, real pz, global const floa
   global const float4* at = triangles + SHELL_WORDS * t;
   const float3 a = at[0].xyz, b = at[1].xyz, c = at[2].xyz, n = at[3].xyz;
   const real height = (px - a.x) * n.x + (py - a.y) * n.y + (pz - a.z) * n.z;
-  if (!any(fabs(height) < far)) return;
+  if (!some(fabs(height) < far)) return;
   const float3 centre = (a + b + c) * (1.0f / 3.0f);
   const float reach = far + at[1].w;
   const real ox = px - centre.x, oy = py - centre.y, oz = pz - centre.z;
-  if (!any(ox * ox + oy * oy + oz * oz < reach * reach)) return;
+  if (!some(ox * ox + oy * oy + oz * oz < reach * reach)) return;
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
   const int16 inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
                        ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &

@@ -46,10 +46,11 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
   capacity_ = bytes;
 }
 
-void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes) {
+void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, bool wait) {
   if (bytes == 0) return;
   const Device::State& device = *memory_->device;
-  check(clEnqueueWriteBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+  check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset, bytes, data, 0, nullptr,
+                             nullptr),
         "clEnqueueWriteBuffer", device);
 }
 
@@ -86,14 +87,14 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
   write(values.data(), offset, bytes);
 }
 
-void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes) const {
+void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   const Device::State& device = *memory_->device;
   cl_map_flags flags = CL_MAP_READ;
   if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
   if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
-  void* at =
-      clEnqueueMapBuffer(device.queue, memory_->memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
+  void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
+                                nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
   return at;
 }

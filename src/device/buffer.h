@@ -21,12 +21,12 @@ class RawBuffer {
   RawBuffer(Device& device, std::size_t bytes);
   /// Makes room for `bytes`, keeping the first `keep` of them.
   void reserve(std::size_t bytes, std::size_t keep);
-  void write(const void* data, std::size_t offset, std::size_t bytes);
+  void write(const void* data, std::size_t offset, std::size_t bytes, bool wait = true);
   void read(void* data, std::size_t offset, std::size_t bytes) const;
   void copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes);
   void fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes);
   enum class Access { kRead, kOverwrite, kUpdate };
-  void* map(Access access, std::size_t offset, std::size_t bytes) const;
+  void* map(Access access, std::size_t offset, std::size_t bytes, bool wait = true) const;
   void unmap(void* at) const noexcept;
   std::size_t capacity() const { return capacity_; }
   void* handle() const;  ///< the cl_mem
@@ -65,8 +65,8 @@ class Mapped {
 /// `size()` values of T on one device, zero-copy when the device shares the host's memory.
 ///
 /// New memory is not initialised. An empty buffer is allowed and can be a kernel's argument. Moving is cheap, copying
-/// is not offered. `write`, `read` and maps wait for what was queued before; `fill`, `copy_from` and `resize` do not
-/// wait.
+/// is not offered. `write`, `read` and maps wait for what was queued before; `fill`, `copy_from`, `resize` and
+/// what is called `..._later` do not wait.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>, "device memory holds plain values");
@@ -94,6 +94,11 @@ class Buffer {
     need(at, values.size());
     raw_.write(values.data(), at * sizeof(T), values.size() * sizeof(T));
   }
+  /// The same without waiting: `values` must stay as they are until a later call has waited.
+  void write_later(std::span<const T> values, std::size_t at = 0) {
+    need(at, values.size());
+    raw_.write(values.data(), at * sizeof(T), values.size() * sizeof(T), false);
+  }
   void read(std::span<T> values, std::size_t at = 0) const {
     need(at, values.size());
     raw_.read(values.data(), at * sizeof(T), values.size() * sizeof(T));
@@ -120,6 +125,10 @@ class Buffer {
   Mapped<const T> map_read(std::size_t at = 0, std::size_t count = npos) const {
     return mapped<const T>(RawBuffer::Access::kRead, at, count);
   }
+  /// The same without waiting: the values are there once a later call has waited.
+  Mapped<const T> map_read_later(std::size_t at = 0, std::size_t count = npos) const {
+    return mapped<const T>(RawBuffer::Access::kRead, at, count, false);
+  }
   /// The values, every one of which the caller will write; what they were is lost.
   Mapped<T> map_write(std::size_t at = 0, std::size_t count = npos) {
     return mapped<T>(RawBuffer::Access::kOverwrite, at, count);
@@ -140,10 +149,10 @@ class Buffer {
     }
   }
   template <class U>
-  Mapped<U> mapped(RawBuffer::Access access, std::size_t at, std::size_t count) const {
+  Mapped<U> mapped(RawBuffer::Access access, std::size_t at, std::size_t count, bool wait = true) const {
     if (count == npos) count = at <= size_ ? size_ - at : 0;
     need(at, count);
-    void* data = count == 0 ? nullptr : raw_.map(access, at * sizeof(T), count * sizeof(T));
+    void* data = count == 0 ? nullptr : raw_.map(access, at * sizeof(T), count * sizeof(T), wait);
     return Mapped<U>(&raw_, static_cast<U*>(data), count);
   }
   RawBuffer raw_;

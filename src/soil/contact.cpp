@@ -83,17 +83,24 @@ void book_node(const float* at, const Vec3& r, ToolImpulse& out, Momentum& sum) 
 
 }  // namespace
 
-void Contact::book(std::span<ToolImpulse> impulses) const {
+void Contact::read_later() {
   if (nodes_.count == 0 || motions_.empty()) return;
+  const auto slots = static_cast<std::size_t>(nodes_.count);
+  results_.emplace(Books{touched_.map_read_later(0, slots), node_tool_.map_read_later(0, slots * BLOCK_NODES),
+                         books_.map_read_later(0, slots * BLOCK_NODES * 16)});
+}
+
+void Contact::book(std::span<ToolImpulse> impulses) {
+  if (!results_) return;
+  const Books read = std::move(*results_);
+  results_.reset();
   const auto slots = static_cast<std::size_t>(nodes_.count);
   std::vector<int> motion_of(tools_.size(), -1);
   for (std::size_t m = 0; m < motions_.size(); ++m)
     motion_of[static_cast<std::size_t>(motions_[m].tool)] = static_cast<int>(m);
   std::vector<Momentum> momentum(motions_.size());
-  const auto touched = touched_.map_read(0, slots);
+  const auto& [touched, tool_of, books] = read;
   if (std::none_of(touched.begin(), touched.end(), [](std::int32_t t) { return t != 0; })) return;
-  const auto tool_of = node_tool_.map_read(0, slots * BLOCK_NODES);
-  const auto books = books_.map_read(0, slots * BLOCK_NODES * 16);
 
   for (std::size_t slot = 0; slot < slots; ++slot) {
     if (touched[slot] == 0) continue;

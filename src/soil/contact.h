@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,13 +53,20 @@ class Contact {
   void classify(ParticleStore& store, Transfer& transfer);
   /// Queues the two-way solve and the impulses on the nodes.
   void solve(Transfer& transfer, double dt);
-  /// Waits and sums what the tools felt; `impulses` parallel to the motions.
-  void book(std::span<ToolImpulse> impulses) const;
+  /// Queues reading what the tools felt.
+  void read_later();
+  /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
+  void book(std::span<ToolImpulse> impulses);
 
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
 
  private:
+  /// Results of contact_apply and shell_nodes, mapped for the host.
+  struct Books {
+    device::Mapped<const std::int32_t> touched, tool_of;
+    device::Mapped<const float> nodes;
+  };
   struct Tool {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
@@ -95,6 +103,8 @@ class Contact {
   device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
       touched_;
   int first_rim_ = 0, first_tool_ = 0;  ///< float4 numbers in the frame
+  std::vector<float> frame_words_;      ///< what the device may still be reading
+  std::optional<Books> results_;
 };
 
 }  // namespace navvy::soil

@@ -188,7 +188,9 @@ void Contact::append_tool(std::size_t index, std::vector<float>& words) const {
 }
 
 void Contact::upload_frame() {
-  std::vector<float> words, rims, tools;
+  std::vector<float>& words = frame_words_;
+  std::vector<float> rims, tools;
+  words.clear();
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Tool& tool = tools_[t];
     const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
@@ -213,7 +215,8 @@ void Contact::upload_frame() {
   words.insert(words.end(), rims.begin(), rims.end());
   first_tool_ = static_cast<int>(words.size() / 4);
   words.insert(words.end(), tools.begin(), tools.end());
-  upload(device_, frame_, words);
+  ensure(device_, frame_, words.size());
+  frame_.write_later(words);
 }
 
 void Contact::classify(ParticleStore& store, Transfer& transfer) {

@@ -139,6 +139,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
       transfer.scatter(store, contact.nodes(), dt, cell, world.gravity);
       contact.solve(transfer, dt);
       transfer.gather(store, contact.nodes(), dt, cell);
+      contact.read_later();
     }
     Transfer::Report report;
     {
