@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/rig_list.h"
+#include "lab/tool_list.h"
 
 namespace navvy::lab {
 
@@ -8,6 +9,7 @@ const std::vector<Rig>& rigs() {
       // Soil by itself.
       rest(), column(), pour(), cone(), slope(), slide(), throw_apart(), swell(),
       // Soil and tools.
+      blade(), wall(),
   };
   return list;
 }

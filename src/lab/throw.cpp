@@ -15,7 +15,8 @@ namespace {
 
 /// Volumes over bank volume, by two independent measures.
 struct Volume {
-  double by_surface = 0;  ///< mean height in the middle of the bin x its area
+  double by_surface = 0;  ///< under the surface, over the whole bin
+  double in_middle = 0;   ///< the same two cells clear of the walls: mean height over bank height
   double by_state = 0;    ///< sum of mass x tracked volume ratio
   double rms = 0;         ///< speed [m/s]
 };
@@ -24,11 +25,14 @@ Volume measure(const Site& site, double edge, double floor, double bank_height) 
   Volume out;
   const auto particles = site.solver().particles();
   const Surface surface = surface_of(in_contact(site, particles), site.cell(), floor);
-  double sum = 0, count = 0, mass = 0, swollen = 0, speed = 0;
+  double whole = 0, whole_count = 0, sum = 0, count = 0, mass = 0, swollen = 0, speed = 0;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
-      // Two cells clear of the walls, where grains stand off.
-      if (surface.middle(ix, iy).cwiseAbs().maxCoeff() > edge / 2 - 2 * site.cell()) continue;
+      const double off_middle = surface.middle(ix, iy).cwiseAbs().maxCoeff();
+      if (off_middle > edge / 2 - 0.5 * site.cell()) continue;
+      whole += surface.at(ix, iy) - floor;
+      whole_count += 1;
+      if (off_middle > edge / 2 - 2 * site.cell()) continue;
       sum += surface.at(ix, iy) - floor;
       count += 1;
     }
@@ -37,7 +41,8 @@ Volume measure(const Site& site, double edge, double floor, double bank_height) 
     swollen += p.mass * static_cast<double>(p.j);
     speed += static_cast<double>(p.v[0] * p.v[0] + p.v[1] * p.v[1] + p.v[2] * p.v[2]);
   }
-  out.by_surface = sum / count / bank_height;
+  out.by_surface = whole / whole_count / bank_height;
+  out.in_middle = sum / count / bank_height;
   out.by_state = swollen / mass;
   out.rms = std::sqrt(speed / static_cast<double>(particles.size()));
   return out;
@@ -97,6 +102,7 @@ Report run(const Setup& setup) {
              "VALIDATION 1");
   report.add("V/V0 by mass and state", after.by_state / before.by_state, "", swell, 0.95 * swell, 1.05 * swell,
              "VALIDATION 1");
+  report.note("V/V0 by the surface, in the middle", after.in_middle / before.in_middle, "");
   report.note("surface over state before the throw", before.by_surface / before.by_state, "", "bias of the measure");
   report.note("rms speed at the end", 1000 * after.rms, "mm/s");
   report.note("particles through a wall", static_cast<double>(flying.solver().stats().shell_crossings), "");
@@ -114,8 +120,8 @@ Rig throw_apart() {
   rig.drawing =
       "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest every grain gets a "
       "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up to 0.5 m/s "
-      "aside: the soil opens, flies and lands. After the flight and `rest` the volume is read twice: from the height "
-      "of the surface in the middle of the bin, and as mass times the tracked volume ratio. Soils with swell must land "
+      "aside: the soil opens, flies and lands. After the flight and `rest` the volume is read twice: from the surface "
+      "over the particles, and as mass times the tracked volume ratio. Soils with swell must land "
       "at it.";
   rig.parameters = {{"edge", 1.2, "m", "of the bin"},
                     {"height", 0.6, "m", "depth of the soil"},

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rigs `blade` and `wall`: a flat plate pushed into the ground or drawn back from it.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "lab/chute.h"
+#include "lab/formulas.h"
+#include "lab/shapes.h"
+#include "lab/tool_list.h"
+
+namespace navvy::lab {
+namespace {
+
+BladeCase blade_case(const Setup& setup, double depth, double width) {
+  const scene::Soil& s = setup.soil;
+  BladeCase out;
+  out.phi = s.friction_angle, out.delta = s.tool_friction_angle, out.rake = radians(setup["rake-deg"]);
+  out.depth = depth, out.width = width;
+  out.unit_weight = s.bank_density * kGravity, out.cohesion = s.cohesion, out.adhesion = s.adhesion;
+  return out;
+}
+
+/// Inside the ground and not in the trench that stands open behind a blade's face, lip at x = 0. The lattice of
+/// particles begins a quarter of a cell ahead of an upright face.
+bool ahead_of_blade(const Vec3& p, double depth, double rake, double cell) {
+  return p.z() < -depth || p.x() + (p.z() + depth) / std::tan(rake) > 0.1 * cell / std::sin(rake);
+}
+
+/// The surface for the stress at rest.
+std::function<double(double, double)> trench(double depth) {
+  return [depth](double x, double) { return x > 0 ? 0.0 : -depth; };
+}
+
+void check_cut(const Setup& setup) {
+  const double rake = setup["rake-deg"];
+  if (rake < 15 || rake > 150)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "rake-deg", std::to_string(rake), "15 .. 150 degrees",
+                           "90 is an upright blade"});
+}
+
+/// What both kinds of bed read off the trace.
+void read_force(const Setup& setup, const ToolDriver& driver, double scale, const BladeForce& formula,
+                const std::string& source, Report& report) {
+  const double from = setup["from"], to = setup["travel"];
+  const Vec3 force = scale * mean_force(driver.trace(), from, to),
+             scatter = scale * force_scatter(driver.trace(), from, to);
+  const double given = setup["expected-n"];
+  const double expected = given > 0 ? given : formula.horizontal;
+  const double gate = setup["gate-percent"] / 100;
+  report.add("horizontal force", -force.x(), "N", expected, gate > 0 ? (1 - gate) * expected : kNone,
+             gate > 0 ? (1 + gate) * expected : kNone, given > 0 ? "given" : source);
+  if (given > 0)
+    report.add("horizontal force, against the formula", -force.x(), "N", formula.horizontal, kNone, kNone, source);
+  report.add("vertical force on the blade, down", -force.z(), "N", formula.vertical, kNone, kNone, source);
+  report.note("horizontal over expected", -force.x() / expected, "");
+  report.note("scatter of the force", 100 * scatter.x() / std::abs(force.x()), "%",
+              "rms about the mean over its window");
+  double peak = 0;
+  const auto smooth = [&] {
+    std::vector<double> x;
+    for (const Vec3& f : driver.trace().force) x.push_back(-scale * f.x());
+    return low_pass(driver.trace().time, x, std::max(1.0, setup["speed"] / (2 * setup.cell)));
+  }();
+  for (const double x : smooth) peak = std::max(peak, x);
+  report.note("peak, low-passed at v / (2 cells)", peak, "N");
+}
+
+Report finish(Site& site, const ToolDriver& driver, Report report) {
+  report.note("particles through the blade", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
+  driver.write(report, 20);
+  site.finish(report);
+  return report;
+}
+
+/// Plane strain: the blade spans a chute. Forces are scaled to `width`.
+Report run_plane(const Setup& setup) {
+  const double cell = setup.cell, depth = setup["depth"], width = setup["width"], rake = radians(setup["rake-deg"]);
+  const double reach = setup["travel"] + setup["ahead"] * depth;
+  double share = 0;
+  const double gap = chute_gap(setup, share);
+  const double below = cell * std::ceil((depth * (1 + setup["below"])) / cell - 1e-9);
+  const ChuteBed bed{6 * cell, cell * std::ceil(reach / cell), below};
+  Site site(*setup.device, chute_soils(setup.soil), cell, chute_site(setup, bed, gap));
+  ChuteShape shape;
+  shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = depth + setup["above"] * depth,
+  shape.top = shape.height;
+  shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell, shape.bottom = depth - below - 2 * cell;
+  auto soil = chute_fill(
+      site, bed, gap, share > 0, [&](const Vec3& p) { return ahead_of_blade(p, depth, rake, cell); }, trench(depth));
+  site.solver().insert(soil);
+  ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -depth));
+  const double speed = setup["speed"];
+  site.expect(setup["travel"] / speed);
+  driver.advance(setup["travel"], Vec3(speed, 0, 0));
+
+  BladeCase rough = blade_case(setup, depth, width), smooth = rough;
+  smooth.delta = smooth.adhesion = 0;
+  BladeForce formula = reece_wedge(smooth);
+  const BladeForce other = reece_wedge(rough);
+  formula.horizontal += share * (other.horizontal - formula.horizontal);
+  formula.vertical += share * (other.vertical - formula.vertical);
+  Report report;
+  read_force(setup, driver, width / gap, formula, "Reece 1964 (smooth and upright: Rankine); VALIDATION 3", report);
+  if (share > 0) report.note("share of the blade that is rough", share, "", "the formula is weighted by it");
+  return finish(site, driver, report);
+}
+
+/// A blade of finite width in open ground.
+Report run_open(const Setup& setup) {
+  const double cell = setup.cell, depth = setup["depth"], width = setup["width"], rake = radians(setup["rake-deg"]);
+  const double side = width / 2 + setup["beside"] * depth;
+  const double up = cell * std::ceil((depth * (1 + setup["below"])) / cell - 1e-9);
+  const auto whole = [cell](double x) { return cell * std::ceil(x / cell - 1e-9); };
+  const Box bed{Vec3(-whole(2 * depth), -whole(side), -up),
+                Vec3(whole(setup["travel"] + setup["ahead"] * depth), whole(side), 0)};
+  SiteOptions options;
+  options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 8 * cell);
+  options.depth = up + 8 * cell;
+  options.surface = pit(bed);
+  Site site(setup, options);
+  auto soil = site.fill(bed, [&](const Vec3& p) {
+    return std::abs(p.y()) > width / 2 + 0.5 * cell || ahead_of_blade(p, depth, rake, cell);
+  });
+  site.rest(soil, [=](double x, double y) { return x > 0 || std::abs(y) > width / 2 ? 0.0 : -depth; });
+  site.solver().insert(soil);
+  scene::Shell shell = blade(width, depth * (1 + setup["above"]), rake);
+  shell.half_thickness = setup["thick"] / 2;
+  ToolDriver driver(site, shell, make_pose(-shell.half_thickness / std::sin(rake), 0.07 * cell, -depth));
+  const double speed = setup["speed"];
+  site.expect(setup["travel"] / speed);
+  driver.advance(setup["travel"], Vec3(speed, 0, 0));
+  Report report;
+  read_force(setup, driver, 1, mckyes_ali(blade_case(setup, depth, width)), "McKyes and Ali 1977; VALIDATION 3",
+             report);
+  report.add("2-D wedge alone", -mean_force(driver.trace(), setup["from"], setup["travel"]).x(), "N",
+             reece_wedge(blade_case(setup, depth, width)).horizontal, kNone, kNone, "Reece 1964");
+  return finish(site, driver, report);
+}
+
+Report run_blade(const Setup& setup) {
+  check_cut(setup);
+  return setup.whole("plane") == 1 ? run_plane(setup) : run_open(setup);
+}
+
+// The wall.
+
+/// Force per metre at three stages: before it moves, at its least (active) or over the last fifth (passive).
+Report run_wall(const Setup& setup) {
+  const double cell = setup.cell, height = setup["height"], speed = setup["speed"], travel = setup["travel"] * height;
+  const bool passive = setup["travel"] > 0;
+  double share = 0;
+  const double gap = chute_gap(setup, share);
+  const double below = cell * std::ceil(height * (1 + setup["below"]) / cell - 1e-9);
+  const ChuteBed bed{6 * cell, cell * std::ceil((std::abs(travel) + setup["ahead"] * height) / cell), below};
+  Site site(*setup.device, chute_soils(setup.soil), cell, chute_site(setup, bed, gap));
+  ChuteShape shape;
+  shape.half = chute_half(cell), shape.gap = gap, shape.height = shape.top = height + 4 * cell;
+  shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell + std::abs(travel),
+  shape.bottom = height - below - 2 * cell;
+  site.solver().insert(chute_fill(
+      site, bed, gap, share > 0, [&](const Vec3& p) { return ahead_of_blade(p, height, kPi / 2, cell); },
+      trench(height)));
+  ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -height));
+  const double seconds = std::abs(travel) / speed;
+  site.expect(setup["wait"] + seconds);
+  driver.run(0.7 * setup["wait"]);
+  const double at_rest = -driver.run(0.3 * setup["wait"]).x() / gap;
+  driver.set_twist(Vec3(passive ? speed : -speed, 0, 0));
+  driver.run(0.8 * seconds);
+  const Vec3 last = -driver.run(0.2 * seconds) / gap;
+
+  const scene::Soil& s = setup.soil;
+  const double weight = s.bank_density * kGravity, k0 = s.poisson / (1 - s.poisson);
+  const double expected = passive ? rankine_passive_force(s.friction_angle, s.cohesion, weight, height)
+                                  : rankine_active_force(s.friction_angle, s.cohesion, weight, height);
+  Report report;
+  report.add("force at rest", at_rest, "N/m", 0.5 * weight * height * height * k0, kNone, kNone, "K0 = nu / (1 - nu)");
+  const bool gated = share == 0;
+  report.add(passive ? "passive force" : "active force", last.x(), "N/m", expected, gated ? 0.9 * expected : kNone,
+             gated ? 1.1 * expected : kNone, gated ? "Rankine; VALIDATION 1" : "Rankine, smooth wall: for comparison");
+  if (gated) report.note("coefficient", last.x() / (0.5 * weight * height * height), "", "of 0.5 gamma H2");
+  if (!gated && passive) {
+    BladeCase rough = blade_case(setup, height, 1), smooth = rough;
+    smooth.delta = smooth.adhesion = 0;
+    const double wedge = (1 - share) * reece_wedge(smooth).horizontal + share * reece_wedge(rough).horizontal;
+    report.add("passive force, rough wall", last.x(), "N/m", wedge, kNone, kNone,
+               "Reece 1964, planar wedge: an upper bound");
+  }
+  report.add("vertical over horizontal", last.z() / last.x(), "",
+             passive ? share * std::tan(s.tool_friction_angle) : kNone, kNone, kNone,
+             "tan delta times the rough share");
+  return finish(site, driver, report);
+}
+
+const std::vector<Parameter> kBlade = {
+    {"width", 1, "m", "of the blade; with plane 1 forces are scaled to it"},
+    {"depth", 0.3, "m", "of the lip under the ground"},
+    {"rake-deg", 90, "deg", "of the blade's face with the ground ahead; 90 is upright"},
+    {"speed", 0.3, "m/s", "ahead"},
+    {"from", 0.03, "m", "of travel at which the mean begins"},
+    {"travel", 0.07, "m", "at which it ends"},
+    {"plane", 1, "", "1: plane strain between smooth plates; 0: a blade of its width in open ground"},
+    {"ahead", 3, "depths", "of soil in front after the travel"},
+    {"beside", 2, "depths", "of soil on either side (plane 0)"},
+    {"below", 1, "depths", "of soil under the lip"},
+    {"thick", 0.01, "m", "of the plate (plane 0; plane 1: half a cell, only its face counts)"},
+    {"above", 1, "depths", "of blade over the ground"},
+    {"expected-n", 0, "N", "a measured force to be held against instead of the formula; 0: none"},
+    {"gate-percent", 15, "%", "of the expected force; 0: no gate"}};
+
+}  // namespace
+
+Rig blade() {
+  Rig rig;
+  rig.name = "blade";
+  rig.summary = "flat blade pushed through the ground: force against wedge theory or an experiment";
+  rig.drawing =
+      "A plate with its lip `depth` under level ground, a trench open behind it, moves ahead at `speed`. The force is "
+      "the "
+      "mean of the soil's impulses while the travel is between `from` and `travel`. Plane 1: the plate spans a chute "
+      "of "
+      "smooth side plates that travel with it (with tool friction: 24 cells wide, the outer 4 on either side without, "
+      "and "
+      "the formula weighted alike). Plane 0: open ground, expected McKyes and Ali. Obermayr 2011: --plane 0 --width "
+      "0.2 "
+      "--depth 0.10 (0.15 0.20 0.25) --density 1440 --phi-deg 35 --delta-deg 16.2 --speed 0.45 --from 0.5 --travel 1.5 "
+      "--expected-n 280 (505 820 1310) --gate-percent 25 --cell 0.05. Hatamura 1977: --plane 0 --width 0.33 --rake-deg "
+      "30 "
+      "(45 60) --phi-deg 38 --delta-deg 26.6 --density 1460 --depth 0.10 --cell 0.025 --expected-n 259 (400 605) "
+      "--gate-percent 30 --from 0.1 --travel 0.2.";
+  rig.parameters = kBlade;
+  rig.default_soil = clean_sand(35);
+  rig.default_soil.tool_friction_angle = 0;
+  rig.run = run_blade;
+  return rig;
+}
+
+Rig wall() {
+  Rig rig;
+  rig.name = "wall";
+  rig.summary = "retaining wall: active and passive earth pressure against Rankine";
+  rig.drawing =
+      "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` it moves `travel` "
+      "heights: towards the soil when positive (passive), away when negative (active, --travel -0.02). Plane strain: "
+      "the "
+      "wall spans a chute of smooth side plates. The force at rest is the mean of the last third of the wait, the "
+      "other "
+      "the mean over the last fifth of the travel. With --delta-deg the wall is rough over its middle two thirds.";
+  rig.parameters = {{"height", 1, "m", "of the wall"},
+                    {"travel", 0.1, "heights", "positive: passive, negative: active"},
+                    {"speed", 0.1, "m/s", "of the wall"},
+                    {"wait", 0.3, "s", "at rest before it moves"},
+                    {"rake-deg", 90, "deg", "for the wedge formula"},
+                    {"ahead", 3, "heights", "of soil in front"},
+                    {"below", 0.5, "heights", "of soil under the toe"}};
+  rig.default_soil = clean_sand(35);
+  rig.default_soil.tool_friction_angle = 0;
+  rig.run = run_wall;
+  return rig;
+}
+
+}  // namespace navvy::lab
