@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shipped scenes with other values, one device for all cases of the program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+#include "scene_io/loader.h"
+#include "sim/session.h"
+
+namespace navvy::validation {
+
+/// A shipped scene without pictures; `settings` as with `navvy run --set`.
+inline scene::World load_scene(const std::string& name, const std::vector<std::string>& settings = {}) {
+  scene_io::Overrides overrides;
+  overrides.render = false;
+  for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+}
+
+/// Kernels build once.
+inline device::Device& shared_device() {
+  static device::Device device;
+  return device;
+}
+
+inline void run_to(sim::Session& session, double time) {
+  while (session.world().time() < time) session.step();
+}
+
+}  // namespace navvy::validation
