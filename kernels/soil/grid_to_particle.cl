@@ -41,7 +41,7 @@ typedef struct Rows {
   float16 row[9];
 } Rows;
 
-static inline void load_rows(const float* tile, int node, Rows* rows) {
+INLINED void load_rows(const float* tile, int node, Rows* rows) {
   UNROLL
   for (int k = 0; k < 3; ++k)
     UNROLL
@@ -49,7 +49,7 @@ static inline void load_rows(const float* tile, int node, Rows* rows) {
 }
 
 // v and its first moments about the base node of one particle: (v | dx | dy | dz) as float4s.
-static inline void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
+INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
                           float4* my, float4* mz) {
   float16 sum = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
   const float w0 = wy[0], w1 = wy[16], w2 = wy[32];
@@ -121,7 +121,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     spline(fx, &w0, &w1, &w2);
     TURN(wxs, w0, w1, w2, zero);
     const int16 side = as_int16(LOAD(FIELD_TAG)) >> 16;
-    const int16 which = home.w ? select((int16)(0), 2 - (side & 1), side > 0) : (int16)(0);
+    const int16 which = side > 0 ? 2 - (side & 1) : 0;
     vstore16(convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1) + which * TILE_NODES, 0,
              nodes);
     for (int l = 0; l < count; ++l) {
@@ -160,7 +160,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     STORE(FIELD_X + 1, y + (dt / dx) * v[1]);
     STORE(FIELD_X + 2, z + (dt / dx) * v[2]);
     const real largest = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
-    fastest = fmax(fastest, select((real)(INFINITY), largest, isfinite(v[0] + v[1] + v[2])));
+    fastest = fmax(fastest, isfinite(v[0] + v[1] + v[2]) ? largest : INFINITY);
   }
   const float8 f8 = fmax(fastest.lo, fastest.hi);
   const float4 f4 = fmax(f8.lo, f8.hi);

@@ -47,6 +47,13 @@ static inline float16 held(float16 v, global const float* floor_height, int row)
                        on.www, 1.0f / fmax(room_above(below.hi.hi), LEAST_ROOM));
 }
 
+// Whether no node of the block is held or has less than its full room.
+static inline bool far_above(global const float* floor_height) {
+  float16 highest = vload16(0, floor_height + FLOOR_COLUMNS) + 1.5f;
+  for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, floor_height + FLOOR_COLUMNS) + 1.5f);
+  return !some(fmax(highest, vload16(0, floor_height)) >= 0.0f);
+}
+
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
     global const float* restrict tiles, global const float* restrict floor_height, global float* restrict velocity,
@@ -62,8 +69,16 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
       add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
-  for (int i = 0; i < 16; ++i)
-    vstore16(held(velocity_of(rows[i], dv), floor_height + FLOOR_WORDS * block, i), i, out);
+  global const float* ground = floor_height + FLOOR_WORDS * block;
+  const bool in_the_open = far_above(ground);
+  for (int i = 0; i < 16; ++i) {
+    if (!some(rows[i] != 0.0f)) {
+      vstore16((float16)(0.0f), i, out);
+      continue;
+    }
+    const float16 v = velocity_of(rows[i], dv);
+    vstore16(in_the_open ? v : held(v, ground, i), i, out);
+  }
 }
 
 // Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity, neither held yet.

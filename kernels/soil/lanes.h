@@ -24,6 +24,7 @@ typedef float16 real;
 
 // Loops over a particle's rows of nodes are unrolled by hand: then the rows stay in registers.
 #define UNROLL _Pragma("unroll")
+#define INLINED static inline __attribute__((always_inline))
 
 // One vector out of the lanes of two. Written as single lanes, or as shuffle2, PoCL makes three times the instructions.
 #ifdef __has_builtin

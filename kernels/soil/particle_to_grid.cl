@@ -9,6 +9,7 @@
 // Host: src/soil/transfer.cpp. Reference: src/soil/reference/reference_solver.cpp.
 #include "soil/lanes.h"
 #include "soil/law.h"
+#include "soil/opening.h"
 
 static inline void load_soil(constant float* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
   float lanes[SOIL_LAW_WORDS][16];
@@ -38,40 +39,13 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   *inv_density = value[SOIL_INV_DENSITY];
 }
 
-// Volume, bank-density volume and their ratio per cell of base nodes -1..4: opening of soil is a matter of the cell, not
-// of one particle. Where half the particles of a cell are open and half closed, the closed ones would carry the heap on
-// and it would rest too loose; so J / J0 relaxes towards the cell's mean, which keeps the sum of volumes.
-#define CELLS 216
-static inline int16 cell_of(real x, real y, real z) {
-  return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) + 36 * (convert_int16(base_node(z)) + 1);
-}
-static inline void cell_openings(global const float* state, int capacity, int start, int end, float* opening) {
-  float closed[CELLS];
-  int open[CELLS];
-  for (int i = 0; i < CELLS; ++i) opening[i] = closed[i] = open[i] = 0;
-  for (int at = start; at < end; at += 16) {
-    int cells[16];
-    float volume[16], bank[16];
-    const real mass = convert_float16(as_int16(LOAD(FIELD_MASS)));
-    vstore16(cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)), 0, cells);
-    vstore16(mass * LOAD(FIELD_J), 0, volume);
-    vstore16(mass * LOAD(FIELD_J0), 0, bank);
-    for (int l = 0; l < min(16, end - at); ++l) {
-      opening[cells[l]] += volume[l];
-      closed[cells[l]] += bank[l];
-      open[cells[l]] |= volume[l] > bank[l];
-    }
-  }
-  for (int i = 0; i < CELLS; ++i) opening[i] = open[i] ? opening[i] / fmax(closed[i], 1.0f) : 0.0f;
-}
-
 // The nine rows of four nodes that the particles of one cell add to. Particles come sorted by cell, so the sums stay in
 // registers until the cell changes.
 typedef struct Rows {
   float16 row[9];
 } Rows;
 
-static inline void flush(global float* tile, int node, const Rows* sums) {
+INLINED void flush(global float* tile, int node, const Rows* sums) {
   UNROLL
   for (int k = 0; k < 3; ++k)
     UNROLL
@@ -83,8 +57,7 @@ static inline void flush(global float* tile, int node, const Rows* sums) {
 
 // Adds one particle's shares; its turned components are momentum at the base node and mass, then the change of momentum
 // per node in x, y, z.
-static inline void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wy,
-                           const float* wz) {
+INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wyz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
   const float16 rx = w * (float16)(start, next, next + ax, (float4)(0.0f));
@@ -95,7 +68,7 @@ static inline void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float
     float16 row = rx + (float)k * rz;
     UNROLL
     for (int j = 0; j < 3; ++j) {
-      sums->row[3 * k + j] = fma((float16)(wz[16 * k] * wy[16 * j]), row, sums->row[3 * k + j]);
+      sums->row[3 * k + j] = fma((float16)(wyz[16 * (3 * k + j)]), row, sums->row[3 * k + j]);
       row += ry;
     }
   }
@@ -109,9 +82,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   global float* tile = tiles + (size_t)home.z * (4 * TILE_NODES);
   for (int i = 0; i < (home.w ? 3 : 1) * TILE_NODES * 4; i += 16) vstore16((float16)(0.0f), 0, tile + i);
 
-  float openings[CELLS];
-  cell_openings(state, capacity, home.x, home.x + home.y, openings);
-  float wxs[4 * 16], wy[3 * 16], wz[3 * 16], turned_parts[4][64];
+  float openings[4 * CELLS];
+  const bool open = cell_openings(state, capacity, home.x, home.x + home.y, openings);
+  float wxs[4 * 16], wyz[9 * 16], turned_parts[4][64];
   int nodes[16];
   Rows sums;
   int cell = -1;
@@ -133,11 +106,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     for (int k = 0; k < 6; ++k) s[k] = LOAD(FIELD_S + k);
     real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0), shear = LOAD(FIELD_SHEAR);
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    float mean[16];
-    vstore16(cell_of(x, y, z), 0, nodes);
-    for (int l = 0; l < 16; ++l) mean[l] = openings[nodes[l]];
-    const real opening = vload16(0, mean);
-    j += select((real)(0.0f), mixing * (j0 * opening - j), opening > 0.0f);
+    if (open) {
+      const real opening = opening_of(openings, cell_of(x, y, z));
+      j = opening > 0.0f ? j + mixing * (j0 * opening - j) : j;
+    }
     law_update(c, dt, &soil, s, &j, &j0, &shear, sigma);
     for (int k = 0; k < 6; ++k) STORE(FIELD_S + k, s[k]);
     STORE(FIELD_J, j);
@@ -161,15 +133,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     const real sum = (x + y + z) + (px + py + pz) + (axx + ayy + azz) + (j + j0 + shear) + (s[3] + s[4] + s[5]);
     broken |= some(!isfinite(sum));
 
-    real w0, w1, w2;
-    spline(fy, &w0, &w1, &w2);
-    vstore16(w0, 0, wy);
-    vstore16(w1, 1, wy);
-    vstore16(w2, 2, wy);
-    spline(fz, &w0, &w1, &w2);
-    vstore16(w0, 0, wz);
-    vstore16(w1, 1, wz);
-    vstore16(w2, 2, wz);
+    real w0, w1, w2, wy[3], wz[3];
+    spline(fy, &wy[0], &wy[1], &wy[2]);
+    spline(fz, &wz[0], &wz[1], &wz[2]);
+    UNROLL
+    for (int i = 0; i < 9; ++i) vstore16(wz[i / 3] * wy[i % 3], i, wyz);
     spline(fx, &w0, &w1, &w2);
     const real zero = 0.0f;
     TURN(wxs, w0, w1, w2, zero);
@@ -179,7 +147,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     TURN(turned_parts[3], axz, ayz, azz, zero);
     // Which tile: neutral, front or back (side = 1 + 2 tool + behind).
     const int16 side = tag >> 16;
-    const int16 which = select((int16)(0), 2 - (side & 1), side > 0);
+    const int16 which = side > 0 ? 2 - (side & 1) : 0;
     vstore16(convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1) + which * TILE_NODES, 0,
              nodes);
     for (int l = 0; l < count; ++l) {
@@ -191,7 +159,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
         cell = nodes[l];
       }
       scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]), vload4(t, turned_parts[2]),
-              vload4(t, turned_parts[3]), vload4(t, wxs), wy + l, wz + l);
+              vload4(t, turned_parts[3]), vload4(t, wxs), wyz + l);
     }
   }
   if (cell >= 0) flush(tile, cell, &sums);
