@@ -48,7 +48,7 @@ struct Light {
 
 struct Recording {
   double duration = 60;        ///< most simulated time [s]; the run ends earlier when every program has ended
-  double settle = 1.0;         ///< after the last program ended [s]
+  double settle = 1.0;         ///< after the last program ended; six times as long while soil is awake [s]
   double telemetry_rate = 50;  ///< [1/s]
   bool render = true;
 };

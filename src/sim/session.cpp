@@ -16,6 +16,8 @@ namespace {
 
 /// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the particles.
 constexpr std::uint64_t kPayloadInterval = 12;
+/// Soil that is still awake holds the end of the run up to this many settling times.
+constexpr double kLongestRest = 6;
 
 }  // namespace
 
@@ -161,7 +163,9 @@ void Session::step() {
 
 bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
-  const bool programs_over = !state_->crews.empty() && state_->idle >= recording.settle;
+  // The ground left behind should be the whole of it: soil that still moves is given time to come to rest.
+  const bool at_rest = state_->world.soil().stats().particles == 0 || state_->idle >= kLongestRest * recording.settle;
+  const bool programs_over = !state_->crews.empty() && state_->idle >= recording.settle && at_rest;
   return programs_over || state_->world.time() >= recording.duration - 0.5 * state_->world.dt();
 }
 
