@@ -144,7 +144,7 @@ class ReachCheck {
       fault("dig/dump_height", metres(dig.dump_height),
             "with a level bucket " + metres(at.reach) + " from the swing axis the tip opens at most " +
                 metres(possible) + " over the ground",
-            "dump lower, nearer or farther");
+            "dump lower, nearer or farther; on a map, --at another place");
       return;
     }
     double least = 0, most = 0;
@@ -155,8 +155,10 @@ class ReachCheck {
       most = r;
     }
     fault("dig/dump_at", metres(at.reach) + " from the swing axis",
-          "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction",
-          "move the dump point or the machine");
+          most > 0 ? "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction"
+                   : "the ground there is " + metres(at.height) +
+                         " over the swing ring: a level bucket can be opened " + "over it nowhere in that direction",
+          "move the dump point or the machine; on a map, --at another place");
   }
 
   const scene::Machine& machine_;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same dig, from waking to deposit, at both ends of a square kilometre.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/stopwatch.h"
+#include "record/summary.h"
+#include "validation/report.h"
+#include "validation/scenes.h"
+
+namespace navvy::validation {
+namespace {
+
+constexpr const char* kSource = "issue 1, place";
+constexpr double kLifted = 7.0;
+
+struct Dug {
+  double force = 0;    ///< mean |force| over the steps in contact [N]
+  double payload = 0;  ///< after the lift [kg]
+  record::Earthwork earth;
+  double work = 0;  ///< particle-steps
+  double wall = 0;  ///< [s]
+};
+
+/// The scoop of bucket_path.sdf with its frame at (x, y) of a site whose corner is W's origin, to the end.
+Dug dig_at(double x, double y, double until = 20) {
+  sim::Session session(
+      load_scene("bucket_path.sdf",
+                 {"ground.size_m=1000 1000", "ground.origin_m=0 0", "machine.x_m=" + std::to_string(x),
+                  "machine.y_m=" + std::to_string(y), "recording.settle_s=6", "recording.duration_s=20"}),
+      shared_device());
+  const Stopwatch watch;
+  Dug out;
+  while (!session.done() && session.world().time() < until) {
+    session.step();
+    if (session.world().time() < kLifted)
+      out.payload = 0;
+    else if (out.payload == 0)
+      out.payload = session.world().coupling().payload(session.world().coupling().tools().at(0));
+  }
+  out.wall = watch.seconds();
+  out.force = session.force().mean();
+  out.earth = record::measure_earthwork(session.world().ground());
+  out.work = static_cast<double>(session.world().soil().stats().particle_steps);
+  EXPECT_EQ(session.world().soil().ledger().error(), 0);
+  std::printf(
+      "(%.1f, %.1f): force %.6g N, payload %.6g kg, bank %.6g m3, loose %.6g m3, %.6g particle-steps, %d still awake, "
+      "%.1f s\n",
+      x, y, out.force, out.payload, out.earth.bank_volume, out.earth.loose_volume, out.work,
+      session.world().soil().stats().particles, out.wall);
+  return out;
+}
+
+constexpr double kTolerance = 1e-3;
+
+void compare(const Dug& near, const Dug& far, bool whole_blocks) {
+  const double low = 1 - kTolerance, high = 1 + kTolerance;
+  expect_between("force far / near", far.force / near.force, low, high, kSource);
+  expect_between("payload far / near", far.payload / near.payload, low, high, kSource);
+  const auto row = whole_blocks ? expect_between : note_between;
+  row("bank volume far / near", far.earth.bank_volume / near.earth.bank_volume, low, high, kSource);
+  row("loose volume far / near", far.earth.loose_volume / near.earth.loose_volume, low, high, kSource);
+  row("particle-steps far / near", far.work / near.work, low, high, kSource);
+  std::printf("wall time far / near %.2f (not gated: the machine is shared)\n", far.wall / near.wall);
+}
+
+TEST(Place, TheSameDigAtBothEndsOfASquareKilometreIsTheSame) {
+  const Dug near = dig_at(5, 5);
+  // 2238 and 1737 blocks of 0.4 m away: the same bits.
+  compare(near, dig_at(900.2, 699.8), true);
+  // 2237.5 and 1737.5 blocks away: ground wakes and rests in whole blocks, which now lie otherwise under the path.
+  compare(near, dig_at(900, 700), false);
+}
+
+}  // namespace
+}  // namespace navvy::validation
