@@ -19,5 +19,6 @@ void add_devices(CLI::App& app, Action& action);
 void add_soils(CLI::App& app, Action& action);
 void add_channels(CLI::App& app, Action& action);
 void add_lab(CLI::App& app, Action& action);
+void add_bench(CLI::App& app, Action& action);
 
 }  // namespace navvy::cli

@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
   cli::add_soils(app, action);
   cli::add_channels(app, action);
   cli::add_lab(app, action);
+  cli::add_bench(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

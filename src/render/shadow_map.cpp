@@ -26,8 +26,8 @@ void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& h
   const float extent = std::max({most.x() - least.x(), most.y() - least.y(), 0.5f});
   const float scale = (1.0f - 2.0f * (kMargin + 2) / kSize) / extent;
   const Eigen::Vector2f middle = 0.5f * (least + most);
-  plane_s_ << scale * u, 0.5f - scale * middle.x();
-  plane_t_ << scale * v, 0.5f - scale * middle.y();
+  plane_s_ = {scale * u.x(), scale * u.y(), scale * u.z(), 0.5f - scale * middle.x()};
+  plane_t_ = {scale * v.x(), scale * v.y(), scale * v.z(), 0.5f - scale * middle.y()};
 }
 
 Vec3f ShadowMap::project(const Vec3f& p) const {

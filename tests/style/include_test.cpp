@@ -25,6 +25,7 @@ const std::map<std::string, Names>& arrows() {
       {"heightfield", {"device", "scene"}},
       {"soil", {"heightfield", "device", "scene"}},
       {"lab", {"soil"}},
+      {"bench", {"lab", "soil"}},
       {"vehicle", {"scene"}},
       {"control", {"vehicle", "heightfield"}},
       {"coupling", {"soil", "vehicle", "heightfield"}},
@@ -33,7 +34,7 @@ const std::map<std::string, Names>& arrows() {
       {"sensor", {"sim", "render"}},
       {"record", {"sim", "sensor", "render"}},
       {"planner", {"sim", "heightfield"}},
-      {"cli", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
+      {"cli", {"record", "planner", "lab", "bench", "scene_io", "sim", "render", "sensor"}},
       {"python", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
       {"link", {"record", "planner", "lab", "scene_io", "sim", "render", "sensor"}},
   };

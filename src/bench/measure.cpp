@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/measure.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/stopwatch.h"
+#include "device/buffer.h"
+#include "device/device.h"
+#include "device/program.h"
+
+namespace navvy::bench {
+namespace {
+
+// Eight sums of sixteen lanes each: enough independent work to fill the pipes of today's devices.
+constexpr const char* kFmaSource = R"(
+kernel void fma_peak(global float* out, const int rounds) {
+  const float16 x = 0.999f, y = (float)get_global_id(0) * 1e-6f;
+  float16 a = y, b = y + 1, c = y + 2, d = y + 3, e = y + 4, f = y + 5, g = y + 6, h = y + 7;
+  for (int i = 0; i < rounds; ++i) {
+    a = fma(a, x, y); b = fma(b, x, y); c = fma(c, x, y); d = fma(d, x, y);
+    e = fma(e, x, y); f = fma(f, x, y); g = fma(g, x, y); h = fma(h, x, y);
+  }
+  const float16 sum = a + b + c + d + e + f + g + h;
+  const float8 s8 = sum.lo + sum.hi;
+  const float4 s4 = s8.lo + s8.hi;
+  out[get_global_id(0)] = s4.x + s4.y + s4.z + s4.w;
+}
+)";
+
+}  // namespace
+
+Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
+               int runs) {
+  std::vector<double> times;
+  for (int run = -1; run < runs; ++run) {
+    restore();
+    device.finish();
+    const Stopwatch watch;
+    work();
+    device.finish();
+    if (run >= 0) times.push_back(watch.seconds());
+  }
+  std::sort(times.begin(), times.end());
+  Timing out;
+  out.best = times.front();
+  out.median = times[times.size() / 2];
+  out.spread = (times.back() - out.best) / out.best;
+  out.runs = runs;
+  return out;
+}
+
+double copy_bandwidth(device::Device& device, std::size_t bytes) {
+  const device::Program program =
+      device::Program::from_text(device, "copy",
+                                 "kernel void copy(global const float4* from, global float4* to) { "
+                                 "to[get_global_id(0)] = from[get_global_id(0)]; }");
+  const std::size_t count = bytes / 16;
+  device::Buffer<float> from(device, 4 * count), to(device, 4 * count);
+  from.fill(1);
+  to.fill(0);
+  device::Kernel copy(program, "copy");
+  copy.args(from, to);
+  const Timing timing = measure(
+      device, [] {}, [&] { copy.enqueue(count, 64); });
+  return 2.0 * static_cast<double>(bytes) / timing.best;
+}
+
+double fma_peak(device::Device& device) {
+  const device::Program program = device::Program::from_text(device, "fma_peak", kFmaSource);
+  device::Kernel kernel(program, "fma_peak");
+  const bool gpu = device.info().kind == device::Kind::kGpu;
+  const std::size_t items = gpu ? std::size_t{1} << 20 : std::size_t{1} << 12;
+  const int rounds = gpu ? 1 << 11 : 1 << 14;
+  device::Buffer<float> out(device, items);
+  kernel.args(out, rounds);
+  const Timing timing = measure(
+      device, [] {}, [&] { kernel.enqueue(items, 64); });
+  return 2.0 * 16 * 8 * static_cast<double>(rounds) * static_cast<double>(items) / timing.best;
+}
+
+Peak measure_peak(device::Device& device) { return {copy_bandwidth(device), fma_peak(device)}; }
+
+}  // namespace navvy::bench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every bench does alike: warm up, restore, repeat, take the minimum and the median; and what a device can do at
+// most, which the results are held against.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "bench/row.h"
+
+namespace navvy::device {
+class Device;
+}
+
+namespace navvy::bench {
+
+/// Runs `restore` then `work` once to warm up and `runs` times for the clock; only `work` is timed, up to the end of
+/// what it queued on the device.
+Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
+               int runs = 5);
+
+/// Bytes read plus written per second by a plain copy kernel over `bytes` of memory: what a schedule's traffic is held
+/// against.
+double copy_bandwidth(device::Device& device, std::size_t bytes = std::size_t{1} << 28);
+
+/// Single-precision operations per second of a kernel that does nothing but fused multiply-adds in registers.
+double fma_peak(device::Device& device);
+
+/// Both.
+Peak measure_peak(device::Device& device);
+
+}  // namespace navvy::bench

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/soil_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/measure.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "device/device.h"
+#include "lab/site.h"
+
+namespace navvy::bench {
+namespace {
+
+using lab::Box;
+using lab::Site;
+
+/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell (kernels/soil).
+constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
+/// Operations of scatter (440), gather (500), law and weights (about 360) for a particle, counted from the lines of
+/// kernels/soil; the grid's share is small and left out.
+constexpr double kFlopsPerParticle = 1300;
+constexpr int kRuns = 3;
+
+scene::Soil sand() {
+  scene::Soil soil;
+  soil.name = "sand";
+  soil.bank_density = 1600;
+  soil.swell = 1;
+  soil.friction_angle = radians(35);
+  soil.cohesion = soil.residual_cohesion = 0;
+  soil.tool_friction_angle = radians(20);
+  return soil;
+}
+
+/// A box open at the top, floor at z = 0 of its frame.
+scene::Shell open_box(double length, double width, double height) {
+  scene::Shell s;
+  s.name = "box";
+  s.half_thickness = 0.015;
+  const double x = length / 2, y = width / 2, h = height;
+  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
+  s.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
+                 {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
+  return s;
+}
+
+/// Times `steps` steps from the site's present state; tools go on at their speed.
+Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
+  StateWriter writer;
+  site.ground().save(writer);
+  site.solver().save(writer);
+  double fastest = 0;
+  for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
+  const double dt = site.solver().step_limit(fastest);
+  std::vector<soil::ToolImpulse> impulses(motions.size());
+  Row row;
+  row.steps = static_cast<std::uint64_t>(steps);
+  row.simulated = steps * dt;
+  row.bytes_per_particle = kBytesPerParticle;
+  row.flops_per_particle = kFlopsPerParticle;
+  row.timing = measure(
+      device,
+      [&] {
+        StateReader reader(writer.bytes());
+        site.ground().load(reader);
+        site.solver().load(reader);
+      },
+      [&] {
+        std::vector<soil::ToolMotion> now = motions;
+        const std::uint64_t before = site.solver().stats().particle_steps;
+        for (int i = 0; i < steps; ++i) {
+          site.solver().step(dt, now, impulses);
+          for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
+        }
+        row.particles = (site.solver().stats().particle_steps - before) / row.steps;  // their mean: ground may wake
+      },
+      kRuns);
+  StateHash state;
+  site.solver().hash(state);
+  row.hash = state.hex();
+  return row;
+}
+
+/// A block on level ground, falling apart; re-binning included.
+Row collapse(device::Device& device, double edge, int steps) {
+  lab::SiteOptions options;
+  options.size = 20;
+  Site site(device, {sand()}, 0.1, options);
+  std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
+  site.rest(block, edge);
+  site.solver().insert(block);
+  site.run(0.1);  // in motion
+  return time_steps(device, site, steps);
+}
+
+/// A load that rests in a bucket: the shell's cost without motion.
+Row held_bucket(device::Device& device, int steps) {
+  Site site(device, {sand()}, 0.1);
+  soil::ToolMotion motion;
+  motion.tool = site.solver().add_tool(open_box(1.0, 0.8, 0.6));
+  motion.X_WT = make_pose(0.03, 0.02, 1.5, 0, radians(15), 0);
+  std::vector<soil::Particle> load;
+  for (double z = 0.04; z < 0.45; z += 0.05)
+    for (double y = -0.36; y < 0.37; y += 0.05)
+      for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
+  site.solver().insert(load);
+  return time_steps(device, site, steps, {motion});
+}
+
+/// A tilted bucket with its lip in a bed of `length` x 2 x 0.6 m: what a trench costs.
+Row dig(device::Device& device, double length, int steps) {
+  const Box bed = {Vec3(0, -1, -0.6), Vec3(length, 1, 0)};
+  lab::SiteOptions options;
+  options.size = std::max(20.0, 2 * length + 4);
+  options.surface = lab::pit(bed);
+  Site site(device, {sand()}, 0.1, options);
+  std::vector<soil::Particle> soil = site.fill(bed);
+  site.rest(soil, 0.0);
+  site.solver().insert(soil);
+  soil::ToolMotion motion;
+  motion.tool = site.solver().add_tool(open_box(0.8, 0.8, 0.6));
+  motion.v_WT = Vec3(0.5, 0, 0);
+  motion.X_WT = make_pose(1.01, 0.02, 0.1, 0, radians(110), 0);
+  return time_steps(device, site, steps, {motion});
+}
+
+/// A bucket drawn through ground that wakes before it and rests behind it, on a square site of edge `size` [m]. The
+/// cost must follow the soil that is awake, not the site.
+Row site_dig(device::Device& device, double size, int steps) {
+  lab::SiteOptions options;
+  options.size = size;
+  options.exchange = true;
+  Site site(device, {sand()}, 0.1, options);
+  soil::ToolMotion motion;
+  motion.tool = site.solver().add_tool(open_box(0.8, 0.8, 0.6));
+  motion.v_WT = Vec3(0.5, 0, 0);
+  motion.X_WT = make_pose(0.01, 0.02, 0.1, 0, radians(110), 0);
+  const double dt = site.solver().step_limit(0.5);
+  std::vector<soil::ToolImpulse> impulse(1);
+  for (int i = 0; i < 20; ++i) {
+    site.solver().step(dt, std::span(&motion, 1), impulse);
+    motion.X_WT.translation() += dt * motion.v_WT;
+  }
+  Row row = time_steps(device, site, steps, {motion});
+  row.site = size;
+  return row;
+}
+
+std::vector<SoilCase> make_cases() {
+  using Device = device::Device;
+  return {
+      {"soil_held_bucket", "a load at rest in a bucket", true, [](Device& d) { return held_bucket(d, 100); }},
+      {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 100); }},
+      {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 50); }},
+      {"soil_collapse:8k", "a block of 1 m falling apart", true, [](Device& d) { return collapse(d, 1.0, 100); }},
+      {"soil_collapse:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
+      {"soil_collapse:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
+      {"soil_collapse:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
+      {"soil_collapse:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
+      {"site_dig:0.01km2", "a dig with waking ground", true, [](Device& d) { return site_dig(d, 100, 100); }},
+      {"site_dig:0.1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 316.2, 100); }},
+      {"site_dig:1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 1000, 100); }},
+  };
+}
+
+}  // namespace
+
+const std::vector<SoilCase>& soil_cases() {
+  static const std::vector<SoilCase> cases = make_cases();
+  return cases;
+}
+
+void run_soil_cases(device::Device& device, const std::string& only, bool quick,
+                    const std::function<void(const Row&)>& take) {
+  std::vector<const SoilCase*> wanted;
+  std::string names;
+  for (const SoilCase& c : soil_cases()) {
+    names += " " + c.name;
+    if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
+  }
+  if (wanted.empty())
+    throw InputError(
+        Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word", "one of:" + names});
+  const Peak peak = measure_peak(device);
+  for (const SoilCase* c : wanted) {
+    Row row = c->run(device);
+    row.bench = c->name;
+    row.device = device.info().name;
+    row.driver = device.info().driver;
+    row.peak = peak;
+    take(row);
+  }
+}
+
+}  // namespace navvy::bench
