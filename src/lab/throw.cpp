@@ -48,6 +48,20 @@ Volume measure(const Site& site, double edge, double floor, double bank_height) 
   return out;
 }
 
+/// Particles a cell in layers one cell thick from the floor up, `margin` cells clear of the walls.
+Series profile(const Site& site, double edge, double margin, const std::string& name) {
+  Series out{name, "", {}};
+  const double half = edge / 2 - margin * site.cell();
+  for (const soil::Particle& p : site.solver().particles()) {
+    const Vec3 at = site.position(p);
+    if (at.head<2>().cwiseAbs().maxCoeff() > half) continue;
+    const auto layer = static_cast<std::size_t>(std::max(0.0, at.z() / site.cell()));
+    if (layer >= out.values.size()) out.values.resize(layer + 1, 0.0);
+    out.values[layer] += std::pow(site.cell() / (2 * half), 2);
+  }
+  return out;
+}
+
 Report run(const Setup& setup) {
   const double cell = setup.cell, edge = setup["edge"], height = setup["height"];
   Setup smooth = setup;
@@ -106,7 +120,8 @@ Report run(const Setup& setup) {
   report.note("surface over state before the throw", before.by_surface / before.by_state, "", "bias of the measure");
   report.note("rms speed at the end", 1000 * after.rms, "mm/s");
   report.note("particles through a wall", static_cast<double>(flying.solver().stats().shell_crossings), "");
-  report.series = {time, by_surface, by_state};
+  report.series = {time, by_surface, by_state, profile(flying, edge, 0.25, "particles a cell by layer"),
+                   profile(flying, edge, 2, "particles a cell by layer in the middle")};
   flying.finish(report);
   return report;
 }
@@ -119,10 +134,9 @@ Rig throw_apart() {
   rig.summary = "soil thrown apart in a bin lands in the volume it left";
   rig.drawing =
       "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest every grain gets a "
-      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up to 0.5 m/s "
-      "aside: the soil opens, flies and lands. After the flight and `rest` the volume is read twice: from the surface "
-      "over the particles, and as mass times the tracked volume ratio. Soils with swell must land "
-      "at it.";
+      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up to 0.5 m/s aside: "
+      "the soil opens, flies and lands. After the flight and `rest` the volume is read twice: under the surface a ball "
+      "rolls on over the particles, and as mass times the tracked volume ratio. Soils with swell must land at it.";
   rig.parameters = {{"edge", 1.2, "m", "of the bin"},
                     {"height", 0.6, "m", "depth of the soil"},
                     {"speed", 3, "m/s", "mean velocity of the throw"},
