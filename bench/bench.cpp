@@ -17,9 +17,12 @@ void print(const device::DeviceInfo& device, const Row& row, double bandwidth) {
   header = true;
   std::printf("%s\n", csv_line(full).c_str());
   std::fflush(stdout);
-  // Lines are added: the caller empties the file and writes the header.
+  append_csv(full);
+}
+
+void append_csv(const Row& row) {
   const char* file = std::getenv("NAVVY_BENCH_CSV");
-  if (file != nullptr) std::ofstream(file, std::ios::app) << csv_line(full) << "\n";
+  if (file != nullptr) std::ofstream(file, std::ios::app) << csv_line(row) << "\n";
 }
 
 }  // namespace navvy::bench

@@ -11,4 +11,7 @@ namespace navvy::bench {
 /// Prints the row to stdout, the first time under its header. `bandwidth` from `copy_bandwidth`, 0 when not measured.
 void print(const device::DeviceInfo& device, const Row& row, double bandwidth = 0);
 
+/// Adds the row to the file that NAVVY_BENCH_CSV names, if it does; the header was written by who named it.
+void append_csv(const Row& row);
+
 }  // namespace navvy::bench

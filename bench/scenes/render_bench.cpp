@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench.h"
 #include "core/stopwatch.h"
 #include "render/renderer.h"
 #include "trench_scene.h"
@@ -66,6 +67,15 @@ void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row, co
       "%6d ground triangles in %3d tiles, %5d lumps, %6d triangles\n",
       prefix.c_str(), row.name, frame.ground.nx, frame.ground.ny, first_ms, times.front(), times[times.size() / 2],
       cpu_ms, s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles, s.particles_drawn, s.particle_triangles);
+  bench::Row result;
+  result.bench = "render:" + prefix + "_" + row.name;
+  result.device = "OSMesa, 1280 x 720";
+  result.steps = 1;
+  result.particles = static_cast<std::uint64_t>(s.particles_drawn);
+  result.timing.best = times.front() / 1e3;
+  result.timing.median = times[times.size() / 2] / 1e3;
+  result.timing.spread = (times.back() - times.front()) / times.front();
+  bench::append_csv(result);
   if (!folder.empty()) render::write_png(folder + "/" + prefix + "_" + row.name + ".png", image);
 }
 

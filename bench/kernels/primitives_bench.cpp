@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small things that every step pays for, under Google Benchmark: copies, launches, reads, look-ups in the ground.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "device/buffer.h"
+#include "device/device.h"
+#include "device/program.h"
+#include "heightfield/ground.h"
+
+namespace {
+
+using namespace navvy;
+
+device::Device& shared_device() {
+  static device::Device device;
+  return device;
+}
+
+void device_copy(benchmark::State& state) {
+  device::Device& device = shared_device();
+  const device::Program program =
+      device::Program::from_text(device, "copy",
+                                 "kernel void copy(global const float4* from, global float4* to) { "
+                                 "to[get_global_id(0)] = from[get_global_id(0)]; }");
+  const auto bytes = static_cast<std::size_t>(state.range(0));
+  device::Buffer<float> from(device, bytes / 4), to(device, bytes / 4);
+  from.fill(1);
+  to.fill(0);
+  device::Kernel copy(program, "copy");
+  copy.args(from, to);
+  for (auto _ : state) {
+    copy.enqueue(bytes / 16, 64);
+    device.finish();
+  }
+  state.SetBytesProcessed(2 * state.range(0) * static_cast<std::int64_t>(state.iterations()));
+}
+BENCHMARK(device_copy)->RangeMultiplier(16)->Range(1 << 16, 1 << 28)->UseRealTime();
+
+void kernel_launch(benchmark::State& state) {
+  device::Device& device = shared_device();
+  const device::Program program =
+      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  device::Buffer<int> x(device, 2);
+  x.fill(0);
+  device::Kernel nothing(program, "nothing");
+  nothing.args(x);
+  for (auto _ : state) nothing.enqueue(1);
+  device.finish();
+}
+BENCHMARK(kernel_launch)->UseRealTime();
+
+void launch_and_wait(benchmark::State& state) {
+  device::Device& device = shared_device();
+  const device::Program program =
+      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  device::Buffer<int> x(device, 2);
+  x.fill(0);
+  device::Kernel nothing(program, "nothing");
+  nothing.args(x);
+  for (auto _ : state) {
+    nothing.enqueue(1);
+    device.finish();
+  }
+}
+BENCHMARK(launch_and_wait)->UseRealTime();
+
+heightfield::Ground make_ground(int columns) {
+  heightfield::Ground::Setup setup;
+  setup.nx = setup.ny = columns;
+  setup.datum = -4;
+  setup.soils.resize(1);
+  setup.soils[0].name = "soil";
+  setup.layers = {{"soil", 4}};
+  setup.surface = [](int ix, int iy) { return 0.2 * std::sin(0.1 * ix) * std::cos(0.07 * iy); };
+  return heightfield::Ground(setup);
+}
+
+/// Height between columns of ground that nobody touched; the argument is the site's edge in columns.
+void ground_sample_untouched(benchmark::State& state) {
+  const heightfield::Ground ground = make_ground(static_cast<int>(state.range(0)));
+  double x = 1.7, sum = 0;
+  for (auto _ : state) {
+    x = x < 8 ? x + 0.031 : 1.7;
+    sum += ground.sample(x, 5.3);
+  }
+  benchmark::DoNotOptimize(sum);
+}
+BENCHMARK(ground_sample_untouched)->Arg(1000)->Arg(10000);
+
+/// Taking soil off a column and putting it back.
+void ground_take_and_put(benchmark::State& state) {
+  heightfield::Ground ground = make_ground(1000);
+  std::vector<heightfield::Layer> taken;
+  int ix = 100;
+  for (auto _ : state) {
+    ix = ix < 164 ? ix + 1 : 100;
+    taken.clear();
+    ground.take_above(ix, 120, ground.height(ix, 120) - 0.1, taken);
+    for (const heightfield::Layer& layer : taken) ground.put(ix, 120, layer);
+  }
+}
+BENCHMARK(ground_take_and_put);
+
+void ground_save(benchmark::State& state) {
+  heightfield::Ground ground = make_ground(1000);
+  std::vector<heightfield::Layer> taken;
+  for (int iy = 0; iy < 128; ++iy)
+    for (int ix = 0; ix < 128; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
+  for (auto _ : state) {
+    StateWriter writer;
+    ground.save(writer);
+    benchmark::DoNotOptimize(writer.bytes().data());
+  }
+}
+BENCHMARK(ground_save)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  const device::DeviceInfo& info = shared_device().info();
+  benchmark::AddCustomContext("device", info.name);
+  benchmark::AddCustomContext("driver", info.driver);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole scenes with machines, control and soil, pictures not counted: scene_bench [SECONDS [SCENE.sdf ...]].
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench.h"
+#include "core/stopwatch.h"
+#include "scene_io/loader.h"
+#include "sim/session.h"
+
+namespace {
+
+using namespace navvy;
+
+/// Runs the scene from its start for `seconds`; the median and spread are of one run, there is one.
+void measure_scene(device::Device& device, const std::string& file, double seconds) {
+  sim::Session session(scene_io::load_world(file), device);
+  const Stopwatch watch;
+  while (!session.done() && session.world().time() < seconds) session.step();
+  device.finish();
+  bench::Row row;
+  row.timing.best = row.timing.median = watch.seconds();
+  row.timing.runs = 1;
+  const soil::SolverStats& stats = session.world().soil().stats();
+  row.bench =
+      "scene:" + std::filesystem::path(file).stem().string() + "_" + std::to_string(static_cast<int>(seconds)) + "s";
+  row.steps = stats.steps;
+  row.particles = stats.steps > 0 ? stats.particle_steps / stats.steps : 0;  // mean
+  row.simulated = session.world().time();
+  row.hash = session.state_hash();
+  bench::print(device.info(), row);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const double seconds = argc > 1 ? std::atof(argv[1]) : 40;  // the trench: arrival and the first bucket
+    std::vector<std::string> files;
+    for (int i = 2; i < argc; ++i) files.emplace_back(argv[i]);
+    const std::string folder = std::string(NAVVY_SOURCE_DIR) + "/scenarios/";
+    if (files.empty())
+      for (const char* name : {"block_collapse", "bucket_path", "trench"}) files.push_back(folder + name + ".sdf");
+    device::Device device;
+    for (const std::string& file : files) measure_scene(device, file, seconds);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
