@@ -76,8 +76,10 @@ Solver::State::State(device::Device& device_in, const scene::World& world_in, he
       contact(device_in, cell, origin, extreme_sound(world_in.soils, true)),
       floor(ground_in),
       exchange(world_in, ground_in),
+      mass_count(device_in, world_in.soils.size()),
       left_site(world_in.soils.size(), 0),
-      inserted(world_in.soils.size(), 0) {}
+      inserted(world_in.soils.size(), 0),
+      in_particles(world_in.soils.size(), 0) {}
 
 Solver::Solver(device::Device& device, const scene::World& world, heightfield::Ground& ground)
     : state_(std::make_unique<State>(device, world, ground)) {}
@@ -140,6 +142,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
       contact.solve(transfer, dt);
       transfer.gather(store, contact.nodes(), dt, cell);
       contact.read_later();
+      mass_count.queue(store);
     }
     Transfer::Report report;
     {
@@ -152,6 +155,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     stats.shell_crossings += report.crossed;
     StageClock clock(times, "books");
     contact.book(impulses);
+    check_masses();
   }
   time += dt;
   ++stats.steps;
@@ -224,6 +228,8 @@ void Solver::State::assign(const std::vector<Particle>& particles) {
                 std::to_string(world.solver.max_particles));
   over_budget = over;
   store.assign(particles);
+  in_particles.assign(world.soils.size(), 0);
+  for (const Particle& p : particles) in_particles[p.soil] += p.mass;
   blocks_changed = true;
   drift = 0;
 }
@@ -239,7 +245,10 @@ void Solver::State::add(std::vector<Particle> particles) {
 }
 
 void Solver::State::book_left(const std::vector<Particle>& left) {
-  for (const Particle& p : left) left_site[p.soil] += p.mass;
+  for (const Particle& p : left) {
+    left_site[p.soil] += p.mass;
+    in_particles[p.soil] -= p.mass;
+  }
 }
 
 void Solver::State::rebin_if_due() {

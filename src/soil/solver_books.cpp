@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/error.h"
 #include "soil/solver.h"
 #include "soil/solver_state.h"
 
@@ -23,6 +24,16 @@ Ledger Solver::State::ledger() const {
   out.left_site = left_site;
   out.inserted = inserted;
   return out;
+}
+
+void Solver::State::check_masses() {
+  const std::vector<std::int64_t> counted = mass_count.take();
+  for (std::size_t soil = 0; soil < counted.size(); ++soil) {
+    if (counted[soil] == in_particles[soil]) continue;
+    throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) +
+                          " s: the particles of '" + world.soils[soil].name + "' weigh " +
+                          std::to_string(counted[soil] - in_particles[soil]) + " units of 2^-24 kg more than booked");
+  }
 }
 
 Ledger Solver::ledger() const { return state_->ledger(); }
@@ -99,6 +110,7 @@ void Solver::load(StateReader& reader) {
   s.next_id = reader.value<std::uint32_t>();
   s.left_site = reader.vector<std::int64_t>();
   s.inserted = reader.vector<std::int64_t>();
+  s.in_particles = s.store.masses(s.world.soils.size());
   s.stats = reader.value<SolverStats>();
   s.contact.load(reader);
   reader.end();

@@ -9,6 +9,7 @@
 #include "soil/contact.h"
 #include "soil/exchange.h"
 #include "soil/floor.h"
+#include "soil/mass_count.h"
 #include "soil/particle_store.h"
 #include "soil/soil_table.h"
 #include "soil/solver.h"
@@ -29,6 +30,7 @@ struct Solver::State {
   void book_left(const std::vector<Particle>& left);
   double tool_speed(const ToolMotion& motion) const;
   Ledger ledger() const;
+  void check_masses();
   [[noreturn]] void fail(double speed) const;
 
   device::Device& device;
@@ -42,6 +44,7 @@ struct Solver::State {
   Contact contact;
   Floor floor;
   Exchange exchange;
+  MassCount mass_count;
 
   bool blocks_changed = true;
   bool over_budget = false;  ///< said so already
@@ -53,6 +56,7 @@ struct Solver::State {
   bool first_check = true;
   std::uint32_t next_id = 1;
   std::vector<std::int64_t> left_site, inserted;
+  std::vector<std::int64_t> in_particles;  ///< what every step must count again, per soil
   SolverStats stats;
   std::map<std::string, double> times;
 };
