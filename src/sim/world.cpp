@@ -95,6 +95,9 @@ void World::set_joint(int machine, int joint, const vehicle::JointInput& input) 
 void World::set_drive(int machine, const vehicle::DriveInput& input) {
   state_->coupling.engine(machine).set_drive(state_->coupling.index(machine), input);
 }
+vehicle::DriveInput World::drive(int machine) const {
+  return state_->coupling.engine(machine).drive(state_->coupling.index(machine));
+}
 vehicle::JointState World::joint(int machine, int joint) const {
   return state_->coupling.engine(machine).joint(state_->coupling.index(machine), joint);
 }

@@ -54,6 +54,7 @@ class World {
   // Direct access for operators and recorders; indices are those of description().machines.
   void set_joint(int machine, int joint, const vehicle::JointInput& input);
   void set_drive(int machine, const vehicle::DriveInput& input);
+  vehicle::DriveInput drive(int machine) const;
   vehicle::JointState joint(int machine, int joint) const;
   vehicle::LinkState link(int machine, int link) const;
   vehicle::WheelState wheel(int machine, int wheel) const;

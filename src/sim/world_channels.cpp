@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/edit_distance.h"
 #include "core/error.h"
@@ -47,21 +46,22 @@ void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, 
 }
 
 void add_drive(World& world, int m, const std::string& prefix, Inputs& inputs) {
-  // The three values of a drive command are kept together, as the engine takes them at once.
-  auto command = std::make_shared<vehicle::DriveInput>();
-  inputs.add({prefix + "drive/speed", "m/s", "forward speed; releases the brake"}, [&world, m, command](double v) {
-    command->speed = v;
-    command->brake = false;
-    world.set_drive(m, *command);
+  // One value of the command changes, the others stay what the engine has: it keeps them through a snapshot.
+  const auto change = [&world, m](auto&& what) {
+    vehicle::DriveInput command = world.drive(m);
+    what(command);
+    world.set_drive(m, command);
+  };
+  inputs.add({prefix + "drive/speed", "m/s", "forward speed; releases the brake"}, [change](double v) {
+    change([v](vehicle::DriveInput& command) {
+      command.speed = v;
+      command.brake = false;
+    });
   });
-  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left"}, [&world, m, command](double v) {
-    command->steer = v;
-    world.set_drive(m, *command);
-  });
-  inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases"}, [&world, m, command](double v) {
-    command->brake = v != 0;
-    world.set_drive(m, *command);
-  });
+  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left"},
+             [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
+  inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases"},
+             [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
 }
 
 void add_pose(World& world, int m, const std::string& prefix, Outputs& outputs) {

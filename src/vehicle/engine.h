@@ -82,6 +82,8 @@ class Engine {
   /// freely). A wheel's or steering joint taken by set_joint is the drive's again with the next set_drive.
   virtual void set_joint(int machine, int joint, const JointInput& input) = 0;
   virtual void set_drive(int machine, const DriveInput& input) = 0;
+  /// The command the drive follows now.
+  virtual DriveInput drive(int machine) const = 0;
 
   /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
   /// articulated inertia. Counted in `external_impulse`.

@@ -87,6 +87,24 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
+TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
+  scene::World description = load("trench.sdf");
+  description.machines[0].program.steps.clear();
+  const auto first = make(description);
+  World& world = first->world();
+  world.set(world.input("excavator/drive/speed"), 1.5);
+  StateWriter writer;
+  first->save(writer);
+  const auto second = make(description);
+  StateReader reader(writer.bytes());
+  second->load(reader);
+  World& resumed = second->world();
+  resumed.set(resumed.input("excavator/drive/steer"), 0.2);
+  EXPECT_EQ(resumed.drive(0).speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.drive(0).steer, 0.2);
+  EXPECT_FALSE(resumed.drive(0).brake);
+}
+
 TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
   const auto session = make(load("bucket_path.sdf"));
   double in_air = 0, in_soil = 0;

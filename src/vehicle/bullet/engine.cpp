@@ -64,6 +64,7 @@ class BulletEngine final : public Engine {
 
   void set_joint(int machine, int joint, const JointInput& input) override { at(machine).set_joint(joint, input); }
   void set_drive(int machine, const DriveInput& input) override { at(machine).set_drive(input); }
+  DriveInput drive(int machine) const override { return at(machine).drive(); }
   void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) override {
     at(machine).apply_impulse(link, J_W, L_W, p_W);
   }

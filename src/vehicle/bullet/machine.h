@@ -30,6 +30,7 @@ class BulletMachine {
 
   void set_joint(int joint, const JointInput& input);
   void set_drive(const DriveInput& input);
+  const DriveInput& drive() const { return drive_input_; }
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
   void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W);
 

@@ -54,6 +54,7 @@ class KinematicEngine final : public Engine {
     at(machine).input.at(index(joint)) = input;
   }
   void set_drive(int machine, const DriveInput& input) override { at(machine).drive = input; }
+  DriveInput drive(int machine) const override { return at(machine).drive; }
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
