@@ -243,13 +243,13 @@ Rig wall() {
   rig.summary = "retaining wall: active and passive earth pressure against Rankine";
   rig.drawing =
       "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` it moves `travel` "
-      "heights: towards the soil when positive (passive), away when negative (active, --travel -0.02). Plane strain: "
+      "heights: towards the soil when positive (passive), away when negative (active, --travel -0.03). Plane strain: "
       "the "
       "wall spans a chute of smooth side plates. The force at rest is the mean of the last third of the wait, the "
       "other "
       "the mean over the last fifth of the travel. With --delta-deg the wall is rough over its middle two thirds.";
   rig.parameters = {{"height", 1, "m", "of the wall"},
-                    {"travel", 0.1, "heights", "positive: passive, negative: active"},
+                    {"travel", 0.2, "heights", "positive: passive, negative: active"},
                     {"speed", 0.1, "m/s", "of the wall"},
                     {"wait", 0.3, "s", "at rest before it moves"},
                     {"rake-deg", 90, "deg", "for the wedge formula"},
@@ -257,6 +257,7 @@ Rig wall() {
                     {"below", 0.5, "heights", "of soil under the toe"}};
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
+  rig.default_soil.young_modulus = 4e6;  // at 1 MPa a passive wall needs more than a fifth of its height of travel
   rig.run = run_wall;
   return rig;
 }

@@ -63,9 +63,9 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
   add_pair(s, c, -c.ahead, c.top);
   add_pair(s, c, -half, c.top);
   add_sides(s, {{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}});
-  add_strip(s, 1, 0);  // looks down
-  add_strip(s, 2, 1);
-  add_strip(s, 0, 7);
+  add_strip(s, 0, 1);  // looks down
+  add_strip(s, 1, 2);
+  add_strip(s, 7, 0);
   return s;
 }
 

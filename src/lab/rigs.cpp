@@ -7,9 +7,26 @@ namespace navvy::lab {
 const std::vector<Rig>& rigs() {
   static const std::vector<Rig> list = {
       // Soil by itself.
-      rest(), column(), pour(), cone(), slope(), slide(), throw_apart(), swell(),
+      rest(),
+      column(),
+      pour(),
+      cone(),
+      slope(),
+      slide(),
+      throw_apart(),
+      swell(),
       // Soil and tools.
-      blade(), wall(),
+      blade(),
+      wall(),
+      footing(),
+      plate_sinkage(),
+      cut(),
+      shear_box(),
+      hold(),
+      light_tool(),
+      bucket(),
+      scrape(),
+      cycle(),
   };
   return list;
 }

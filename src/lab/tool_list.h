@@ -9,5 +9,14 @@ namespace navvy::lab {
 
 Rig blade();
 Rig wall();
+Rig footing();
+Rig plate_sinkage();
+Rig cut();
+Rig shear_box();
+Rig hold();
+Rig light_tool();
+Rig bucket();
+Rig scrape();
+Rig cycle();
 
 }  // namespace navvy::lab
