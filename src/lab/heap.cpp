@@ -94,6 +94,11 @@ std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>
   return out;
 }
 
+double Surface::over(const Vec3& p) const {
+  return at(static_cast<int>(std::lround((p.x() - origin.x()) / spacing)),
+            static_cast<int>(std::lround((p.y() - origin.y()) / spacing)));
+}
+
 double Surface::volume() const {
   double sum = 0;
   for (const double z : top) sum += z - floor;
@@ -137,26 +142,35 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
   return out;
 }
 
-double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
-  // Mean height per ring or strip of half a cell.
+std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
+                                                     double cell) {
   std::map<int, std::pair<double, int>> rings;
-  const double across = surface.spacing * surface.ny / 6;  // a plane heap is read in the middle third of its width
+  const double across = surface.spacing * surface.ny / 6;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
       const Vec2 d = surface.middle(ix, iy) - axis;
-      const double r = axisymmetric ? d.norm() : std::abs(d.x());
       if (!axisymmetric && std::abs(d.y()) > across) continue;
+      const double r = axisymmetric ? d.norm() : std::abs(d.x());
       auto& [sum, count] = rings[static_cast<int>(r / (0.5 * cell))];
       sum += surface.at(ix, iy) - surface.floor;
       ++count;
     }
-  double highest = 0;
-  for (const auto& [ring, entry] : rings) highest = std::max(highest, entry.first / entry.second);
+  std::vector<std::pair<double, double>> out;
+  for (const auto& [ring, entry] : rings) out.emplace_back((ring + 0.5) * 0.5 * cell, entry.first / entry.second);
+  return out;
+}
+
+double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
+  const auto profile = flank_profile(surface, axis, axisymmetric, cell);
+  double highest = 0, shoulder = 0;
+  for (const auto& [r, height] : profile) highest = std::max(highest, height);
+  // A stream leaves a dip in the middle: the flank begins outside the last ring that is higher than 80 %.
+  for (const auto& [r, height] : profile)
+    if (height > 0.8 * highest) shoulder = r;
   std::vector<double> x, z;
-  for (const auto& [ring, entry] : rings) {
-    const double height = entry.first / entry.second;
-    if (height < 0.2 * highest || height > 0.8 * highest) continue;
-    x.push_back((ring + 0.5) * 0.5 * cell);
+  for (const auto& [r, height] : profile) {
+    if (r <= shoulder || height < 0.2 * highest) continue;
+    x.push_back(r);
     z.push_back(height);
   }
   return x.size() < 2 ? kNone : std::atan(-fit_line(x, z).b);

@@ -3,6 +3,7 @@
 // the solver's own density states.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "lab/site.h"
@@ -23,7 +24,8 @@ struct Surface {
 
   double at(int ix, int iy) const { return top[static_cast<std::size_t>(ix + nx * iy)]; }
   Vec2 middle(int ix, int iy) const { return origin + spacing * Vec2(ix, iy); }
-  double volume() const;  ///< between surface and floor [m3]
+  double over(const Vec3& p) const;  ///< height over a particle of the pile, nearest column [m]
+  double volume() const;             ///< between surface and floor [m3]
   double highest() const;
 };
 
@@ -37,9 +39,12 @@ struct Line {
 };
 Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
 
-/// Angle of the flank of a heap [rad]: line through the mean surface in rings around the axis (`axisymmetric`) or in
-/// strips along x (the middle third of the width), between 20 and 80 % of the heap's height over the floor. Distances
-/// count from `axis`.
+/// Distance from `axis` [m] and mean height over the floor [m] in rings (`axisymmetric`) or in strips along x of half a
+/// cell, strips over the middle third of the width.
+std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
+                                                     double cell);
+
+/// Angle of the flank of a heap [rad]: least-squares line through its profile between 20 and 80 % of its height.
 double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell);
 
 /// The value below which `share` of the values lie.

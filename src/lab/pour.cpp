@@ -91,12 +91,18 @@ Report run(const Setup& setup) {
     angle.values.push_back(angle_of(site, round));
   }
   Report report;
+  Series distance{"distance from the axis", "m", {}}, height{"mean height", "m", {}};
+  const Surface end = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
+  for (const auto& [r, z] : flank_profile(end, Vec2::Zero(), round, setup.cell)) {
+    distance.values.push_back(r);
+    height.values.push_back(z);
+  }
   const double phi = degrees(setup.soil.friction_angle), flow = degrees(flow_angle(setup.soil.friction_angle));
   report.add("repose after pouring", at_first, "deg", flow, flow - 1.5, phi + 1, "VALIDATION 2");
   report.add("repose after rest", angle.values.back(), "deg", flow, flow - 1.5, phi + 1, "VALIDATION 2");
   report.add("angle lost at rest", at_first - angle.values.back(), "deg", 0, -0.5, 0.5, "no creep; VALIDATION 2");
   report.note("rms speed at the end", 1000 * rms_speed(site), "mm/s", "SOIL_SOLVER 3: 0.2 mm/s at 4 s");
-  report.series = {time, angle};
+  report.series = {time, angle, distance, height};
   site.finish(report);
   return report;
 }

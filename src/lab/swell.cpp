@@ -36,12 +36,28 @@ HeapVolume measure(const Site& site) {
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix)
       volume += std::max(0.0, surface.at(ix, iy) - cell) * surface.spacing * surface.spacing;
-  for (const Vec3& p : heap) {
-    const int ix = static_cast<int>(std::lround((p.x() - surface.origin.x()) / surface.spacing)),
-              iy = static_cast<int>(std::lround((p.y() - surface.origin.y()) / surface.spacing));
-    if (p.z() < surface.at(ix, iy) - cell) inner += 1;
-  }
+  for (const Vec3& p : heap)
+    if (p.z() < surface.over(p) - cell) inner += 1;
   out.crowding = volume > 0 ? inner / volume * cell * cell * cell : kNone;
+  return out;
+}
+
+/// Particles a cell in layers one cell thick from the ground up, where the heap reaches a cell above the layer.
+Series profile(const Site& site) {
+  const std::vector<Vec3> heap = in_contact(site, site.solver().particles());
+  const double cell = site.cell();
+  const Surface surface = surface_of(heap, cell, 0);
+  const auto layers = static_cast<std::size_t>(std::max(0.0, surface.highest() / cell - 1));
+  std::vector<double> count(layers, 0.0), volume(layers, 0.0);
+  for (const double top : surface.top)
+    for (std::size_t k = 0; k < layers; ++k)
+      if (top > cell * static_cast<double>(k + 2)) volume[k] += std::pow(surface.spacing / cell, 2);
+  for (const Vec3& p : heap) {
+    const auto k = static_cast<std::size_t>(std::max(0.0, p.z() / cell));
+    if (k < layers && surface.over(p) > cell * static_cast<double>(k + 2)) count[k] += 1;
+  }
+  Series out{"particles a cell by layer", "", {}};
+  for (std::size_t k = 0; k < layers; ++k) out.values.push_back(volume[k] > 4 ? count[k] / volume[k] : kNone);
   return out;
 }
 
@@ -82,10 +98,18 @@ Report run(const Setup& setup) {
   report.note("bank volume tipped", bank, "m3");
   report.add("heap over bank by the surface", got.by_surface, "", swell, 0.95 * swell, 1.05 * swell, "VALIDATION 1");
   report.add("heap over bank by mass and state", got.by_state, "", swell, 0.95 * swell, 1.05 * swell, "VALIDATION 1");
+  const Series layers = profile(site);
+  double above = 0, count = 0;
+  for (std::size_t k = 1; k < layers.values.size(); ++k)
+    if (!std::isnan(layers.values[k])) above += layers.values[k], count += 1;
+  // Resting ground holds nodes up to a quarter of a cell above it: the lowest layer stands off by that much.
+  report.add("the same without the lowest layer", 8 * count / above, "", swell, 0.95 * swell, 1.05 * swell,
+             "8 particles a cell in the bank over those in the layers above it");
   report.add("particles a cell inside the heap", got.crowding, "", 8 / swell, kNone, kNone, "8 in the bank");
   report.note("particles that lie about singly", 100 * got.loose_share, "%", "not in the surface's volume");
   report.note("left in the bucket", left, "kg");
   report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.series = {layers};
   site.finish(report);
   return report;
 }
