@@ -42,10 +42,14 @@ void set_enabled(GLenum what, bool on) {
     glDisable(what);
 }
 
-void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
-  if (mesh.indices.empty()) return;
+void use_vertices(const Mesh& mesh) {
   glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &mesh.vertices[0].x);
   glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
+}
+
+void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
+  if (mesh.indices.empty()) return;
+  use_vertices(mesh);
   elements(mesh.indices);
   if (std::none_of(skirts.begin(), skirts.end(), [](bool on) { return on; })) return;
   glShadeModel(GL_FLAT);
@@ -141,6 +145,14 @@ void GlDraw::make_grain() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
+// From above, a little skewed by height so that slopes facing any way keep their grain's size; on walls from the side.
+void GlDraw::lay_grain(bool on_walls) {
+  glActiveTexture(GL_TEXTURE0);
+  const float k = 1.0f / kGrainLength;
+  set_plane(GL_S, on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0) : Eigen::Vector4f(k, 0, 0.35f * k, 0));
+  set_plane(GL_T, on_walls ? Eigen::Vector4f(0, 0, k, 0) : Eigen::Vector4f(0, k, -0.35f * k, 0));
+}
+
 void GlDraw::bind_grain() {
   glActiveTexture(GL_TEXTURE0);
   if (grain_ == 0) make_grain();
@@ -150,10 +162,7 @@ void GlDraw::bind_grain() {
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
   glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
   glTexEnvi(GL_TEXTURE_ENV, GL_RGB_SCALE, 2);
-  // Skewed by height, so that walls get a grain too.
-  const float k = 1.0f / kGrainLength;
-  set_plane(GL_S, {k, 0, 0.9f * k, 0});
-  set_plane(GL_T, {0, k, -0.5f * k, 0});
+  lay_grain(false);
   glEnable(GL_TEXTURE_GEN_S);
   glEnable(GL_TEXTURE_GEN_T);
 }
@@ -192,11 +201,18 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, cons
                     const Lighting& lighting) {
   bind_grain();
   if (!shadows.empty()) bind_shadow(shadows, lighting);
-  glActiveTexture(GL_TEXTURE1);
-  for (const GroundPart& part : parts) {
-    set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
-    set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
-    draw(*part.mesh, part.skirts);
+  for (const bool walls : {false, true}) {
+    if (walls) lay_grain(true);
+    glActiveTexture(GL_TEXTURE1);
+    for (const GroundPart& part : parts) {
+      if (walls && part.mesh->walls.empty()) continue;
+      set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
+      set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
+      if (!walls) draw(*part.mesh, part.skirts);
+      if (!walls) continue;
+      use_vertices(*part.mesh);
+      elements(part.mesh->walls);
+    }
   }
   for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
     glActiveTexture(unit);

@@ -29,6 +29,7 @@ class GlDraw {
 
  private:
   void make_grain();
+  void lay_grain(bool on_walls);
   void bind_grain();
   void bind_shadow(const ShadowMap& shadows, const Lighting& lighting);
 

@@ -52,7 +52,7 @@ void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::ar
     const bool wall = n.z() < 0.62f;  // the cell's other triangle may be level
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = corner[static_cast<std::size_t>(order[t + k])];
-      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      (wall ? mesh.walls : mesh.indices).push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       const auto& lit = surface.lit(c[0], c[1]);
       if (wall)
         mesh.vertices.push_back(colored(p[k], surface.wall_color(c[0], c[1], n)));
@@ -78,7 +78,7 @@ void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt, const std::vector<
 }  // namespace
 
 std::size_t GroundPart::triangles() const {
-  std::size_t count = mesh->indices.size();
+  std::size_t count = mesh->indices.size() + mesh->walls.size();
   for (std::size_t k = 0; k < 4; ++k) count += skirts[k] ? mesh->skirts[k].size() : 0;
   return count / 3;
 }
@@ -185,6 +185,7 @@ void Terrain::build(int tx, int ty, int level) {
   Mesh& mesh = tile.mesh;
   mesh.vertices.clear();
   mesh.indices.clear();
+  mesh.walls.clear();
   for (auto& skirt : mesh.skirts) skirt.clear();
   tile.level = level;
   ++rebuilt_;

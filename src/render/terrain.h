@@ -14,6 +14,7 @@ namespace navvy::render {
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> walls;  ///< steep triangles: the grain lies on them from the side
   /// Strips hanging from the south, east, north and west edge, triangles of one colour each (slivers would smear
   /// shaded colours).
   std::array<std::vector<std::uint32_t>, 4> skirts;
