@@ -24,16 +24,23 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side.
+// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side. Without
+// a tile for the back (0) only neutral ones.
 static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back, int3 d) {
-  for (int n = 0; n < BLOCK_NODES; ++n) {
-    if (split[n] == 0) continue;
-    const int3 at = (int3)(n & 3, (n >> 2) & 3, n >> 4) + 4 * d + 1;
-    if (any(at < 0) || any(at > 7)) continue;
-    const int to = at.x + 8 * at.y + 64 * at.z;
-    vstore4(vload4(n, field1), to, back);
-    if (split[n] == 2) vstore4(vload4(n, field1), to, neutral);
-  }
+  const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
+  const int x0 = d.x < 0 ? 3 : 0, x1 = d.x > 0 ? 3 : 4;
+  for (int z = z0; z < z1; ++z)
+    for (int y = y0; y < y1; ++y) {
+      const int row = y + 4 * z;
+      const int4 any_split = vload4(row, split);
+      if (((any_split.x | any_split.y) | (any_split.z | any_split.w)) == 0) continue;
+      for (int x = x0; x < x1; ++x) {
+        const int n = x + 4 * row, to = (x + 4 * d.x + 1) + 8 * (y + 4 * d.y + 1) + 64 * (z + 4 * d.z + 1);
+        if (split[n] == 0) continue;
+        if (back) vstore4(vload4(n, field1), to, back);
+        if (split[n] == 2) vstore4(vload4(n, field1), to, neutral);
+      }
+    }
 }
 
 // The nine rows of four nodes around the particles of one cell.
@@ -75,7 +82,8 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global float* restrict state, const int capacity, global const int4* restrict homes,
     global const int* restrict neighbours, global const float* restrict velocity0, global const float* restrict velocity1,
-    global const int* restrict near_slot, global const int* restrict node_split, global float* restrict report,
+    global const int* restrict near_slot, global const int* restrict node_split, global const int* restrict used,
+    global float* restrict report,
     const float dt, const float dx, const float full, const float closing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];
@@ -85,16 +93,17 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
               neighbour_offset(n));
   for (int i = 2048; i < 4 * TILE_NODES; ++i) tile[i] = 0.0f;
   if (home.w) {
-    for (int i = 0; i < 4 * TILE_NODES; i += 16) {
-      const float16 row = vload16(0, tile + i);
-      vstore16(row, 0, tile + 4 * TILE_NODES + i);
-      vstore16(row, 0, tile + 8 * TILE_NODES + i);
+    const int mask = used[block];
+    for (int t = 1; mask >> t; ++t) {
+      if (!(mask >> t & 1)) continue;
+      for (int i = 0; i < TILE_NODES / 4; ++i) vstore16(vload16(i, tile), i, tile + 4 * TILE_NODES * t);
     }
+    float* back = mask & 4 ? tile + 8 * TILE_NODES : 0;
     for (int n = 0; n < 27; ++n) {
       const int slot = near_slot[neighbours[27 * block + n]];
       if (slot >= 0)
         copy_split(velocity1 + (size_t)slot * (4 * BLOCK_NODES), node_split + slot * BLOCK_NODES, tile,
-                   tile + 8 * TILE_NODES, neighbour_offset(n));
+                   back, neighbour_offset(n));
     }
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks; around = 27 home indices per active block (-1: no particles there); homes.
+// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no particles there); homes.
 //      floor_height = FLOOR_WORDS per active block: resting ground.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
 //      share of the node's kernel that lies above the ground (room.h).
@@ -56,7 +56,7 @@ static inline bool far_above(global const float* floor_height) {
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float* restrict tiles, global const float* restrict floor_height, global float* restrict velocity,
+    global const float* restrict tiles, global const int* restrict used, global const float* restrict floor_height, global float* restrict velocity,
     const float4 dv) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
@@ -64,9 +64,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   for (int n = 0; n < 27; ++n) {
     const int home = around[27 * block + n];
     if (home < 0) continue;
-    const int count = homes[home].w ? 3 : 1;
-    for (int t = 0; t < count; ++t)
-      add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+    for (int t = 0; used[home] >> t; ++t)
+      if (used[home] >> t & 1) add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const float* ground = floor_height + FLOOR_WORDS * block;
@@ -86,7 +85,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 // angle per home block; node_friction = its mean at the node by mass.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float* restrict tiles, global const float* restrict home_friction,
+    global const float* restrict tiles, global const int* restrict used, global const float* restrict home_friction,
     global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
     global float* restrict node_friction, const float4 dv) {
   const int slot = get_global_id(0);
@@ -98,9 +97,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   for (int n = 0; n < 27; ++n) {
     const int home = around[27 * block + n];
     if (home < 0) continue;
-    const int count = homes[home].w ? 3 : 1;
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
-    for (int t = 0; t < count; ++t) {
+    for (int t = 0; used[home] >> t; ++t) {
+      if (!(used[home] >> t & 1)) continue;
       global const float* tile = tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));

@@ -3,7 +3,7 @@
 //
 // In:  state (SoA words, layout.h), soils (SOIL_WORDS floats each), home blocks: start and count in slots, tile = first
 //      tile of the block, near = 1 when it has three tiles (0 neutral, 1 front, 2 back of a shell).
-// Out: tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; stress, J, J0 and plastic
+// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; stress, J, J0 and plastic
 //      shear of the particles; REPORT_BAD.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit.
 // Host: src/soil/transfer.cpp. Reference: src/soil/reference/reference_solver.cpp.
@@ -74,13 +74,28 @@ INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, 
   }
 }
 
+// Which of a home's tiles its particles need: bit 0 always, bits 1 and 2 where particles have a side.
+static inline int tiles_used(global const float* state, int capacity, int start, int end) {
+  int16 sides = 0;
+  for (int at = start; at < end; at += 16) {
+    const int16 side = as_int16(LOAD(FIELD_TAG)) >> 16;
+    sides |= side > 0 ? 4 - 2 * (side & 1) : 0;
+  }
+  return 1 | (some(sides & 2) ? 2 : 0) | (some(sides & 4) ? 4 : 0);
+}
+
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant float* soils, global const int4* restrict homes,
-    global float* restrict tiles, global float* restrict report, const float dt, const float dx, const float mixing) {
+    global float* restrict tiles, global int* restrict used, global float* restrict report, const float dt, const float dx, const float mixing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];  // start, count, first tile, near
   global float* tile = tiles + (size_t)home.z * (4 * TILE_NODES);
-  for (int i = 0; i < (home.w ? 3 : 1) * TILE_NODES * 4; i += 16) vstore16((float16)(0.0f), 0, tile + i);
+  const int mask = home.w ? tiles_used(state, capacity, home.x, home.x + home.y) : 1;
+  used[block] = mask;
+  for (int t = 0; mask >> t; ++t) {
+    if (!(mask >> t & 1)) continue;
+    for (int i = 0; i < TILE_NODES / 4; ++i) vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
+  }
 
   float openings[4 * CELLS];
   const bool open = cell_openings(state, capacity, home.x, home.x + home.y, openings);

@@ -173,6 +173,10 @@ double ShellGeometry::distance(const Vec3& p) const {
     sign = (p - c).dot(normal) >= 0 ? 1 : -1;
   };
   for (const Triangle& t : triangles_) {
+    // A triangle whose sphere is farther than what was found has nothing to offer; the margin covers rounding.
+    const Vec3 centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);
+    if ((p - centre).squaredNorm() > reach * reach) continue;
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 along = t.corner[(i + 1) % 3] - t.corner[i];

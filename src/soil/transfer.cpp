@@ -34,6 +34,7 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   upload(device_, far_list_, far);
   upload(device_, active_keys_, keys);
   ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
+  ensure(device_, used_, table.homes.size());
   ensure(device_, velocity_, active_ * 4 * BLOCK_NODES);
   ensure(device_, report_, table.homes.size() * REPORT_WORDS);
 }
@@ -46,13 +47,13 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
                                      0.0f};
   scatter_
-      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, report_, dt_f, cell_f,
+      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report_, dt_f, cell_f,
             static_cast<float>(std::min(1.0, dt / mixing_time())))
       .enqueue(store.homes().size(), 1);
-  grid_.args(far_list_, around_, store.homes_buffer(), tiles_, floor_, velocity_, dv_f).enqueue(far_, 1);
+  grid_.args(far_list_, around_, store.homes_buffer(), tiles_, used_, floor_, velocity_, dv_f).enqueue(far_, 1);
   if (near.count == 0) return;
   grid_near_
-      .args(near.list, around_, store.homes_buffer(), tiles_, store.home_friction(), near.split, near.before0,
+      .args(near.list, around_, store.homes_buffer(), tiles_, used_, store.home_friction(), near.split, near.before0,
             near.before1, near.friction, dv_f)
       .enqueue(static_cast<std::size_t>(near.count), 1);
 }
@@ -60,7 +61,7 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
 void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
   gather_
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity_, near.velocity1, near.slot,
-            near.split, report_, static_cast<float>(dt), static_cast<float>(cell),
+            near.split, used_, report_, static_cast<float>(dt), static_cast<float>(cell),
             static_cast<float>(packed_mass(store.densest(), cell)),
             static_cast<float>(std::min(1.0, dt / closing_time())))
       .enqueue(store.homes().size(), 1);

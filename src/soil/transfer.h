@@ -56,7 +56,7 @@ class Transfer {
   device::Kernel scatter_, grid_, grid_near_, gather_;
   std::size_t active_ = 0, far_ = 0;
   device::Buffer<float> tiles_, velocity_, floor_, report_;
-  device::Buffer<std::int32_t> neighbours_, around_, far_list_;
+  device::Buffer<std::int32_t> neighbours_, around_, far_list_, used_;
   device::Buffer<std::array<std::int32_t, 4>> active_keys_;
 };
 
