@@ -180,7 +180,7 @@ Rig footing() {
       "weight is a hundredth of it per layer. Phi 0: --phi-deg 0 --cohesion-pa 5000. Nq: --cohesion-pa 0 --phi-deg 20 "
       "(30) --surcharge-pa 2000.";
   rig.parameters = {{"breadth", 1, "m", "of the strip; at least 20 cells for the gates"},
-                    {"settlement", 0.06, "breadths", "at the end"},
+                    {"settlement", 0.12, "breadths", "at the end"},
                     {"speed", 0.2, "m/s", "downwards"},
                     {"beside", 2, "breadths", "of soil on either side"},
                     {"below", 1.2, "breadths", "of soil"},

@@ -9,22 +9,11 @@
 namespace navvy::lab {
 namespace {
 
-/// Lid and ring in one: a box open at the bottom, lid at z = `height`, with ribs across it that reach down to
-/// `rib_bottom`, as the grooved plates of a shear box.
-scene::Shell inverted_box(double length, double width, double height, int ribs, double rib_bottom) {
+/// Lid and ring in one: a box open at the bottom, lid at z = `height`.
+scene::Shell inverted_box(double length, double width, double height) {
   scene::Shell s = open_box(length, width, height);
   for (Vec3& v : s.vertices) v.z() = height - v.z();
   for (auto& t : s.triangles) std::swap(t[1], t[2]);  // inside stays front
-  for (int i = 1; i <= ribs; ++i) {
-    const int at = static_cast<int>(s.vertices.size());
-    const double x = length * (i / (ribs + 1.0) - 0.5), y = width / 2;
-    for (const double z : {rib_bottom, height}) {
-      s.vertices.emplace_back(x, -y, z);
-      s.vertices.emplace_back(x, y, z);
-    }
-    s.triangles.push_back({at, at + 1, at + 3});
-    s.triangles.push_back({at, at + 3, at + 2});
-  }
   return s;
 }
 
@@ -43,8 +32,7 @@ Report run(const Setup& setup) {
   auto soil = site.fill({lower.low, Vec3(length / 2, width / 2, height)});
   site.rest(soil, height, sigma);
   site.solver().insert(soil);
-  scene::Shell shell = inverted_box(length + 2 * half, width + 2 * half, height + half, setup.whole("ribs"),
-                                    setup["rib-bottom"] * height);
+  scene::Shell shell = inverted_box(length + 2 * half, width + 2 * half, height + half);
   shell.half_thickness = half;
   ToolDriver driver(site, shell, make_pose(0, 0, 0));
   Tool& ring = site.tool(driver.tool());
@@ -91,7 +79,7 @@ Rig shear_box() {
   rig.summary = "direct shear: tau over sigma at large strain is sin phi";
   rig.drawing =
       "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls are resting ground, the "
-      "upper half in a smooth ring whose lid, with ribs across, rests on it with the weight sigma-pa x area, free "
+      "upper half in a smooth ring with a lid of the same size that rests on it with the weight sigma-pa x area, free "
       "to sink. The ring is moved along x at `speed` by `travel` lengths. tau over sigma is the mean horizontal force "
       "over the weight on the plane between the halves, in the second half of the travel. Soil that leaks under the "
       "ring's rim shows in the sinking of the lid.";

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small siblings of the tool rigs; the full sizes and half cells run in tests/validation/lab_tools_test.cpp.
+#include "lab/report.h"
+
+namespace navvy::lab {
+namespace {
+
+TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
+  const Report report = run_rig("blade", {});
+  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(measured(report, "particles through the blade"), 0);
+  EXPECT_LT(measured(report, "momentum residual"), 1e-5);
+  EXPECT_EQ(report.ledger_error, 0);
+}
+
+TEST(LabBlade, CohesionAddsItsPart) {
+  const Report report = run_rig("blade", {}, [](lab::Setup& s) { s.soil.cohesion = s.soil.residual_cohesion = 2000; });
+  EXPECT_EQ(misses(report), "");
+}
+
+TEST(LabBlade, FlatterBladeNeedsLessForce) {
+  const std::map<std::string, double> open = {
+      {"plane", 0}, {"width", 0.6}, {"gate-percent", 0}, {"travel", 0.2}, {"from", 0.1}};
+  auto flat = open;
+  flat["rake-deg"] = 45;
+  const double upright = measured(run_rig("blade", open), "horizontal force");
+  EXPECT_LT(measured(run_rig("blade", flat), "horizontal force"), 0.9 * upright);
+}
+
+TEST(LabFooting, BearsFiveTimesTheCohesion) {
+  // Ten cells of breadth where the gate asks for twenty: the gate is not applied here, the range is.
+  const Report report = run_rig("footing", {}, [](lab::Setup& s) { s.cell = 0.1; });
+  EXPECT_NEAR(measured(report, "Nc = pressure / c"), 5.14, 0.15 * 5.14);
+  EXPECT_EQ(measured(report, "particles through the shell"), 0);
+  EXPECT_EQ(report.ledger_error, 0);
+}
+
+TEST(LabHold, WeightOfTheLoadIsFeltWithinOnePercent) {
+  const Report report = run_rig("hold", {{"time", 2}});
+  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(measured(report, "particles through the shell"), 0);
+}
+
+TEST(LabHold, ShellOfHalfTheLoadHangsStill) {
+  for (const double share : {1.0, 0.5}) {
+    const Report report = run_rig("hold", {{"time", 2}, {"mass", 1400}, {"shell-mass", 700}, {"step-share", share}});
+    EXPECT_EQ(misses(report), "") << "step share " << share;
+  }
+}
+
+TEST(LabLightTool, GainsNoEnergy) {
+  const Report report = run_rig("light-tool", {});
+  EXPECT_EQ(misses(report), "");
+  EXPECT_LT(measured(report, "momentum residual"), 1e-5);
+}
+
+TEST(LabScrape, NeitherJamsNorThrows) {
+  const Report report = run_rig("scrape", {{"drag", 0.6}});
+  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(measured(report, "particles through the shell"), 0);
+}
+
+TEST(LabRigs, NamesAndParametersAreUnique) {
+  std::map<std::string, int> seen;
+  for (const Rig& rig : rigs()) {
+    EXPECT_EQ(seen[rig.name]++, 0) << rig.name;
+    EXPECT_FALSE(rig.drawing.empty()) << rig.name;
+    EXPECT_NE(rig.run, nullptr) << rig.name;
+    std::map<std::string, int> names;
+    for (const Parameter& parameter : rig.parameters) EXPECT_EQ(names[parameter.name]++, 0) << parameter.name;
+  }
+}
+
+}  // namespace
+}  // namespace navvy::lab

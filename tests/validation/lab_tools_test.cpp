@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tool rigs at the sizes their gates are given for. A miss fails; tests/README.md says which ones are known and
+// why.
+#include "lab/report.h"
+
+namespace navvy::lab {
+namespace {
+
+double force_of(const std::map<std::string, double>& geometry, double cell,
+                const std::function<void(scene::Soil&)>& soil) {
+  const Report report = run_rig("blade", geometry, [&](lab::Setup& s) {
+    s.cell = cell;
+    soil(s.soil);
+  });
+  EXPECT_EQ(report.ledger_error, 0);
+  EXPECT_EQ(measured(report, "particles through the blade"), 0);
+  return measured(report, "horizontal force");
+}
+
+TEST(ToolLab, NarrowBladeInWashedSand) {
+  const double depths[] = {0.10, 0.15, 0.20, 0.25}, forces[] = {280, 505, 820, 1310};  // Obermayr 2011, N
+  double error = 0, last = 0, first = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double force =
+        force_of({{"plane", 0}, {"width", 0.2}, {"depth", depths[i]}, {"speed", 0.45}, {"from", 0.5}, {"travel", 1.5}},
+                 0.05, [](scene::Soil& soil) {
+                   soil.bank_density = 1440;
+                   soil.friction_angle = radians(35);
+                   soil.tool_friction_angle = radians(16.2);
+                 });
+    error += std::abs(force / forces[i] - 1) / 4;
+    if (i == 0) first = force;
+    last = force;
+  }
+  const double exponent = std::log(last / first) / std::log(2.5);
+  std::printf("[ VALUE    ] Obermayr: mean absolute error %.3f (gate 0.25), exponent %.3f (gate 1.6 .. 2.3)\n", error,
+              exponent);
+  EXPECT_LE(error, 0.25);
+  EXPECT_GE(exponent, 1.6);
+  EXPECT_LE(exponent, 2.3);
+}
+
+TEST(ToolLab, RakedBladeInSand) {
+  const double rakes[] = {30, 45, 60}, forces[] = {259, 400, 605};  // Hatamura and Chijiiwa 1977 at 0.10 m, N
+  double before = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double force = force_of(
+        {{"plane", 0}, {"width", 0.33}, {"rake-deg", rakes[i]}, {"depth", 0.10}, {"from", 0.1}, {"travel", 0.2}}, 0.025,
+        [](scene::Soil& soil) {
+          soil.bank_density = 1460;
+          soil.friction_angle = radians(38);
+          soil.tool_friction_angle = radians(26.6);
+        });
+    EXPECT_NEAR(force / forces[i], 1, 0.3) << "rake " << rakes[i];
+    EXPECT_GT(force, before);
+    before = force;
+  }
+}
+
+struct Case {
+  const char* name;
+  const char* rig;
+  std::map<std::string, double> geometry;
+  double cell = 0;                         ///< 0: the rig's default
+  double phi_degrees = -1, cohesion = -1;  ///< -1: the rig's default
+};
+
+class ToolGates : public testing::TestWithParam<Case> {};
+
+TEST_P(ToolGates, MeetsItsGates) {
+  const Case& c = GetParam();
+  const Report report = run_rig(c.rig, c.geometry, [&](lab::Setup& s) {
+    if (c.cell > 0) s.cell = c.cell;
+    if (c.phi_degrees >= 0) s.soil.friction_angle = radians(c.phi_degrees);
+    if (c.cohesion >= 0) s.soil.cohesion = s.soil.residual_cohesion = c.cohesion;
+  });
+  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(report.ledger_error, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rigs, ToolGates,
+    testing::Values(Case{"Blade", "blade", {}, 0.05}, Case{"Passive", "wall", {}},
+                    Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Active", "wall", {{"travel", -0.03}}},
+                    Case{"ActiveHalf", "wall", {{"travel", -0.03}}, 0.05}, Case{"Footing", "footing", {}},
+                    Case{"Surcharge20", "footing", {{"surcharge-pa", 2000}}, 0.05, 20, 0},
+                    Case{"Surcharge30", "footing", {{"surcharge-pa", 2000}}, 0.05, 30, 0}, Case{"Cut", "cut", {}},
+                    Case{"Shear", "box", {}}, Case{"ShearHalf", "box", {{"length", 48}, {"height", 8}}, 0.05},
+                    Case{"Hold", "hold", {}}, Case{"HoldHeavy", "hold", {{"mass", 1400}, {"shell-mass", 700}}},
+                    Case{"HoldHeavyHalfStep", "hold", {{"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}}},
+                    Case{"LightTool", "light-tool", {}}, Case{"Bucket", "bucket", {{"refine", 1}}},
+                    Case{"Scrape", "scrape", {}}, Case{"Cycle", "cycle", {{"cycles", 5}}}),
+    [](const testing::TestParamInfo<Case>& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace navvy::lab
