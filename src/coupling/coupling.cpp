@@ -5,11 +5,15 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
+#include "coupling/placing.h"
 
 namespace navvy::coupling {
 namespace {
 
-constexpr int kRutInterval = 8;       // steps between presses; a wheel at 2.5 m/s moves 3 cm in between
+constexpr int kRutInterval = 8;  // steps between presses; a wheel at 2.5 m/s moves 3 cm in between
+// Fastest sinking of a rut [m/s]: a tyre falling at it adds a tenth to its load; at 1 m/s it passes 0.4 m in the time
+// it takes to sink 0.08 m.
+constexpr double kSinkSpeed = 0.2;
 constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
 constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
 constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
@@ -28,10 +32,8 @@ Coupling::Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::
       ruts_(ground) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    Pose X_WM = placed.X_WM;
-    if (placed.on_ground) X_WM.translation().z() += ground.sample(X_WM.translation().x(), X_WM.translation().y());
     vehicle::Engine& home = placed.machine.kinematic ? kinematic : engine;
-    homes_.push_back({&home, home.add_machine(placed.machine, X_WM)});
+    homes_.push_back({&home, home.add_machine(placed.machine, place(placed, ground))});
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
       ToolLoad load;
@@ -68,7 +70,7 @@ void Coupling::step(double dt) {
     exchange_with_soil(dt, before);
   }
   const Lap lap(time_share_.ground);
-  if (steps_ % kRutInterval == 0) press_ruts();
+  if (steps_ % kRutInterval == 0) press_ruts(dt);
   ++steps_;
 }
 
@@ -98,11 +100,12 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
   }
 }
 
-void Coupling::press_ruts() {
+void Coupling::press_ruts(double dt) {
   for (std::size_t m = 0; m < homes_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w)
-      ruts_.press(machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w)));
+      ruts_.press(machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w)),
+                  kSinkSpeed * kRutInterval * dt);
   }
 }
 

@@ -63,7 +63,7 @@ class Coupling {
   void update_ground_patch();
   void upload_ground_patch();
   int patch_stride() const;
-  void press_ruts();
+  void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
   const scene::World& world_;

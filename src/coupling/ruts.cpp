@@ -18,20 +18,29 @@ double Ruts::sinkage(const scene::Soil& soil, double pressure, double width) {
   return std::pow(pressure / k, 1 / soil.bekker_n);
 }
 
-void Ruts::press_column(int ix, int iy, double pressure, double width) {
+double Ruts::bearing(const scene::Soil& soil, double z, double width) {
+  return z > 0 ? (soil.bekker_kc / width + soil.bekker_kphi) * std::pow(z, soil.bekker_n) : 0;
+}
+
+void Ruts::press_column(int ix, int iy, double pressure, double width, double most) {
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   Memory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
   const double height = ground_.height(ix, iy);
   // Dug, filled or slumped since: fresh ground.
   if (std::abs(height - memory.height) > 1e-3) memory.pressure = 0;
   if (pressure <= memory.pressure) return;
-  const double more = sinkage(soil, pressure, width) - sinkage(soil, memory.pressure, width);
+  const double before = sinkage(soil, memory.pressure, width);
+  double more = sinkage(soil, pressure, width) - before;
+  if (more > most) {
+    more = most;
+    pressure = bearing(soil, before + most, width);
+  }
   memory.pressure = pressure;
   if (more > 0) ground_.compact_to(ix, iy, height - more);
   memory.height = ground_.height(ix, iy);
 }
 
-void Ruts::press(const scene::Wheel& tyre, const vehicle::WheelState& wheel) {
+void Ruts::press(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most) {
   const double load = wheel.force_W.z();
   if (!(load > 0)) return;
   const bool twin = tyre.twin_spacing > 0;
@@ -57,14 +66,19 @@ void Ruts::press(const scene::Wheel& tyre, const vehicle::WheelState& wheel) {
     const Vec3 center = X * Vec3(0, side * tyre.twin_spacing, 0);
     const Vec2 along = Vec2(X.linear()(0, 0), X.linear()(1, 0)).normalized();
     const Vec2 across(-along.y(), along.x());
-    const double reach = 0.5 * std::hypot(length, tyre.width);
+    // Where the round tread leaves the ground; `length`, of the mean pressure, lies between it and the flat part.
+    const double half = 0.5 * contact_length(tyre.radius, deflection + depth);
+    const double reach = std::hypot(half, 0.5 * tyre.width);
     const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);
     const Vec2i high = ground_.column_at(center.x() + reach, center.y() + reach);
     for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
       for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix) {
         const Vec2 d = ground_.origin() + cell * Vec2(ix + 0.5, iy + 0.5) - center.head<2>();
-        if (std::abs(d.dot(along)) <= 0.5 * length && std::abs(d.dot(across)) <= 0.5 * tyre.width)
-          press_column(ix, iy, pressure, tyre.width);
+        const double x = d.dot(along);
+        if (std::abs(x) > half || std::abs(d.dot(across)) > 0.5 * tyre.width) continue;
+        // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
+        const double tread = std::clamp(depth + deflection - x * x / (2 * tyre.radius), 0.0, depth);
+        press_column(ix, iy, std::min(pressure, bearing(soil, tread, tyre.width)), tyre.width, most);
       }
   }
 }

@@ -22,11 +22,15 @@ class Ruts {
  public:
   explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
 
-  /// Presses the contact patch of one wheel that carries `wheel.force_W`; tyres of a twin pair each carry half.
-  void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel);
+  /// Presses the contact patch of one wheel that carries `wheel.force_W`; tyres of a twin pair each carry half. No
+  /// column sinks by more than `most` [m] at a time: ground that gives way at once lets the wheel fall, and what it
+  /// hits with presses deeper than its load would.
+  void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most = 1e9);
 
   /// Sinkage [m] of a plate of width b [m] under pressure p [Pa].
   static double sinkage(const scene::Soil& soil, double pressure, double width);
+  /// The pressure [Pa] that it bears when it has sunk by z [m].
+  static double bearing(const scene::Soil& soil, double z, double width);
 
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
@@ -37,7 +41,7 @@ class Ruts {
     double pressure = 0;  ///< largest borne [Pa]
     double height = 0;    ///< surface it left behind [m]
   };
-  void press_column(int ix, int iy, double pressure, double width);
+  void press_column(int ix, int iy, double pressure, double width, double most);
 
   heightfield::Ground& ground_;
   std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability

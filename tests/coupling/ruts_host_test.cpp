@@ -70,6 +70,29 @@ TEST(Ruts, StandingStillAndAnEqualSecondPassAddNothingAHeavierOneDoes) {
   EXPECT_GT(deepest(ground), once);
 }
 
+TEST(Ruts, PressedALittleAtATimeEndsWhereOnePressDoes) {
+  heightfield::Ground once = flat_loam(), slowly = flat_loam();
+  Ruts(once).press(twin_tyre(), loaded_at(3.2, 3.2, 45e3));
+  Ruts ruts(slowly);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3), 0.002);
+  // Columns keep whole mass quanta: heights are exact to a micrometre.
+  EXPECT_NEAR(deepest(slowly), 0.002, 1e-6);
+  for (int i = 0; i < 100; ++i) ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3), 0.002);
+  EXPECT_NEAR(deepest(slowly), deepest(once), 1e-5);
+}
+
+TEST(Ruts, EndsRiseWithTheTreadInsteadOfAWall) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press(twin_tyre(), loaded_at(3.2, 3.2, 45e3));
+  // Columns stand 0.05, 0.15, 0.25 m ahead; the tread leaves the ground between 0.2 and 0.3 m.
+  const Vec2i at = ground.column_at(3.25, 3.35);
+  const double middle = -ground.height(at.x(), at.y()), end = -ground.height(at.x() + 2, at.y());
+  EXPECT_GT(middle, 0.01);
+  EXPECT_GT(end, 0.2 * middle);
+  EXPECT_LT(end, 0.8 * middle);
+}
+
 TEST(Ruts, OnlyColumnsUnderTheTyresChange) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);

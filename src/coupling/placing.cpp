@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vehicle/kinematics.h"
+
+namespace navvy::coupling {
+namespace {
+
+/// Under the wheels' centres: where they stand on the machine's ground plane, in the axes of the level machine [m].
+std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
+  std::vector<double> q;
+  for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
+  const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, X_WM, q);
+  std::vector<Vec3> out;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    const int joint = machine.joint_index(wheel.joint);
+    if (joint < 0) continue;
+    const int link = machine.joints[static_cast<std::size_t>(joint)].child;
+    out.push_back(X_WL[static_cast<std::size_t>(link)].translation() - Vec3(0, 0, wheel.radius));
+  }
+  return out;
+}
+
+}  // namespace
+
+Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
+  Pose X_WM = placed.X_WM;
+  if (!placed.on_ground) return X_WM;
+  const Vec3 origin = X_WM.translation();
+  X_WM.translation().z() += ground.sample(origin.x(), origin.y());
+  const std::vector<Vec3> feet = contacts(placed.machine, X_WM);
+  if (feet.size() < 3) return X_WM;
+  // Plane h = a + b x + c y through the ground's height over the feet, x and y from the origin.
+  Mat3 normal_matrix = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  double highest = 0;
+  for (const Vec3& foot : feet) {
+    const Vec3 row(1, foot.x() - origin.x(), foot.y() - origin.y());
+    const double step = ground.sample(foot.x(), foot.y()) - foot.z();
+    normal_matrix += row * row.transpose();
+    right += step * row;
+    highest = std::max(highest, std::abs(step));
+  }
+  if (highest < 1e-9 || std::abs(normal_matrix.determinant()) < 1e-9) return X_WM;
+  const Vec3 plane = normal_matrix.ldlt().solve(right);
+  const Vec3 up = Vec3(-plane.y(), -plane.z(), 1).normalized();
+  X_WM.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix() * X_WM.linear();
+  double raise = -1e9;
+  for (const Vec3& foot : contacts(placed.machine, X_WM))
+    raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
+  X_WM.translation().z() += raise;
+  return X_WM;
+}
+
+}  // namespace navvy::coupling
