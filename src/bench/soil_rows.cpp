@@ -183,8 +183,11 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
   if (wanted.empty())
     throw InputError(
         Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word", "one of:" + names});
-  const Peak peak = measure_peak(device);
+  Peak peak;
   for (const SoilCase* c : wanted) {
+    // A neighbour may have been busy: the best of all looks so far is what the device can do.
+    const Peak now = measure_peak(device);
+    peak = {std::max(peak.copy_bandwidth, now.copy_bandwidth), std::max(peak.flops, now.flops)};
     Row row = c->run(device);
     row.bench = c->name;
     row.device = device.info().name;
