@@ -112,7 +112,7 @@ void dig(int steps) {
   bench_row("soil_dig", rig, steps, {motion});
 }
 
-/// Rows whose name, before the colon of its size, holds the word given; everything without one.
+/// Cases whose name holds the word given; all without one.
 template <class Case>
 void run(const std::string& name, const Case& work) {
   if (name.find(only) != std::string::npos) work();
@@ -126,8 +126,11 @@ int main(int argc, char** argv) {
     run("dig", [] { dig(100); });
     run("held_bucket", [] { held_bucket(200); });
     run("collapse_8k", [] { collapse(1.0, 200); });
+    run("collapse_50k", [] { collapse(1.85, 100); });
     run("collapse_64k", [] { collapse(2.0, 100); });
     run("collapse_512k", [] { collapse(4.0, 20); });
+    // A gigabyte of memory and minutes: only when asked for.
+    if (only == "collapse_2m") collapse(6.3, 5);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
