@@ -22,6 +22,26 @@ static inline void query(real x, real y, real z, int3 key, global const float4* 
   }
 }
 
+// The same for `packs` packs of a home's particles from slot `at` on: what a triangle needs is worked out once for all.
+#define PACKS 8
+static inline void query_packs(global const float* state, int capacity, int at, int packs, int3 key,
+                               global const float4* triangles, global const float* tools, global const int* list,
+                               int begin, int end, float far, Closest* best) {
+  for (int p = 0; p < packs; ++p) {
+    best[p].distance2 = INFINITY;
+    best[p].x = best[p].y = best[p].z = 0.0f;
+    best[p].feature = -1;
+  }
+  for (int i = begin; i < end; ++i) {
+    const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
+    const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
+    for (int p = 0; p < packs; ++p, at += NAVVY_LANES)
+      closest_triangle(LOAD(FIELD_X) + shift.x, LOAD(FIELD_X + 1) + shift.y, LOAD(FIELD_X + 2) + shift.z, triangles,
+                       list[i], far, best + p);
+    at -= NAVVY_LANES * packs;
+  }
+}
+
 // What one point learns from its closest feature. Normal points to the front.
 static inline bool resolve(global const float4* triangles, int feature, float3 away, float distance2, float* phi,
                            float3* normal, bool* rim) {
@@ -98,11 +118,18 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
   const int3 key = keys[home].xyz;
   float far_push = 0.0f;
   int crossings = 0;
-  for (int at = homes[home].x; at < homes[home].x + homes[home].y; at += 16) {
-    const int count = min(16, homes[home].x + homes[home].y - at);
-    Closest best;
+  const int end = homes[home].x + homes[home].y;
+  Closest found[PACKS];
+  int pack = PACKS;
+  for (int at = homes[home].x; at < end; at += 16, ++pack) {
+    const int count = min(16, end - at);
+    if (pack == PACKS) {
+      query_packs(state, capacity, at, min(PACKS, (end - at + 15) / 16), key, triangles, tools, list, first[near],
+                  first[near + 1], band + 1.0f, found);
+      pack = 0;
+    }
+    const Closest best = found[pack];
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    query(x, y, z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     // Out of the band and never inside it: nothing to keep.
     const int16 tags = as_int16(LOAD(FIELD_TAG));
     const int16 near_shell = best.distance2 < band * band | tags >> 16 != 0;
