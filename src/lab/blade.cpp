@@ -85,7 +85,7 @@ Report run_plane(const Setup& setup) {
   Site site(*setup.device, chute_soils(setup.soil), cell, chute_site(setup, bed, gap));
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = depth + setup["above"] * depth,
-  shape.top = shape.height;
+  shape.top = std::max(shape.height, 2.5 * depth);  // over what piles up in front
   shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell, shape.bottom = depth - below - 2 * cell;
   auto soil = chute_fill(
       site, bed, gap, share > 0, [&](const Vec3& p) { return ahead_of_blade(p, depth, rake, cell); }, trench(depth));

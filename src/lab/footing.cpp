@@ -178,7 +178,8 @@ Rig footing() {
       "strengthless, "
       "a hundred times denser, and gravity is turned down until the layer weighs the surcharge, so that the soil's own "
       "weight is a hundredth of it per layer. Phi 0: --phi-deg 0 --cohesion-pa 5000. Nq: --cohesion-pa 0 --phi-deg 20 "
-      "(30) --surcharge-pa 2000.";
+      "(30) --surcharge-pa 2000 --young-pa 4e6 --settlement 0.08 --speed 0.02 --cell 0.1: the layer is inert, and "
+      "faster or softer runs weigh its inertia or end before the strength is mobilised.";
   rig.parameters = {{"breadth", 1, "m", "of the strip; at least 20 cells for the gates"},
                     {"settlement", 0.12, "breadths", "at the end"},
                     {"speed", 0.2, "m/s", "downwards"},
