@@ -160,10 +160,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
       STORE(FIELD_C + 3 + axis, scale * (w1 - f[axis] * v[1]));
       STORE(FIELD_C + 6 + axis, scale * (w2 - f[axis] * v[2]));
     }
-    // mass is the nodes' mean mass now: soil packed tighter than its J says closes towards what the nodes hold.
+    // mass is the nodes' mean mass now: soil packed tighter than J and its density state say closes. Opened soil (J > J0)
+    // in flight keeps its J: it could not find back to the gaps it has.
     const real j = LOAD(FIELD_J);
     const real packed = full / fmax(mass, MASS_QUANTUM);
-    STORE(FIELD_J, j - closing * fmax(j - packed, 0.0f));
+    STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
     STORE(FIELD_X, x + (dt / dx) * v[0]);
     STORE(FIELD_X + 1, y + (dt / dx) * v[1]);

@@ -138,7 +138,7 @@ void ReferenceSolver::step(double dt) {
       v += w * u;
       moment += w * u * r.transpose();
     });
-    p.j -= closing * std::max(0.0, p.j - packed / mass);
+    p.j -= closing * std::max(0.0, std::min(p.j, p.j0) - packed / mass);
     p.v = v;
     p.c = (4 / cell_) * moment;
     p.x += (dt / cell_) * v;
