@@ -43,6 +43,12 @@ struct GroundPatch {
   std::vector<GroundLayer> layers;
 };
 
+/// Soil that starts as particles: the columns of a rectangle from a height up.
+struct AwakeSoil {
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
+  double bottom = 0;                            ///< W height [m]
+};
+
 /// What to do with a heightmap's slopes that exceed the soil's repose.
 enum class SteepGround { kHold, kSettle };
 
@@ -60,6 +66,7 @@ struct Ground {
   std::vector<GroundFeature> features;
   std::vector<GroundLayer> layers;  ///< at least one
   std::vector<GroundPatch> patches;
+  std::vector<AwakeSoil> awake;
 };
 
 }  // namespace navvy::scene

@@ -77,6 +77,20 @@ scene::GroundPatch read_patch(Element& element, const std::vector<scene::Soil>& 
   return patch;
 }
 
+scene::AwakeSoil read_awake(Element& element, Faults& faults) {
+  scene::AwakeSoil awake;
+  Fields(element, faults)
+      .vec2("min_m", awake.min, kPlace)
+      .required("min_m")
+      .vec2("max_m", awake.max, kPlace)
+      .required("max_m")
+      .number("bottom_m", awake.bottom, {-1e4, 1e4})
+      .finish();
+  if (awake.min.x() >= awake.max.x() || awake.min.y() >= awake.max.y())
+    faults.error(element, "", "min_m must be less than max_m in x and y");
+  return awake;
+}
+
 void read_file(Fields& fields, scene::Ground& ground, Faults& faults) {
   fields.text("file", ground.file);
   Vec2 local = Vec2::Zero();
@@ -112,7 +126,8 @@ scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soil
       .choice<scene::SteepGround>("steep", ground.steep,
                                   {{"hold", scene::SteepGround::kHold}, {"settle", scene::SteepGround::kSettle}})
       .each("layer", [&](Element& layer) { ground.layers.push_back(read_layer(layer, soils, faults)); })
-      .each("patch", [&](Element& patch) { ground.patches.push_back(read_patch(patch, soils, faults)); });
+      .each("patch", [&](Element& patch) { ground.patches.push_back(read_patch(patch, soils, faults)); })
+      .each("awake", [&](Element& awake) { ground.awake.push_back(read_awake(awake, faults)); });
   ground.has_origin = fields.has("origin_m");
   if (!ground.has_origin) ground.origin = -0.5 * ground.size;
 

@@ -42,6 +42,16 @@ struct World::State {
       throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
                              "the base step must be positive and finite",
                              "check cell, courant and the soils' stiffness"});
+    for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+  }
+  void wake(const scene::AwakeSoil& awake) {
+    const auto cell = [&](double metres, double from, int cells) {
+      return static_cast<int>(std::clamp(std::round((metres - from) / ground.cell()), 0.0, static_cast<double>(cells)));
+    };
+    const Vec2 from = ground.origin();
+    soil.wake({cell(awake.min.x(), from.x(), ground.nx()), cell(awake.min.y(), from.y(), ground.ny()),
+               cell(awake.max.x(), from.x(), ground.nx()), cell(awake.max.y(), from.y(), ground.ny())},
+              awake.bottom);
   }
 
   scene::World description;

@@ -73,6 +73,21 @@ TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
   EXPECT_THROW(block->load(reader), InputError);
 }
 
+TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
+  const auto session = make(load("block_collapse.sdf"));
+  const heightfield::Ground& ground = session->world().ground();
+  const int top = static_cast<int>(session->world().soil().stats().particles);
+  run_to(*session, 0.8);
+  EXPECT_EQ(top, 0);  // counted by the first step
+  EXPECT_GT(session->world().soil().stats().particles_peak, 25000);
+  // 2 x 2 x 1 m of sand: the heap is wider than the block was and lower than its edge.
+  double widest = 0;
+  for (const soil::Particle& p : session->world().soil().particles())
+    widest = std::max(widest, ground.origin().x() + ground.cell() * (4 * p.block[0] + static_cast<double>(p.x[0])));
+  EXPECT_GT(widest, 0.6 + 0.5);
+  EXPECT_EQ(session->world().soil().ledger().error(), 0);
+}
+
 TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   const scene::World description = load("trench.sdf");
   const auto whole = make(description);
