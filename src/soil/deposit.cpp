@@ -23,6 +23,10 @@ constexpr double kLeastRoom = 4;
 /// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
 /// number of particles over a column scatters by 0.65.
 constexpr double kCliff = 1.5;
+/// Of the four neighbours so many at least are level with a column that belongs to a wall.
+constexpr int kInLine = 2;
+/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and more [-].
+constexpr double kBonded = 0.5;
 /// Columns' shares of a block's volume are counted in this fraction of a cell.
 constexpr double kShareUnit = 1.0 / (1 << 20);
 
@@ -121,6 +125,16 @@ double Depositor::surface(int ix, int iy) const {
   return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
 }
 
+/// Whether the soil over a column was hardly sheared.
+bool Depositor::bonded(int ix, int iy) const {
+  double mass = 0, shear = 0;
+  for (const std::uint32_t i : index_.column(ix, iy)) {
+    mass += index_[i].mass;
+    shear += static_cast<double>(index_[i].mass) * static_cast<double>(index_[i].shear);
+  }
+  return shear < kBonded * mass;
+}
+
 std::array<bool, 16> Depositor::cliffs(int block) const {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<bool, 16> out{};
@@ -128,9 +142,12 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
     const int ix = kBlockCells * key.second + c % 4, iy = kBlockCells * key.first + c / 4;
     if (!ground_.contains(ix, iy)) continue;
     const double here = surface(ix, iy);
-    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-      if (ground_.contains(ix + dx, iy + dy) && std::abs(surface(ix + dx, iy + dy) - here) > kCliff)
-        out[static_cast<std::size_t>(c)] = true;
+    int drops = 0, level = 0;
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (!ground_.contains(ix + dx, iy + dy)) continue;
+      ++(std::abs(surface(ix + dx, iy + dy) - here) > kCliff ? drops : level);
+    }
+    out[static_cast<std::size_t>(c)] = drops > 0 && level >= kInLine && bonded(ix, iy);
   }
   return out;
 }

@@ -30,7 +30,8 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 /// mean j0 of its particles, clamped to [0.88, swell] (denser only where particles crowd into much less room than
 /// that). The iso-surface decides how the block's volume is spread over its columns; masses are shared in integers,
 /// what rounding leaves goes to the highest column. Beside a cliff the iso-surface is round and would wear the edge a
-/// little at every wake and deposit: columns there keep what lies over each of them.
+/// little at every wake and deposit: columns there keep what lies over each of them, where it is ground still bonded
+/// that makes a wall with its neighbours, not a spike of loose soil.
 class Depositor {
  public:
   Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
@@ -55,6 +56,7 @@ class Depositor {
   std::array<std::int64_t, 16> weights(const Plan& plan, int block) const;
   std::array<bool, 16> cliffs(int block) const;
   double surface(int ix, int iy) const;
+  bool bonded(int ix, int iy) const;
 
   double crowding(const std::vector<Share>& shares, const Plan& plan) const;
   heightfield::Layer layer_of(const Share& share, double rise) const;

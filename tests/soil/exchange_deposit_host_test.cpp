@@ -203,7 +203,9 @@ TEST(ExchangeDeposit, AVerticalCutThroughTheMiddleOfAColumnStaysWhereItIs) {
   // A bank a metre high whose face stands half a cell behind the columns' edge, as a bucket's side plate leaves it.
   Site site({loam()});
   const auto behind = [](double x, double, double) { return x > 8.5; };
-  site.add(fill(site, {8, 8, kFlat}, {16, 24, kFlat + 10}, 1.0f, behind));
+  auto bank = fill(site, {8, 8, kFlat}, {16, 24, kFlat + 10}, 1.0f, behind);
+  for (Particle& p : bank) p.shear = 0;  // cut, not dug
+  site.add(bank);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   const auto risen = [&](int ix) { return site.ground.height(ix, 16) - site.ground.start_height(ix, 16); };
