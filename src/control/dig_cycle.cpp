@@ -10,7 +10,10 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kFill = 0.95;         // of the heaped capacity
+// Of the heaped capacity: what the EW180's bucket keeps through its curl at 0.1 m cells, where plates hold soil off by
+// up to half a cell. Filled to 0.95 it kept 0.61 and left the rest on the trench's edges, sixteen cycles instead of
+// ten.
+constexpr double kFill = 0.75;
 constexpr double kLiftClear = 0.6;     // lowest point over the ground before the machine swings [m]
 constexpr double kEmptyPayload = 10;   // [kg] the bucket counts as empty
 constexpr double kWorthPayload = 40;   // [kg] less makes an empty scoop
@@ -87,7 +90,10 @@ bool Operator::State::plan_scoop(const scene::Dig& dig, const Observation& seen)
 void Operator::State::go_to_scoop(Phase next, const Observation& seen) {
   m.s = m.scoop_start;
   const Vec2 p = plan.point(m.s);
-  const double ground = with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  // While it swings back the bucket stays above the trench's edges and what was spilt on them; then it goes down.
+  const double ground = with_surface(seen, [&](const SurfaceView& surface) {
+    return next == Phase::kReturn ? plan.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
+  });
   m.z = std::max(ground, plan.start_height(m.s) - m.scoop_level) + kClear;
   m.angle = with_cut(*arm, kPlunge);
   const SwingPoint tip = swing_point(swing_frame(), Vec3(p.x(), p.y(), m.z));

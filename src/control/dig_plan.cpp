@@ -10,6 +10,7 @@ namespace {
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
 constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
+constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
 constexpr double kWorth = 0.3;       // a slice's rest below this share of a bucket waits for the next slice
 
 }  // namespace
@@ -55,6 +56,16 @@ double DigPlan::height(const SurfaceView& surface, double s) const {
     sum += surface.height(p.x(), p.y());
   }
   return sum / 3;
+}
+
+double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
+  const Vec2 across(-along_.y(), along_.x());
+  double out = start_height(s);
+  for (double t = -kBeside; t <= kBeside + 1e-9; t += kSample) {
+    const Vec2 p = point(s) + (std::copysign(0.5 * dig_.width, t) + t) * across;
+    out = std::max(out, surface.height(p.x(), p.y()));
+  }
+  return out;
 }
 
 double DigPlan::start_height(double s) const {

@@ -47,6 +47,8 @@ class DigPlan {
   double volume_above(const SurfaceView& surface, double level) const;
   /// W height of the surface before the dig at `s` [m].
   double start_height(double s) const;
+  /// Highest soil at `s` on both edges of the cut and half a metre beside, at least the height before the dig [m].
+  double highest_beside(const SurfaceView& surface, double s) const;
   Vec2 point(double s) const { return line_.near + s * along_; }
   double length() const { return length_; }
   double design_volume() const { return length_ * dig_.width * dig_.depth; }
