@@ -120,12 +120,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     for (int k = 0; k < 9; ++k) c[k] = LOAD(FIELD_C + k);
     for (int k = 0; k < 6; ++k) s[k] = LOAD(FIELD_S + k);
     real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0), shear = LOAD(FIELD_SHEAR);
+    const int16 lost = !isfinite(j);  // the law's floor would hide it
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
     if (open) {
       const real opening = opening_of(openings, cell_of(x, y, z));
       j = opening > 0.0f ? j + mixing * (j0 * opening - j) : j;
     }
     law_update(c, dt, &soil, s, &j, &j0, &shear, sigma);
+    j = select(j, (real)(NAN), lost);
     for (int k = 0; k < 6; ++k) STORE(FIELD_S + k, s[k]);
     STORE(FIELD_J, j);
     STORE(FIELD_J0, j0);

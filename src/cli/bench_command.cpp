@@ -16,6 +16,7 @@ namespace {
 struct BenchOptions {
   std::vector<std::string> devices;
   std::string only, csv, json;
+  bool columns = false;
   bool quick = false, list = false;
 };
 
@@ -39,6 +40,10 @@ void print_row(const bench::Row& row) {
 }
 
 int run_bench(const BenchOptions& options) {
+  if (options.columns) {
+    std::printf("%s\n", bench::csv_header().c_str());
+    return kOk;
+  }
   if (options.list) {
     for (const bench::SoilCase& c : bench::soil_cases())
       std::printf("%-20s %s%s\n", c.name.c_str(), c.help.c_str(), c.quick ? " (quick)" : "");
@@ -76,6 +81,7 @@ void add_bench(CLI::App& app, Action& action) {
   command->add_option("--json", options->json, "write the rows to this file");
   command->add_flag("--quick", options->quick, "only the short cases");
   command->add_flag("--list", options->list, "list the cases");
+  command->add_flag("--columns", options->columns, "print the names of the columns of --csv");
   command->callback([options, &action] { action = [options] { return run_bench(*options); }; });
 }
 

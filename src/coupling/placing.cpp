@@ -30,9 +30,13 @@ std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   Pose X_WM = placed.X_WM;
   if (!placed.on_ground) return X_WM;
-  const Vec3 origin = X_WM.translation();
-  X_WM.translation().z() += ground.sample(origin.x(), origin.y());
-  const std::vector<Vec3> feet = contacts(placed.machine, X_WM);
+  // As the machine would stand by itself: level, on the ground below its origin, turned about the vertical only.
+  const Vec3 origin(X_WM.translation().x(), X_WM.translation().y(),
+                    ground.sample(X_WM.translation().x(), X_WM.translation().y()));
+  const Vec3 ahead = X_WM.linear().col(0);
+  Pose standing = make_pose(origin.x(), origin.y(), origin.z(), 0, 0, std::atan2(ahead.y(), ahead.x()));
+  X_WM.translation().z() += origin.z();
+  const std::vector<Vec3> feet = contacts(placed.machine, standing);
   if (feet.size() < 3) return X_WM;
   // Plane h = a + b x + c y through the ground's height over the feet, x and y from the origin.
   Mat3 normal_matrix = Mat3::Zero();
@@ -48,10 +52,13 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   if (highest < 1e-9 || std::abs(normal_matrix.determinant()) < 1e-9) return X_WM;
   const Vec3 plane = normal_matrix.ldlt().solve(right);
   const Vec3 up = Vec3(-plane.y(), -plane.z(), 1).normalized();
-  X_WM.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix() * X_WM.linear();
+  const Mat3 tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix();
+  standing.linear() = tilt * standing.linear();
   double raise = -1e9;
-  for (const Vec3& foot : contacts(placed.machine, X_WM))
+  for (const Vec3& foot : contacts(placed.machine, standing))
     raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
+  // What the scene asks for on top of that: its height over the ground, its roll and pitch.
+  X_WM.linear() = tilt * X_WM.linear();
   X_WM.translation().z() += raise;
   return X_WM;
 }

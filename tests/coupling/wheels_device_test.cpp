@@ -100,6 +100,22 @@ TEST(Wheels, StandOnASlopeFromTheStartAndClimbIt) {
   EXPECT_GT(world.link(0, 0).X_WL.translation().x(), -9 + 2);
 }
 
+TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
+  scene::GroundFeature slope;
+  slope.kind = scene::GroundFeature::Kind::kSlope;
+  slope.angle = radians(6);
+  for (const auto& features : {std::vector<scene::GroundFeature>{}, std::vector<scene::GroundFeature>{slope}}) {
+    scene::World lifted = yard(features);
+    lifted.machines[0].X_WM.translation().z() += 1.0;
+    lifted.machines[0].X_WM.linear() = make_pose(0, 0, 0, 0.1, 0.2, 0).linear();
+    const sim::World as_it_is(yard(features), shared_device()), as_told(lifted, shared_device());
+    const Pose a = as_it_is.link(0, 0).X_WL, b = as_told.link(0, 0).X_WL;
+    EXPECT_NEAR(b.translation().z() - a.translation().z(), 1.0, 1e-6);
+    const Mat3 turn = a.linear().transpose() * b.linear();
+    EXPECT_NEAR((turn - make_pose(0, 0, 0, 0.1, 0.2, 0).linear()).norm(), 0, 1e-9);
+  }
+}
+
 TEST(Wheels, OfTwoExcavatorsRollAsIfEachWereAlone) {
   sim::World alone(yard({}), shared_device()), both(yard({}, 2), shared_device());
   for (sim::World* world : {&alone, &both}) {

@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 1, forces come from the soil";
+constexpr const char* kSource = "issue 2, forces come from the soil";
 // Times of the path [s]: dragged level at 0.3 m of depth; then curled; lifted clear.
 constexpr double kDragStart = 2.0, kDragEnd = 3.6, kLifted = 7.0;
 constexpr double kDepth = 0.3;

@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 1, 1.4 t in the 0.7 t bucket";
+constexpr const char* kSource = "issue 2, 1.4 t in the 0.7 t bucket";
 constexpr double kLoad = 1400;  ///< [kg]
 
 /// The bucket as a free body on a servo that holds its place and attitude.

@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, GranularLab,
                                          Case{"SlideHalf", "slide", {}, 0.05}, Case{"Throw", "throw", {}},
                                          Case{"ThrowHalf", "throw", {}, 0.05}, Case{"Swell", "swell", {}},
                                          Case{"SwellHalf", "swell", {}, 0.05}),
-                         [](const testing::TestParamInfo<Case>& info) { return std::string(info.param.name); });
+                         [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 }  // namespace navvy::lab

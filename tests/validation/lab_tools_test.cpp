@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"HoldHeavyHalfStep", "hold", {{"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}}},
                     Case{"LightTool", "light-tool", {}}, Case{"Bucket", "bucket", {{"refine", 1}}},
                     Case{"Scrape", "scrape", {}}, Case{"Cycle", "cycle", {{"cycles", 5}}}),
-    [](const testing::TestParamInfo<Case>& info) { return std::string(info.param.name); });
+    [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 }  // namespace navvy::lab
