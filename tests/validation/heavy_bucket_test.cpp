@@ -41,6 +41,7 @@ class HangingBucket {
     motion_.tool = rig_->solver().add_tool(shell);
     motion_.X_WT = home_;
     std::vector<soil::Particle> load;
+    load.reserve(places.size());
     for (const Vec3& p : places) load.push_back(rig_->particle(p, h * h * h));
     rig_->solver().insert(load);
     std::printf("%zu particles of %.0f kg/m3, %.0f kg\n", load.size(), soil.bank_density, kLoad);
