@@ -204,6 +204,7 @@ int run_rig(const LabOptions& options) {
   if (options.cell) setup.cell = *options.cell;
   for (const auto& [name, value] : options.geometry) setup.geometry[name] = value;
   setup.progress = progress_line(options.quiet);
+  lab::check(rig, setup);
   const lab::Report report = rig.run(setup);
   std::printf("%s: %s\n", rig.name.c_str(), rig.summary.c_str());
   print_table(report);

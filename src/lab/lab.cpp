@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/lab.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/edit_distance.h"
@@ -77,6 +78,33 @@ Setup default_setup(const Rig& rig, device::Device& device) {
   setup.cell = rig.default_cell;
   for (const Parameter& parameter : rig.parameters) setup.geometry[parameter.name] = parameter.value;
   return setup;
+}
+
+void check(const Rig& rig, const Setup& setup) {
+  // A choice says what 0 and 1 mean; some lengths and times may be left out, the others a rig divides by.
+  const auto is_choice = [](const Parameter& p) {
+    return p.unit.empty() && (p.help.rfind("0:", 0) == 0 || p.help.rfind("1:", 0) == 0);
+  };
+  const std::vector<std::string> may_be_zero = {"rest",  "wait",  "drop",     "offset", "beside", "back", "front",
+                                                "ahead", "below", "tilt-deg", "search", "press",  "turn", "height"};
+  std::vector<Fault> faults;
+  for (const Parameter& p : rig.parameters) {
+    const double value = setup[p.name];
+    std::string rule;
+    if (!std::isfinite(value))
+      rule = "a finite number";
+    else if (is_choice(p) && value != 0 && value != 1)
+      rule = p.help;
+    else if (p.value >= 0 && p.name != "travel" && value < 0)
+      rule = "not less than 0";
+    else if (p.value > 0 && value == 0 && !is_choice(p) &&
+             std::find(may_be_zero.begin(), may_be_zero.end(), p.name) == may_be_zero.end())
+      rule = "more than 0";
+    if (!rule.empty())
+      faults.push_back(Fault{Fault::Severity::kError, "", 0, "lab " + rig.name + " --" + p.name, std::to_string(value),
+                             rule, p.help + ", e.g. " + std::to_string(p.value) + " " + p.unit});
+  }
+  if (!faults.empty()) throw InputError(faults);
 }
 
 }  // namespace navvy::lab

@@ -97,5 +97,7 @@ const std::vector<Rig>& rigs();
 const Rig& find_rig(const std::string& name);
 /// Default soil, cell and geometry.
 Setup default_setup(const Rig& rig, device::Device& device);
+/// @throws InputError with every parameter that is not finite, negative or zero where that means nothing, or no choice.
+void check(const Rig& rig, const Setup& setup);
 
 }  // namespace navvy::lab

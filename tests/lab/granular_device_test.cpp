@@ -83,5 +83,21 @@ TEST(LabRigs, SayWhatTheyMeasureAndRefuseNonsense) {
   EXPECT_THROW(find_rig("rest").run(setup), InputError);
 }
 
+TEST(Lab, RefusesGeometryThatMeansNothingAndTellsEveryFault) {
+  lab::Setup setup = default_setup(find_rig("column"), test_device());
+  EXPECT_NO_THROW(check(find_rig("column"), setup));
+  setup.geometry["l0"] = -1;
+  setup.geometry["shape"] = 7;
+  setup.geometry["time"] = std::nan("");
+  setup.geometry["a"] = 0;
+  try {
+    check(find_rig("column"), setup);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 4u) << error.what();
+  }
+  for (const Rig& rig : rigs()) EXPECT_NO_THROW(check(rig, default_setup(rig, test_device()))) << rig.name;
+}
+
 }  // namespace
 }  // namespace navvy::lab
