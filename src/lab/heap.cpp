@@ -156,6 +156,7 @@ std::vector<std::pair<double, double>> flank_profile(const Surface& surface, con
       ++count;
     }
   std::vector<std::pair<double, double>> out;
+  out.reserve(rings.size());
   for (const auto& [ring, entry] : rings) out.emplace_back((ring + 0.5) * 0.5 * cell, entry.first / entry.second);
   return out;
 }

@@ -62,6 +62,33 @@ Series profile(const Site& site, double edge, double margin, const std::string& 
   return out;
 }
 
+/// What lies there now on its way up: the upper half faster than the lower, each grain a little aside.
+std::vector<soil::Particle> thrown(const Site& site, double speed, double height) {
+  Random random(1);
+  auto out = site.solver().particles();
+  for (soil::Particle& p : out) {
+    const double share = std::clamp(site.position(p).z() / height, 0.0, 1.0);
+    p.v[2] = static_cast<float>(speed * (0.5 + share));
+    p.v[0] = static_cast<float>(random.uniform(-0.5, 0.5));
+    p.v[1] = static_cast<float>(random.uniform(-0.5, 0.5));
+  }
+  return out;
+}
+
+/// The results by name.
+void judge(Report& report, const Volume& before, const Volume& after, const Series& by_state, double swell) {
+  const double most =
+      by_state.values.empty() ? kNone : *std::max_element(by_state.values.begin(), by_state.values.end());
+  report.note("opened in flight to, V/V0", most, "");
+  report.add("V/V0 by the surface", after.by_surface / before.by_surface, "", swell, 0.95 * swell, 1.05 * swell,
+             "VALIDATION 1");
+  report.add("V/V0 by mass and state", after.by_state / before.by_state, "", swell, 0.95 * swell, 1.05 * swell,
+             "VALIDATION 1");
+  report.note("V/V0 by the surface, in the middle", after.in_middle / before.in_middle, "");
+  report.note("surface over state before the throw", before.by_surface / before.by_state, "", "bias of the measure");
+  report.note("rms speed at the end", 1000 * after.rms, "mm/s");
+}
+
 Report run(const Setup& setup) {
   const double cell = setup.cell, edge = setup["edge"], height = setup["height"];
   Setup smooth = setup;
@@ -84,19 +111,10 @@ Report run(const Setup& setup) {
   site.run(0.3);
   const Volume before = measure(site, edge, 0, height);
 
-  // Insert once more what lies there now, on its way up: the upper half faster than the lower, each grain a little
-  // aside. The books see soil that comes in; what lay there is left out of them by starting a second site.
+  // The books see soil that comes in; what lay there is left out of them by starting a second site.
   Site flying(smooth, options);
   flying.add_tool(bin, make_pose(off.x(), off.y(), 0, 0, 0, radians(45)));
-  Random random(1);
-  auto thrown = site.solver().particles();
-  for (soil::Particle& p : thrown) {
-    const double share = std::clamp(site.position(p).z() / height, 0.0, 1.0);
-    p.v[2] = static_cast<float>(setup["speed"] * (0.5 + share));
-    p.v[0] = static_cast<float>(random.uniform(-0.5, 0.5));
-    p.v[1] = static_cast<float>(random.uniform(-0.5, 0.5));
-  }
-  flying.solver().insert(thrown);
+  flying.solver().insert(thrown(site, setup["speed"], height));
   Series time{"time", "s", {}}, by_surface{"volume by surface", "", {}}, by_state{"volume by state", "", {}};
   const double seconds = flight + setup["rest"];
   for (int i = 1; i <= 20; ++i) {
@@ -108,17 +126,7 @@ Report run(const Setup& setup) {
   }
   const Volume after = measure(flying, edge, 0, height);
   Report report;
-  const double most =
-      by_state.values.empty() ? kNone : *std::max_element(by_state.values.begin(), by_state.values.end());
-  const double swell = setup.soil.swell;
-  report.note("opened in flight to, V/V0", most, "");
-  report.add("V/V0 by the surface", after.by_surface / before.by_surface, "", swell, 0.95 * swell, 1.05 * swell,
-             "VALIDATION 1");
-  report.add("V/V0 by mass and state", after.by_state / before.by_state, "", swell, 0.95 * swell, 1.05 * swell,
-             "VALIDATION 1");
-  report.note("V/V0 by the surface, in the middle", after.in_middle / before.in_middle, "");
-  report.note("surface over state before the throw", before.by_surface / before.by_state, "", "bias of the measure");
-  report.note("rms speed at the end", 1000 * after.rms, "mm/s");
+  judge(report, before, after, by_state, setup.soil.swell);
   report.note("particles through a wall", static_cast<double>(flying.solver().stats().shell_crossings), "");
   report.series = {time, by_surface, by_state, profile(flying, edge, 0.25, "particles a cell by layer"),
                    profile(flying, edge, 2, "particles a cell by layer in the middle")};

@@ -37,6 +37,7 @@ double fan_volume(const std::vector<Vec3f>& points, std::span<const std::int32_t
 bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>& indices) {
   std::map<std::array<float, 3>, std::size_t> number;
   std::vector<std::size_t> merged;
+  merged.reserve(points.size());
   for (const Vec3f& p : points)
     merged.push_back(number.try_emplace({p.x(), p.y(), p.z()}, number.size()).first->second);
   Pieces pieces(number.size());

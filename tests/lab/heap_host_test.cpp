@@ -57,6 +57,7 @@ TEST(Surface, OfABlockIsAQuarterCellAboveItsGrains) {
   // Grains anywhere, without order.
   Random random(5);
   std::vector<Vec3> strewn;
+  strewn.reserve(8 * 600);
   for (int i = 0; i < 8 * 600; ++i)
     strewn.push_back(Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(size));
   const double loose = mean_height(surface_of(strewn, kCell, 0), size.head<2>());
