@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact of the two node fields with tools: fractional, unilateral, Coulomb; and the sums of the two-way solve.
 //
-// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; tools: TOOL_WORDS floats each. One work-item per near block. Host: src/soil/contact.cpp.
+// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; tools: TOOL_WORDS floats each.
+// One work-item per near block. Host: src/soil/contact.cpp.
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "common/portable.h"
 #include "soil/layout.h"
@@ -150,9 +151,9 @@ kernel void contact_twist(global float4* restrict frame, const int first_tool, c
 }
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
-// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room (room.h). For the books: touched[slot]
-// = 1 when any node changed; books per node and field float8 (v before, m, v after contact and before the floor, normal
-// impulse), valid in touched blocks.
+// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
+// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v
+// after contact and before the floor, normal impulse), valid in touched blocks.
 kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
                           global float8* restrict books, global float4* restrict velocity0,
                           global float4* restrict velocity1) {
@@ -166,7 +167,7 @@ kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, 
     const float z = (float)(n >> 4);
     global const float* ground = floor_height + FLOOR_WORDS * block;
     const bool held = z <= ground[n & 15];
-    const float above = room_above(z - vload4(n & 15, ground + FLOOR_COLUMNS));
+    const float4 below = z - vload4(n & 15, ground + FLOOR_COLUMNS);
     for (int s = 0; s < 2; ++s) {
       const float4 v = s == 0 ? before0[i] : before1[i];
       float4 after = (float4)(v.xyz, 0.0f);
@@ -183,8 +184,8 @@ kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, 
       books[2 * i + s] = (float8)(v, after);
       // Mass per room, as far as ground and plate leave room on this side.
       const float beside = (s == 0 ? 1.0f : -1.0f) * shell[i].s3 - tools[TOOL_WORDS * max(node_tool[i], 0) + TOOL_HALF];
-      const float room = above * (split[i] == 0 ? 1.0f : kernel_share((float4)(beside)).x);
-      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / fmax(room, LEAST_ROOM));
+      const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);
+      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
       if (s == 0) velocity0[(size_t)block * BLOCK_NODES + n] = felt;
       else velocity1[i] = felt;
     }

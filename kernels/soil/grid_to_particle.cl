@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and moves them.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], m [kg]), BLOCK_NODES per active block;
+// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], room.h),
+//      BLOCK_NODES per active block; full = such a mass of a node that means packed [kg]; closing = share of the excess
+//      a step takes;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C and x of the particles; REPORT_SPEED, INFINITY for a NaN.
+// Out: v, C, x and J of the particles; REPORT_SPEED, INFINITY for a NaN.
 // One work-item per home block, no shared writes. Host: src/soil/transfer.cpp.
 #include "soil/lanes.h"
 
@@ -24,9 +26,10 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side. Without
-// a tile for the back (0) only neutral ones.
-static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back, int3 d) {
+// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side.
+// Without a tile for the back (0) only neutral ones.
+static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back,
+                              int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   const int x0 = d.x < 0 ? 3 : 0, x1 = d.x > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -43,11 +46,6 @@ static inline void copy_split(global const float* field1, global const int* spli
     }
 }
 
-// The nine rows of four nodes around the particles of one cell.
-typedef struct Rows {
-  float16 row[9];
-} Rows;
-
 INLINED void load_rows(const float* tile, int node, Rows* rows) {
   UNROLL
   for (int k = 0; k < 3; ++k)
@@ -57,7 +55,7 @@ INLINED void load_rows(const float* tile, int node, Rows* rows) {
 
 // v and its first moments about the base node of one particle: (v | dx | dy | dz) as float4s.
 INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
-                          float4* my, float4* mz) {
+                    float4* my, float4* mz) {
   float16 sum = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
   const float w0 = wy[0], w1 = wy[16], w2 = wy[32];
   UNROLL
@@ -81,16 +79,15 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global float* restrict state, const int capacity, global const int4* restrict homes,
-    global const int* restrict neighbours, global const float* restrict velocity0, global const float* restrict velocity1,
-    global const int* restrict near_slot, global const int* restrict node_split, global const int* restrict used,
-    global float* restrict report,
-    const float dt, const float dx, const float full, const float closing) {
+    global const int* restrict neighbours, global const float* restrict velocity0,
+    global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
+    global const int* restrict used, global float* restrict report, const float dt, const float dx, const float full,
+    const float closing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
-    copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile,
-              neighbour_offset(n));
+    copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
   for (int i = 2048; i < 4 * TILE_NODES; ++i) tile[i] = 0.0f;
   if (home.w) {
     const int mask = used[block];
@@ -160,8 +157,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
       STORE(FIELD_C + 3 + axis, scale * (w1 - f[axis] * v[1]));
       STORE(FIELD_C + 6 + axis, scale * (w2 - f[axis] * v[2]));
     }
-    // mass is the nodes' mean mass now: soil packed tighter than J and its density state say closes. Opened soil (J > J0)
-    // in flight keeps its J: it could not find back to the gaps it has.
+    // mass is the nodes' mean mass now: soil packed tighter than J and its density state say closes. Opened soil
+    // (J > J0) in flight keeps its J: it could not find back to the gaps it has.
     const real j = LOAD(FIELD_J);
     const real packed = full / fmax(mass, MASS_QUANTUM);
     STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no particles there); homes.
+// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
+//      particles there); homes.
 //      floor_height = FLOOR_WORDS per active block: resting ground.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
 //      share of the node's kernel that lies above the ground (room.h).
@@ -41,10 +42,10 @@ static inline float16 held(float16 v, global const float* floor_height, int row)
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, floor_height));
   const float16 below = z - vload16(row & 3, floor_height + FLOOR_COLUMNS);
-  return v * (float16)(on.xxx, 1.0f / fmax(room_above(below.lo.lo), LEAST_ROOM),  //
-                       on.yyy, 1.0f / fmax(room_above(below.lo.hi), LEAST_ROOM),  //
-                       on.zzz, 1.0f / fmax(room_above(below.hi.lo), LEAST_ROOM),  //
-                       on.www, 1.0f / fmax(room_above(below.hi.hi), LEAST_ROOM));
+  return v * (float16)(on.xxx, 1.0f / room_above(below.lo.lo),  //
+                       on.yyy, 1.0f / room_above(below.lo.hi),  //
+                       on.zzz, 1.0f / room_above(below.hi.lo),  //
+                       on.www, 1.0f / room_above(below.hi.hi));
 }
 
 // Whether no node of the block is held or has less than its full room.
@@ -56,8 +57,8 @@ static inline bool far_above(global const float* floor_height) {
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float* restrict tiles, global const int* restrict used, global const float* restrict floor_height, global float* restrict velocity,
-    const float4 dv) {
+    global const float* restrict tiles, global const int* restrict used, global const float* restrict floor_height,
+    global float* restrict velocity, const float4 dv) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
@@ -65,7 +66,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     const int home = around[27 * block + n];
     if (home < 0) continue;
     for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1) add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+      if (used[home] >> t & 1)
+        add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const float* ground = floor_height + FLOOR_WORDS * block;

@@ -11,7 +11,6 @@
 #include "common/portable.h"
 #include "soil/layout.h"
 
-
 typedef float16 real;
 #define LAW_T float16
 #define LAW_LIT(x) ((float)(x))
@@ -20,7 +19,6 @@ typedef float16 real;
 #define LAW_SQRT(a) sqrt(a)
 #define LAW_STEP(edge, x) step((float16)(edge), x)
 #define LAW_FN static inline
-
 
 // Loops over a particle's rows of nodes are unrolled by hand: then the rows stay in registers.
 #define UNROLL _Pragma("unroll")
@@ -39,6 +37,7 @@ typedef float16 real;
 #define PICK_HIGH(a, b) PICK(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31)
 #define PICK_LOW2(a, b) PICK(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
 #define PICK_HIGH2(a, b) PICK(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
+
 // Rows r0..r3 hold components 0..3 of 16 particles. Afterwards o0..o3 hold float4s: the one of particle 4 q + i is
 // part q of o_i. Applied again it undoes itself.
 #define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                         \
@@ -78,6 +77,12 @@ static inline bool some(int16 lanes) {
   const int4 four = eight.lo | eight.hi;
   return ((four.x | four.y) | (four.z | four.w)) != 0;
 }
+
+// The nine rows of four nodes around the particles of one cell. Particles come sorted by cell, so the rows stay in
+// registers until the cell changes.
+typedef struct Rows {
+  float16 row[9];
+} Rows;
 
 // Slot of particle l among the float4s of a turned pack.
 static inline int turned(int l) { return (l & 3) * 4 + (l >> 2); }

@@ -3,8 +3,8 @@
 //
 // In:  state (SoA words, layout.h), soils (SOIL_WORDS floats each), home blocks: start and count in slots, tile = first
 //      tile of the block, near = 1 when it has three tiles (0 neutral, 1 front, 2 back of a shell).
-// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; stress, J, J0 and plastic
-//      shear of the particles; REPORT_BAD.
+// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
+//      -1..6 around the block; stress, J, J0 and plastic shear of the particles; REPORT_BAD.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit.
 // Host: src/soil/transfer.cpp. Reference: src/soil/reference/reference_solver.cpp.
 #include "soil/lanes.h"
@@ -38,12 +38,6 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   soil->loosening = value[SOIL_LOOSENING];
   *inv_density = value[SOIL_INV_DENSITY];
 }
-
-// The nine rows of four nodes that the particles of one cell add to. Particles come sorted by cell, so the sums stay in
-// registers until the cell changes.
-typedef struct Rows {
-  float16 row[9];
-} Rows;
 
 INLINED void flush(global float* tile, int node, const Rows* sums) {
   UNROLL
@@ -86,7 +80,8 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant float* soils, global const int4* restrict homes,
-    global float* restrict tiles, global int* restrict used, global float* restrict report, const float dt, const float dx, const float mixing) {
+    global float* restrict tiles, global int* restrict used, global float* restrict report, const float dt,
+    const float dx, const float mixing) {
   const int block = get_global_id(0);
   const int4 home = homes[block];  // start, count, first tile, near
   global float* tile = tiles + (size_t)home.z * (4 * TILE_NODES);

@@ -13,11 +13,13 @@ static inline float4 kernel_share(float4 t) {
   return 0.5f + a * (0.75f - a * a * (1.0f / 3.0f)) + (low * low * low - high * high * high) * (1.0f / 6.0f);
 }
 
-// The same for a node among four columns that end `below` cells under it (or above, when negative).
-static inline float room_above(float4 below) {
-  if (all(below >= 1.5f)) return 1.0f;
-  const float4 share = kernel_share(below);
-  return 0.25f * ((share.x + share.y) + (share.z + share.w));
+// The same for a node among four columns that end `below` cells under it (or above, when negative), and on its side of
+// a plate `beside` cells away. Never less than LEAST_ROOM.
+static inline float room_between(float4 below, float beside) {
+  const float4 above = kernel_share(below);
+  return fmax(0.25f * ((above.x + above.y) + (above.z + above.w)) * kernel_share((float4)(beside)).x, LEAST_ROOM);
 }
+
+static inline float room_above(float4 below) { return all(below >= 1.5f) ? 1.0f : room_between(below, 1.5f); }
 
 #endif  // NAVVY_KERNELS_SOIL_ROOM_H

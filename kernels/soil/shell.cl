@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
 //
-// In:  frame (layout.h): triangles, free edges, tools; first / list: candidate triangles per near block (compressed rows). Band [cells]: how far a side reaches.
+// In:  frame (layout.h): triangles, free edges, tools; first / list: candidate triangles per near block (compressed
+//      rows). Band [cells]: how far a side reaches.
 // One work-item per near block, nothing shared. Host: src/soil/contact.cpp.
 #include "soil/lanes.h"
 #include "soil/shell_query.h"

@@ -3,8 +3,9 @@
 //
 // A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
 // distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of
-// the corners a b c (w = 1 on a free edge). The sign of the distance comes from the pseudo-normal of the feature that is closest [Baerentzen & Aanaes 2005], which is right on
-// folds of either kind: with plain face normals a point before an inner corner would see one face from behind.
+// the corners a b c (w = 1 on a free edge). The sign of the distance comes from the pseudo-normal of the feature that is
+// closest [Baerentzen & Aanaes 2005], which is right on folds of either kind: with plain face normals a point before an
+// inner corner would see one face from behind.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 
