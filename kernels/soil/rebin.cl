@@ -9,15 +9,16 @@
 // One work-item per home. Host: src/soil/particle_store.cpp.
 #include "soil/lanes.h"
 
-// site: number of cells in x and y.
+// site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity, global const int4* restrict homes,
     global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
-    global int* restrict counts, const int2 site) {
+    global int* restrict counts, const int4 site) {
   const int home = get_global_id(0);
   int count[28];
   for (int i = 0; i < 28; ++i) count[i] = 0;
-  const float x0 = -4.0f * keys[home].x, y0 = -4.0f * keys[home].y, x1 = x0 + site.x, y1 = y0 + site.y;
+  const float bx = 4.0f * keys[home].x, by = 4.0f * keys[home].y;
+  const float x0 = site.x - bx, y0 = site.y - by, x1 = site.z - bx, y1 = site.w - by;
   for (int at = homes[home].x; at < homes[home].x + homes[home].y; ++at) {
     const float x = state[at], y = state[(size_t)capacity + at], z = state[2 * (size_t)capacity + at];
     const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);

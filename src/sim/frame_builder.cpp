@@ -158,10 +158,9 @@ void FrameBuilder::add_particles() {
   out.id.clear();
   out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
   if (particles.empty()) return;
-  const Vec3 corner(ground.origin().x(), ground.origin().y(), ground.datum());
   const auto& first = particles.front().block;
   const double block = soil::kBlockCells * ground.cell();
-  out.origin = corner + block * Vec3(first[0], first[1], first[2]);
+  out.origin = world_.soil().grid_origin() + block * Vec3(first[0], first[1], first[2]);
   out.position.reserve(3 * particles.size());
   out.soil.reserve(particles.size());
   for (const soil::Particle& p : particles) {

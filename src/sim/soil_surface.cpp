@@ -22,10 +22,10 @@ void SoilSurface::look() const {
   const std::vector<scene::Soil>& soils = world_.description().soils;
   std::vector<Grain> grains;
   for (const soil::Particle& p : world_.soil().particles()) {
-    const auto cells = [&](int axis) { return p.block[axis] * soil::kBlockCells + static_cast<double>(p.x[axis]); };
-    const int ix = static_cast<int>(std::floor(cells(0))), iy = static_cast<int>(std::floor(cells(1)));
+    const auto [ix, iy] = world_.soil().grid().column_of(p);
     if (!ground.contains(ix, iy)) continue;
-    grains.push_back({static_cast<std::int64_t>(iy) * ground.nx() + ix, ground.datum() + ground.cell() * cells(2),
+    const double z = ground.datum() + ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
+    grains.push_back({static_cast<std::int64_t>(iy) * ground.nx() + ix, z,
                       kilograms(p.mass) * static_cast<double>(p.j0) / soils[p.soil].bank_density});
   }
   std::sort(grains.begin(), grains.end(),

@@ -21,12 +21,11 @@ void put(std::vector<float>& out, const Vec3& v, float w) {
 /// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of
 /// a tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same
 /// dig.
-Vec3 snapped(const Vec3& cells) {
-  constexpr double kSteps = 1 << 18;
-  return (cells * kSteps).array().round().matrix() / kSteps;
-}
+constexpr double kSteps = 1 << 18;
+Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix() / kSteps; }
 
-int floor_div(double cells) { return static_cast<int>(std::floor(cells / kBlockCells)); }
+/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks.
+int floor_div(double cells) { return static_cast<int>(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells)); }
 
 /// Adds (block, triangle) for every block of `index` whose box [low, high] (cells from its corner) meets the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,

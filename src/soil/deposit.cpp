@@ -25,8 +25,9 @@ constexpr double kLeastRoom = 4;
 constexpr double kCliff = 1.5;
 /// Of the four neighbours so many at least are level with a column that belongs to a wall.
 constexpr int kInLine = 2;
-/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and more [-].
-constexpr double kBonded = 0.5;
+/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and more [-]. A wall may
+/// carry spoil: this share of a column is enough.
+constexpr double kBonded = 0.5, kBondedShare = 0.25;
 /// Columns' shares of a block's volume are counted in this fraction of a cell.
 constexpr double kShareUnit = 1.0 / (1 << 20);
 
@@ -49,7 +50,7 @@ bool at_rest(const ColumnIndex& index, int block) {
 }
 
 bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
-  const int x0 = kBlockCells * key.second, y0 = kBlockCells * key.first;
+  const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
   const auto meets = [&](const heightfield::CellRect& r) {
     return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
   };
@@ -81,10 +82,10 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
   const PlanKey key = index.blocks()[static_cast<std::size_t>(block)];
   const auto found = rest.find(key);
   if (found == rest.end() || found->second < kRestTime) return false;
-  const int x0 = kBlockCells * key.second, y0 = kBlockCells * key.first;
+  const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
   double top = 0;
   for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
-    const int ix = x0 + c % kBlockCells, iy = y0 + c / kBlockCells;
+    const int ix = index.grid().column_x(key, c), iy = index.grid().column_y(key, c);
     const auto column = index.column(ix, iy);
     if (column.empty()) continue;
     if (!ground.contains(ix, iy)) return false;
@@ -125,21 +126,21 @@ double Depositor::surface(int ix, int iy) const {
   return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
 }
 
-/// Whether the soil over a column was hardly sheared.
+/// Whether a good part of the soil over a column was hardly sheared.
 bool Depositor::bonded(int ix, int iy) const {
-  double mass = 0, shear = 0;
+  std::int64_t mass = 0, firm = 0;
   for (const std::uint32_t i : index_.column(ix, iy)) {
     mass += index_[i].mass;
-    shear += static_cast<double>(index_[i].mass) * static_cast<double>(index_[i].shear);
+    if (static_cast<double>(index_[i].shear) < kBonded) firm += index_[i].mass;
   }
-  return shear < kBonded * mass;
+  return static_cast<double>(firm) >= kBondedShare * static_cast<double>(mass);
 }
 
 std::array<bool, 16> Depositor::cliffs(int block) const {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<bool, 16> out{};
   for (int c = 0; c < 16; ++c) {
-    const int ix = kBlockCells * key.second + c % 4, iy = kBlockCells * key.first + c / 4;
+    const int ix = index_.grid().column_x(key, c), iy = index_.grid().column_y(key, c);
     if (!ground_.contains(ix, iy)) continue;
     const double here = surface(ix, iy);
     int drops = 0, level = 0;
@@ -157,10 +158,10 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<std::int64_t, 16> out{};
   std::int64_t sum = 0;
+  const PlanGrid& grid = index_.grid();
   for (std::size_t c = 0; c < 16; ++c) {
-    if (plan.cliff[c] || !ground_.contains(kBlockCells * key.second + static_cast<int>(c % 4),
-                                           kBlockCells * key.first + static_cast<int>(c / 4)))
-      continue;
+    const int place = static_cast<int>(c);
+    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place))) continue;
     out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
   }
@@ -168,8 +169,8 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   // A few grains that do not show in the surface stay in their columns.
   for (std::size_t c = 0; c < 16; ++c) {
     if (plan.cliff[c]) continue;
-    for (const std::uint32_t i : index_.column(kBlockCells * key.second + static_cast<int>(c % 4),
-                                               kBlockCells * key.first + static_cast<int>(c / 4)))
+    const int place = static_cast<int>(c);
+    for (const std::uint32_t i : index_.column(grid.column_x(key, place), grid.column_y(key, place)))
       out[c] += index_[i].mass;
   }
   return out;
@@ -223,6 +224,7 @@ void Depositor::book_column(int ix, int iy) {
 
 void Depositor::book(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  const PlanGrid& grid = index_.grid();
   const std::array<std::int64_t, 16> weight = weights(plan, block);
   const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   std::int64_t sum = 0;
@@ -230,8 +232,7 @@ void Depositor::book(const Plan& plan, int block) {
 
   std::vector<std::uint32_t> pooled;
   for (std::size_t c = 0; c < 16; ++c) {
-    const int ix = kBlockCells * key.second + static_cast<int>(c % 4),
-              iy = kBlockCells * key.first + static_cast<int>(c / 4);
+    const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
     const Grains grains = index_.column(ix, iy);
     if (plan.cliff[c])
       book_column(ix, iy);
@@ -252,9 +253,8 @@ void Depositor::book(const Plan& plan, int block) {
     part[largest] += left;
     for (std::size_t c = 0; c < 16; ++c) {
       layer.mass = part[c];
-      if (layer.mass > 0)
-        ground_.put(kBlockCells * key.second + static_cast<int>(c % 4),
-                    kBlockCells * key.first + static_cast<int>(c / 4), layer);
+      const int place = static_cast<int>(c);
+      if (layer.mass > 0) ground_.put(grid.column_x(key, place), grid.column_y(key, place), layer);
     }
   }
 }

@@ -37,8 +37,8 @@ double spline_sum(double t) {
 }  // namespace
 
 BlockShape ShapeFinder::find(const PlanKey& block) {
-  x0_ = kBlockCells * block.second;
-  y0_ = kBlockCells * block.first;
+  x0_ = index_.grid().column_x(block, 0);
+  y0_ = index_.grid().column_y(block, 0);
   std::vector<float> heights;
   ground_.copy_heights({x0_ - 1, y0_ - 1, x0_ + 5, y0_ + 5}, heights);
   double lowest = 0, highest = 0;
@@ -102,12 +102,15 @@ void ShapeFinder::sample_columns(int ix, int iy) {
 void ShapeFinder::sample_particles(int ix, int iy) {
   const double cell = ground_.cell();
   const auto& soils = ground_.setup().soils;
+  const PlanGrid& grid = index_.grid();
   for (int dy = -2; dy <= 2; ++dy)
     for (int dx = -2; dx <= 2; ++dx)
       for (const std::uint32_t i : index_.column(ix + dx, iy + dy)) {
         const Particle& p = index_[i];
-        const double x = static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]) - (ix + 0.5);
-        const double y = static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]) - (iy + 0.5);
+        const double x =
+            static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]) - (ix - grid.x + 0.5);
+        const double y =
+            static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]) - (iy - grid.y + 0.5);
         const double plan = spline(x) * spline(y);
         if (plan == 0) continue;
         const double volume =

@@ -36,8 +36,10 @@ PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan:
 struct Exchange::State {
   State(const scene::World& world, heightfield::Ground& ground_in)
       : ground(ground_in),
-        waker(ground_in, -world.gravity.z()),
+        grid(plan_grid(world, ground_in)),
+        waker(ground_in, grid, -world.gravity.z()),
         table(ground_in.setup().soils, ground_in.cell(), -world.gravity.z()),
+        standing(grid),
         scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
@@ -54,6 +56,7 @@ struct Exchange::State {
   int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
 
   heightfield::Ground& ground;
+  PlanGrid grid;
   Waker waker;
   SlumpTable table;
   StandingHeights standing;
@@ -75,7 +78,7 @@ Exchange::Exchange(const scene::World& world, heightfield::Ground& ground)
 Exchange::~Exchange() = default;
 
 bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const {
-  const auto found = deposited.find(block_of(ix, iy));
+  const auto found = deposited.find(grid.block_of(ix, iy));
   if (found == deposited.end() || time - found->second >= kRestAfterDeposit) return false;
   return std::none_of(zones.begin(), zones.end(), [&](const ToolZone& tool) { return tool.touches(ix, iy); });
 }
@@ -92,8 +95,10 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
   seen = ground.sequence();
   std::set<PlanKey> out;
   for (const PlanKey& block : index.blocks()) {
-    const int ix = kBlockCells * block.second, iy = kBlockCells * block.first;
-    if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
+    for (const int c : {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
+      const int ix = grid.column_x(block, c), iy = grid.column_y(block, c);
+      if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
+    }
   }
   for (const PlanKey& tile : out) pending.erase(tile);
   for (std::size_t n = 0; n < kTilesPerCheck && !pending.empty(); ++n) {
@@ -121,7 +126,7 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
   bool near = false;
   for (int l = 0; l <= found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
-    const PlanKey block = block_of(ix, iy);
+    const PlanKey block = grid.block_of(ix, iy);
     for (int by = -1; by <= 1; ++by)
       for (int bx = -1; bx <= 1; ++bx) near = near || index.find({block.first + by, block.second + bx}) >= 0;
     for (const ToolZone& tool : zones) near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
@@ -194,7 +199,7 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   // New particles lie between the ground and those at rest in blocks that have just woken, or beside them.
   for (const auto& [column, bottom] : plan)
     for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) rest.erase(block_of(column.second + dx, column.first + dy));
+      for (int dx = -1; dx <= 1; ++dx) rest.erase(grid.block_of(column.second + dx, column.first + dy));
   std::vector<int> ready;
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
@@ -227,7 +232,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   State& s = *state_;
   Result result;
   result.removed.assign(particles.size(), 0);
-  const ColumnIndex index(particles, s.ground);
+  const ColumnIndex index(particles, s.ground, s.grid);
   const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools);
 
   WakePlan plan;
@@ -249,7 +254,7 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
                                      std::span<const Particle> resting) {
   State& s = *state_;
   std::vector<Particle> born;
-  const ColumnIndex index(resting, s.ground);
+  const ColumnIndex index(resting, s.ground, s.grid);
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
       s.waker.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);

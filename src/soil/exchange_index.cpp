@@ -19,19 +19,10 @@ std::uint64_t packed(const PlanKey& key) {
          static_cast<std::uint32_t>(key.second);
 }
 
-int column_coordinate(const Particle& p, int axis) {
-  return kBlockCells * p.block[axis] + static_cast<int>(std::floor(p.x[axis]));
-}
-
-std::size_t place_in_block(int ix, int iy) {
-  const PlanKey block = block_of(ix, iy);
-  return static_cast<std::size_t>((iy - kBlockCells * block.first) * kBlockCells + ix - kBlockCells * block.second);
-}
-
 }  // namespace
 
-ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground)
-    : particles_(particles), ground_(ground) {
+ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground, PlanGrid grid)
+    : particles_(particles), ground_(ground), grid_(grid) {
   group();
   sort_columns();
   build_piles();
@@ -42,12 +33,12 @@ void ColumnIndex::group() {
   std::vector<std::uint32_t> home(particles_.size());
   std::vector<PlanKey> seen;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const int ix = column_coordinate(particles_[i], 0), iy = column_coordinate(particles_[i], 1);
-    const PlanKey key = block_of(ix, iy);
+    const auto [ix, iy] = grid_.column_of(particles_[i]);
+    const PlanKey key = grid_.block_of(ix, iy);
     const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
     if (is_new) seen.push_back(key);
-    home[i] =
-        static_cast<std::uint32_t>(static_cast<std::size_t>(found->second) * kColumnsPerBlock + place_in_block(ix, iy));
+    home[i] = static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
+              static_cast<std::uint32_t>(grid_.place(ix, iy));
   }
   keys_ = seen;
   std::sort(keys_.begin(), keys_.end());
@@ -85,8 +76,8 @@ void ColumnIndex::build_piles() {
   piles_.resize(keys_.size() * kColumnsPerBlock);
   for (std::size_t c = 0; c < piles_.size(); ++c) {
     const PlanKey block = keys_[c / kColumnsPerBlock];
-    const int ix = kBlockCells * block.second + static_cast<int>(c % kBlockCells);
-    const int iy = kBlockCells * block.first + static_cast<int>(c % kColumnsPerBlock / kBlockCells);
+    const int place = static_cast<int>(c % kColumnsPerBlock);
+    const int ix = grid_.column_x(block, place), iy = grid_.column_y(block, place);
     Pile& pile = piles_[c];
     const double surface = (ground_.height(ix, iy) - ground_.datum()) / cell;
     pile.top = surface;
@@ -108,8 +99,8 @@ int ColumnIndex::find(const PlanKey& block) const {
 }
 
 int ColumnIndex::slot(int ix, int iy) const {
-  const int b = find(block_of(ix, iy));
-  return b < 0 ? -1 : b * static_cast<int>(kColumnsPerBlock) + static_cast<int>(place_in_block(ix, iy));
+  const int b = find(grid_.block_of(ix, iy));
+  return b < 0 ? -1 : b * static_cast<int>(kColumnsPerBlock) + grid_.place(ix, iy);
 }
 
 std::span<const std::uint32_t> ColumnIndex::column(int ix, int iy) const {

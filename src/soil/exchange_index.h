@@ -10,17 +10,9 @@
 
 #include "heightfield/ground.h"
 #include "soil/particle.h"
+#include "soil/plan_grid.h"
 
 namespace navvy::soil {
-
-/// Key of a column or of a 4 x 4 block of columns as (y, x): maps of it run in the order of the ground, x fastest.
-using PlanKey = std::pair<int, int>;
-
-/// Block that holds column (ix, iy).
-inline PlanKey block_of(int ix, int iy) {
-  const auto down = [](int i) { return i >= 0 ? i / kBlockCells : -((kBlockCells - 1 - i) / kBlockCells); };
-  return {down(iy), down(ix)};
-}
 
 /// Height of a particle above the datum [cells].
 inline double height_in_cells(const Particle& p) {
@@ -40,7 +32,9 @@ struct Pile {
 /// Costs time and memory in proportion to the particles.
 class ColumnIndex {
  public:
-  ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground);
+  ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground, PlanGrid grid = {});
+
+  const PlanGrid& grid() const { return grid_; }
 
   /// Blocks with particles, in rising order.
   const std::vector<PlanKey>& blocks() const { return keys_; }
@@ -66,6 +60,7 @@ class ColumnIndex {
 
   std::span<const Particle> particles_;
   const heightfield::Ground& ground_;
+  PlanGrid grid_;
   std::vector<PlanKey> keys_;
   std::unordered_map<std::uint64_t, int> place_;  // looked up only, never walked
   std::vector<std::uint32_t> begin_;              // 16 per block and one end

@@ -11,7 +11,7 @@ namespace navvy::soil {
 Floor::Patch Floor::make_patch(int bx, int by) const {
   // Node i touches the columns i - 1 and i, so 4 x 4 nodes need 5 x 5 columns.
   std::vector<float> columns;
-  const int x0 = kBlockCells * bx - 1, y0 = kBlockCells * by - 1;
+  const int x0 = grid_.column_x({by, bx}, 0) - 1, y0 = grid_.column_y({by, bx}, 0) - 1;
   ground_->copy_heights({x0, y0, x0 + 5, y0 + 5}, columns);
   const auto height = [&](int ix, int iy) {
     return (static_cast<double>(columns[static_cast<std::size_t>(ix + 5 * iy)]) - ground_->datum()) / ground_->cell();
@@ -33,7 +33,8 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   if (ground_changed && !first_) {
     const heightfield::CellRect rect = ground_->changed_since(sequence_);
     std::erase_if(patches_, [&](const auto& entry) {
-      const int x0 = kBlockCells * entry.first.first - 1, y0 = kBlockCells * entry.first.second - 1;
+      const PlanKey block{entry.first.second, entry.first.first};
+      const int x0 = grid_.column_x(block, 0) - 1, y0 = grid_.column_y(block, 0) - 1;
       return rect.x0 < x0 + 5 && rect.x1 > x0 && rect.y0 < y0 + 5 && rect.y1 > y0;
     });
   }

@@ -10,6 +10,7 @@
 #include "heightfield/ground.h"
 #include "soil/block_table.h"
 #include "soil/layout.h"
+#include "soil/plan_grid.h"
 
 namespace navvy::soil {
 
@@ -19,7 +20,7 @@ inline constexpr double kHeldMargin = 0.25;
 /// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
 class Floor {
  public:
-  explicit Floor(const heightfield::Ground& ground) : ground_(&ground) {}
+  Floor(const heightfield::Ground& ground, PlanGrid grid) : ground_(&ground), grid_(grid) {}
 
   /// Brings the list up to date for these active blocks; true when it changed since the last call.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
@@ -32,6 +33,7 @@ class Floor {
   Patch make_patch(int bx, int by) const;
 
   const heightfield::Ground* ground_;
+  PlanGrid grid_;
   std::map<std::pair<int, int>, Patch> patches_;
   std::uint64_t sequence_ = 0;
   bool first_ = true;

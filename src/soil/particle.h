@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // One soil particle as the host sees it, and the frame it lives in.
 //
-// Grid frame G: axes of W, origin at the site's lower-left corner and at the ground's datum; lengths in cells. Cell
-// (i, j, k) spans [i, i+1) etc.; node (i, j, k) is its lower corner; a block is 4 x 4 x 4 cells. A particle's position
-// is its block's integers plus an offset from the block's corner in cells, so that its precision is the same
-// everywhere.
+// Grid frame G: axes of W, origin near the site's lower-left corner (plan_grid.h) and at the ground's datum; lengths in
+// cells. Cell (i, j, k) spans [i, i+1) etc.; node (i, j, k) is its lower corner; a block is 4 x 4 x 4 cells. A
+// particle's position is its block's integers plus an offset from the block's corner in cells, so that its precision is
+// the same everywhere.
 #pragma once
 
 #include <cstdint>

@@ -83,7 +83,7 @@ void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
 
 }  // namespace
 
-ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 2>& site,
+ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
                              const std::vector<float>& soils)
     : device_(device),
       site_(site),

@@ -30,8 +30,8 @@ struct Home {
 /// the tables of the touched blocks.
 class ParticleStore {
  public:
-  /// `site` = cells of the site in x and y; `soils` the constant table.
-  ParticleStore(device::Device& device, const std::array<std::int32_t, 2>& site, const std::vector<float>& soils);
+  /// `site` = x and y of its lower left and its upper right corner in G [cells]; `soils` the constant table.
+  ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<float>& soils);
 
   /// Replaces everything. `homes_given`: Particle::block is the home to keep (a snapshot), else homes are found.
   void assign(const std::vector<Particle>& particles, bool homes_given = false);
@@ -66,7 +66,7 @@ class ParticleStore {
   std::vector<Particle> drop_outside(const std::vector<int>& counts);
 
   device::Device& device_;
-  std::array<std::int32_t, 2> site_;
+  std::array<std::int32_t, 4> site_;
   device::Program program_;
   device::Kernel count_kernel_, gather_kernel_, move_kernel_;
   device::Buffer<float> soils_, state_[2], home_friction_;

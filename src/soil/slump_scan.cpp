@@ -26,7 +26,7 @@ void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIn
     auto& block = blocks_[key];
     const bool awake = deposited.count(key) == 0;
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
-      const int ix = kBlockCells * key.second + c % kBlockCells, iy = kBlockCells * key.first + c / kBlockCells;
+      const int ix = grid_.column_x(key, c), iy = grid_.column_y(key, c);
       const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
       block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (awake ? index.pile_height(ix, iy) : 0.0));
     }
@@ -34,11 +34,9 @@ void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIn
 }
 
 bool StandingHeights::find(int ix, int iy, double& height) const {
-  const PlanKey key = block_of(ix, iy);
-  const auto found = blocks_.find(key);
+  const auto found = blocks_.find(grid_.block_of(ix, iy));
   if (found == blocks_.end()) return false;
-  height = static_cast<double>(found->second[static_cast<std::size_t>((iy - kBlockCells * key.first) * kBlockCells +
-                                                                      ix - kBlockCells * key.second)]);
+  height = static_cast<double>(found->second[static_cast<std::size_t>(grid_.place(ix, iy))]);
   return true;
 }
 
@@ -83,12 +81,14 @@ void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
   ground_.copy_heights({x0_, y0_, x0_ + kSide, y0_ + kSide}, rest_);
   for (float& h : rest_) h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
   top_ = rest_;
-  // Blocks never straddle the window: its corner and side are multiples of a block's.
-  for (int by = y0_; by < y0_ + kSide; by += kBlockCells)
-    for (int bx = x0_; bx < x0_ + kSide; bx += kBlockCells) {
-      if (index.find(block_of(bx, by)) < 0) continue;
+  const PlanGrid& grid = index.grid();
+  const PlanKey first = grid.block_of(x0_, y0_), last = grid.block_of(x0_ + kSide - 1, y0_ + kSide - 1);
+  for (int by = first.first; by <= last.first; ++by)
+    for (int bx = first.second; bx <= last.second; ++bx) {
+      if (index.find({by, bx}) < 0) continue;
       for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
-        const int ix = bx + c % kBlockCells, iy = by + c / kBlockCells;
+        const int ix = grid.column_x({by, bx}, c), iy = grid.column_y({by, bx}, c);
+        if (ix < x0_ || ix >= x0_ + kSide || iy < y0_ || iy >= y0_ + kSide) continue;
         top_[at(ix, iy)] += static_cast<float>(index.pile_height(ix, iy));
       }
     }

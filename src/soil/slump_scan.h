@@ -28,6 +28,7 @@ struct OverSteep {
 /// would wake and be booked back for ever.
 class StandingHeights {
  public:
+  explicit StandingHeights(PlanGrid grid) : grid_(grid) {}
   /// Remembers the columns of the blocks just `deposited`, and those of the blocks around them as they are now.
   void remember(const heightfield::Ground& ground, const ColumnIndex& index, const std::set<PlanKey>& deposited);
   /// The height remembered [cells above datum]; false when there is none.
@@ -38,6 +39,7 @@ class StandingHeights {
   void load(StateReader& reader);
 
  private:
+  PlanGrid grid_;
   std::map<PlanKey, std::array<float, kBlockCells * kBlockCells>> blocks_;
 };
 

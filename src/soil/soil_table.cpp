@@ -17,8 +17,8 @@ constexpr double kViscosityShare = 0.05;
 constexpr double kMixingTime = 0.02;
 /// J is integrated and cannot see particles crowd: a scooped and dumped loam lay at 0.97 of its bank volume while its J
 /// said 1.24. So J closes towards what the nodes hold, where they hold this much more than min(J, J0) says. One-sided:
-/// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by that.
-/// tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
+/// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by
+/// that. tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
 constexpr double kPacked = 1.05, kClosingTime = 0.1;
 
 void require(bool ok, const scene::Soil& soil, const std::string& element, double value, const std::string& rule,

@@ -14,9 +14,9 @@ double sound_speed(const scene::Soil& soil);
 /// Time over which J / J0 of particles in one cell relaxes to the cell's mean [s].
 double mixing_time();
 
-/// Mean mass per room of the nodes around a particle [kg] from which on soil counts as crowded at J = 1, for the densest
-/// soil of the scene: where min(J, J0) promises more room than the nodes show, J closes over `closing_time` [s].
-/// Lighter soil beside the densest is corrected too little, never too much.
+/// Mean mass per room of the nodes around a particle [kg] from which on soil counts as crowded at J = 1, for the
+/// densest soil of the scene: where min(J, J0) promises more room than the nodes show, J closes over `closing_time`
+/// [s]. Lighter soil beside the densest is corrected too little, never too much.
 double packed_mass(double densest, double cell);
 double closing_time();
 

@@ -15,6 +15,7 @@
 #include "scene/machine.h"
 #include "scene/world.h"
 #include "soil/particle.h"
+#include "soil/plan_grid.h"
 
 namespace navvy::device {
 class Device;
@@ -93,6 +94,10 @@ class Solver {
 
   /// Host copy in a repeatable order (by id).
   std::vector<Particle> particles() const;
+  /// W of the origin of the frame G that their blocks are counted in [m].
+  const Vec3& grid_origin() const;
+  /// Columns and blocks.
+  const PlanGrid& grid() const;
   /// Mass [kg] of particles inside the tool's convex hull extended to its mouth: the payload.
   double payload(int tool, const Pose& X_WT) const;
 

@@ -57,6 +57,8 @@ double Solver::payload(int tool, const Pose& X_WT) const {
   return kilograms(sum);
 }
 
+const Vec3& Solver::grid_origin() const { return state_->origin; }
+const PlanGrid& Solver::grid() const { return state_->grid; }
 const SolverStats& Solver::stats() const { return state_->stats; }
 
 std::vector<std::pair<std::string, double>> Solver::stage_times() const {
@@ -116,7 +118,7 @@ void Solver::load(StateReader& reader) {
   reader.end();
   s.exchange.load(reader);
   // Lists and layout follow from the blocks and the poses the lists were made for.
-  s.floor = Floor(s.ground);
+  s.floor = Floor(s.ground, s.grid);
   s.contact.list_near(s.store.table());
   s.transfer.set_blocks(s.store, s.contact.near_slot(), s.store.set_near(s.contact.near_homes()));
   s.floor.update(s.store.table().active, true);

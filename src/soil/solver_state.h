@@ -37,6 +37,7 @@ struct Solver::State {
   scene::World world;
   heightfield::Ground& ground;
   double cell;
+  PlanGrid grid;
   Vec3 origin;  ///< W of the grid frame's origin
   double fastest_sound;
   ParticleStore store;

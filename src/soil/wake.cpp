@@ -22,7 +22,8 @@ double thickness_of(const heightfield::Layer& layer, double density, double cell
 
 }  // namespace
 
-Waker::Waker(heightfield::Ground& ground, double gravity) : ground_(ground), gravity_(gravity), cell_(ground.cell()) {
+Waker::Waker(heightfield::Ground& ground, PlanGrid grid, double gravity)
+    : ground_(ground), grid_(grid), gravity_(gravity), cell_(ground.cell()) {
   for (const scene::Soil& soil : ground.setup().soils) {
     law_.push_back(law_constants(soil, cell_));
     // The thickest slice is just below 3/4 of a cell; soil may be denser than bank by the ruts' limit.
@@ -136,7 +137,7 @@ void Waker::wake(int ix, int iy, double z_bottom, double load, std::vector<Parti
     p.shear = s.shear;
     stress(s, (above + 0.5 * kilograms(s.mass)) * to_pressure, p);
     const double z = (cut - ground_.datum() + s.bottom + 0.5 * s.thickness) / cell_;
-    const int cells[3] = {ix, iy, static_cast<int>(std::floor(z))};
+    const int cells[3] = {ix - grid_.x, iy - grid_.y, static_cast<int>(std::floor(z))};
     const double offset[3] = {0, 0, z - cells[2]};
     for (int k = 0; k < kPerLayer; ++k) {
       p.mass = static_cast<std::int32_t>(s.mass / kPerLayer + (k < s.mass % kPerLayer ? 1 : 0));

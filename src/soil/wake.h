@@ -7,6 +7,7 @@
 
 #include "heightfield/ground.h"
 #include "soil/particle.h"
+#include "soil/plan_grid.h"
 #include "soil/soil_table.h"
 
 namespace navvy::soil {
@@ -19,7 +20,7 @@ namespace navvy::soil {
 class Waker {
  public:
   /// `gravity` [m/s2]. @throws InputError when a particle of these soils would not fit its integer mass.
-  Waker(heightfield::Ground& ground, double gravity);
+  Waker(heightfield::Ground& ground, PlanGrid grid, double gravity);
 
   /// Appends the particles of column (ix, iy) above W height `z_bottom` [m], from the lowest up, and takes them off the
   /// column. `load` is the mass resting on the column [kg]. Nothing happens when the column is not higher.
@@ -39,6 +40,7 @@ class Waker {
   void stress(const Slice& slice, double weight, Particle& particle) const;
 
   heightfield::Ground& ground_;
+  PlanGrid grid_;
   double gravity_, cell_;
   std::vector<LawConstants> law_;
   std::vector<heightfield::Layer> taken_;  // scratch

@@ -25,7 +25,9 @@ constexpr double kMotionShare = 0.05, kMotionDefault = 0.05, kMotionFloor = 0.05
 // Columns that the interval [low, high] of W along one axis covers, with `margin` cells around.
 heightfield::CellRect columns_of(const heightfield::Ground& ground, const Vec2& low, const Vec2& high, double margin) {
   const auto bounded = [](double v, int n) { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(n))); };
-  const Vec2 a = (low - ground.origin()) / ground.cell(), b = (high - ground.origin()) / ground.cell();
+  // Round figures lie on columns' edges: they must fall to the same side everywhere on the site.
+  const Vec2 nudge = Vec2::Constant(1e-6);
+  const Vec2 a = (low - ground.origin()) / ground.cell() + nudge, b = (high - ground.origin()) / ground.cell() + nudge;
   return {bounded(std::floor(a.x() - margin), ground.nx()), bounded(std::floor(a.y() - margin), ground.ny()),
           bounded(std::floor(b.x() + margin) + 1, ground.nx()), bounded(std::floor(b.y() + margin) + 1, ground.ny())};
 }

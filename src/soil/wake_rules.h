@@ -62,7 +62,7 @@ void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& in
                         std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan) {
   for (const PlanKey& block : index.blocks())
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
-      const int ix = kBlockCells * block.second + c % kBlockCells, iy = kBlockCells * block.first + c / kBlockCells;
+      const int ix = index.grid().column_x(block, c), iy = index.grid().column_y(block, c);
       int cell = 0;
       if (!lowest_motion(index, index.column(ix, iy), threshold, cell)) continue;
       for (int y = iy - 1; y <= iy + 1; ++y)
