@@ -61,10 +61,11 @@ double DigPlan::height(const SurfaceView& surface, double s) const {
 double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
   const Vec2 across(-along_.y(), along_.x());
   double out = start_height(s);
-  for (double t = -kBeside; t <= kBeside + 1e-9; t += kSample) {
-    const Vec2 p = point(s) + (std::copysign(0.5 * dig_.width, t) + t) * across;
-    out = std::max(out, surface.height(p.x(), p.y()));
-  }
+  for (int i = 0; i * kSample <= kBeside + 1e-9; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const Vec2 p = point(s) + side * (0.5 * dig_.width + i * kSample) * across;
+      out = std::max(out, surface.height(p.x(), p.y()));
+    }
   return out;
 }
 

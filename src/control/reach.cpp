@@ -157,7 +157,7 @@ class ReachCheck {
     fault("dig/dump_at", metres(at.reach) + " from the swing axis",
           most > 0 ? "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction"
                    : "the ground there is " + metres(at.height) +
-                         " over the swing ring: a level bucket can be opened " + "over it nowhere in that direction",
+                         " over the swing ring: a level bucket can be opened over it nowhere in that direction",
           "move the dump point or the machine; on a map, --at another place");
   }
 

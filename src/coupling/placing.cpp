@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "vehicle/kinematics.h"
@@ -54,7 +55,7 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   const Vec3 up = Vec3(-plane.y(), -plane.z(), 1).normalized();
   const Mat3 tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix();
   standing.linear() = tilt * standing.linear();
-  double raise = -1e9;
+  double raise = -std::numeric_limits<double>::infinity();
   for (const Vec3& foot : contacts(placed.machine, standing))
     raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
   // What the scene asks for on top of that: its height over the ground, its roll and pitch.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -25,7 +26,8 @@ class Ruts {
   /// Presses the contact patch of one wheel that carries `wheel.force_W`; tyres of a twin pair each carry half. No
   /// column sinks by more than `most` [m] at a time: ground that gives way at once lets the wheel fall, and what it
   /// hits with presses deeper than its load would.
-  void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most = 1e9);
+  void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+             double most = std::numeric_limits<double>::infinity());
 
   /// Sinkage [m] of a plate of width b [m] under pressure p [Pa].
   static double sinkage(const scene::Soil& soil, double pressure, double width);
