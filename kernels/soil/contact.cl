@@ -6,189 +6,50 @@
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "common/portable.h"
 #include "soil/layout.h"
-#include "soil/room.h"
+#include "soil/contact_node.h"
 
-typedef struct Reach {
-  float h, ramp, edge, edge_ramp, rate;  // [cells]; rate = dt / reference step
-} Reach;
-
-// Weight of the contact at a node, 0..1, made independent of the step.
-// b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
-static inline float weight(float clearance, float inset, Reach r) {
-  const float along = clamp((inset - r.edge + 0.5f * r.edge_ramp) / r.edge_ramp, 0.0f, 1.0f);
-  const float b = clamp((r.h + 0.5f * r.ramp - clearance) / r.ramp, 0.0f, 1.0f) * along;
-  return b * r.rate / (1.0f + (r.rate - 1.0f) * b);
-}
-
-typedef struct Node {
-  float3 v, r, n;  // velocity, lever arm from the tool's origin [m], normal away from the plate on this field's side
-  float m, b, mu;
-} Node;
-
-// Impulse on the node [N s] for the tool's twist; *pushing and *sticking tell the branch.
-static inline float3 impulse(const Node* node, float3 spin, float3 speed, bool* pushing, bool* sticking) {
-  const float3 rel = node->v - (speed + cross(spin, node->r));
-  const float rn = dot(rel, node->n);
-  *pushing = rn < 0.0f;
-  *sticking = false;
-  if (!*pushing) return (float3)(0.0f);
-  const float jn = -node->m * rn;
-  const float3 t = rel - rn * node->n;
-  const float speed_t = sqrt(dot(t, t));
-  const float most = node->mu * jn;
-  *sticking = node->m * speed_t <= most;
-  const float3 jt = *sticking ? node->m * t : t * (most / fmax(speed_t, 1e-12f));
-  return node->b * (jn * node->n - jt);
-}
-
-// Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
-static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float dx, Reach reach,
-                             global const float4* field, global const int* split, global const int* node_tool,
-                             global const float8* shell, global const float* friction, global const float* tools,
-                             int only) {
-  const int i = slot * BLOCK_NODES + n;
-  if (split[i] == 0) return false;
-  const float4 v = field[i];
-  if (!(v.w > MASS_QUANTUM)) return false;
-  const int tool = node_tool[i];
-  global const float* at = tools + TOOL_WORDS * tool;
-  if (at[TOOL_ACTIVE] == 0.0f || (only >= 0 && only != tool)) return false;
-  const float sign = s == 0 ? 1.0f : -1.0f;
-  const float8 q = shell[i];
-  node->b = weight(sign * q.s3 - at[TOOL_HALF], q.s4, reach);
-  if (!(node->b > 0.0f)) return false;
-  node->v = v.xyz;
-  node->m = v.w;
-  node->n = sign * q.s012;
-  node->mu = friction[i];
-  const int3 p = 4 * (key - as_int3(vload3(0, at + TOOL_WINDOW))) + (int3)(n & 3, (n >> 2) & 3, n >> 4);
-  node->r = dx * (convert_float3(p) - vload3(0, at + TOOL_ORIGIN));
-  return true;
-}
-
-#define NODE_ARGS                                                                                                   \
-  global const int *restrict near_list, global const int4 *restrict keys, global const float4 *restrict before0,    \
-      global const float4 *restrict before1, global const int *restrict split, global const int *restrict node_tool, \
-      global const float8 *restrict shell, global const float *restrict friction, global const float4 *restrict frame, \
-      const int first_tool, const int only, const Reach reach, const float dx
-#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, tools, only
-
-// Out: per near block the wrench sum of J (angular about the tool's origin, linear) and sum of G^T b m P G, where P is
-// what of the node's velocity the contact holds: the normal, or everything when it sticks.
-kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
+// Out: CONTACT_SUMS per near block, see add_sums.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
   const int slot = get_global_id(0);
   const int3 key = keys[near_list[slot]].xyz;
-  global const float* tools = (global const float*)(frame + first_tool);
   float out[CONTACT_SUMS];
   for (int i = 0; i < CONTACT_SUMS; ++i) out[i] = 0.0f;
   for (int n = 0; n < BLOCK_NODES; ++n)
-    for (int s = 0; s < 2; ++s) {
-      Node node;
-      if (!load_node(&node, s, slot, n, NODE_PASS)) continue;
-      global const float* at = tools + TOOL_WORDS * node_tool[slot * BLOCK_NODES + n];
-      bool pushing, sticking;
-      const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
-      if (!pushing) continue;
-      const float3 l = cross(node.r, j);
-      out[0] += l.x;
-      out[1] += l.y;
-      out[2] += l.z;
-      out[3] += j.x;
-      out[4] += j.y;
-      out[5] += j.z;
-      // Directions held: the normal, or three axes. Each adds b m g g^T with g = (r x d, d).
-      for (int a = 0; a < (sticking ? 3 : 1); ++a) {
-        const float3 d = !sticking ? node.n : (float3)(a == 0, a == 1, a == 2);
-        const float3 moment = cross(node.r, d);
-        const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
-        int k = 6;
-        for (int row = 0; row < 6; ++row)
-          for (int col = row; col < 6; ++col) out[k++] += node.b * node.m * g[row] * g[col];
-      }
-    }
+    for (int s = 0; s < 2; ++s) add_sums(out, s, slot, n, key, NODE_SAME);
   for (int i = 0; i < CONTACT_SUMS; ++i) sums[CONTACT_SUMS * slot + i] = out[i];
 }
 
-// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the inverse mass.
-kernel void contact_twist(global float4* restrict frame, const int first_tool, const int tool,
-                          global const float* restrict sums, const int slots) {
-  global float* at = (global float*)(frame + first_tool) + TOOL_WORDS * tool;
-  float total[CONTACT_SUMS], a[6][7], stiff[6][6];
+// One sweep of the two-way solve.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global float4* restrict frame,
+                                                                         const int first_tool, const int tool,
+                                                                         global const float* restrict sums,
+                                                                         const int slots) {
+  float total[CONTACT_SUMS];
   for (int i = 0; i < CONTACT_SUMS; ++i) total[i] = 0.0f;
   for (int slot = 0; slot < slots; ++slot)
     for (int i = 0; i < CONTACT_SUMS; ++i) total[i] += sums[CONTACT_SUMS * slot + i];
-  for (int i = 0, k = 6; i < 6; ++i)
-    for (int j = i; j < 6; ++j) stiff[i][j] = stiff[j][i] = total[k++];
-  for (int i = 0; i < 6; ++i) {
-    const float now = i < 3 ? at[TOOL_SPIN + i] : at[TOOL_SPEED + i - 3];
-    a[i][6] = now - at[TOOL_START + i];
-    for (int j = 0; j < 6; ++j) {
-      a[i][j] = i == j ? 1.0f : 0.0f;
-      a[i][6] += at[TOOL_YIELD + 6 * i + j] * total[j];
-      for (int k = 0; k < 6; ++k) a[i][j] += at[TOOL_YIELD + 6 * i + k] * stiff[k][j];
-    }
-  }
-  // Gauss with row pivots.
-  for (int c = 0; c < 6; ++c) {
-    int p = c;
-    for (int r = c + 1; r < 6; ++r)
-      if (fabs(a[r][c]) > fabs(a[p][c])) p = r;
-    for (int k = 0; k < 7; ++k) {
-      const float swap = a[c][k];
-      a[c][k] = a[p][k];
-      a[p][k] = swap;
-    }
-    for (int r = 0; r < 6; ++r) {
-      const float share = r == c ? 0.0f : a[r][c] / a[c][c];
-      for (int k = c; k < 7; ++k) a[r][k] -= share * a[c][k];
-    }
-  }
-  for (int i = 0; i < 6; ++i) {
-    const float change = a[i][6] / a[i][i];
-    if (i < 3) at[TOOL_SPIN + i] -= change;
-    else at[TOOL_SPEED + i - 3] -= change;
-  }
+  solve_twist((global float*)(frame + first_tool) + TOOL_WORDS * tool, total);
 }
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
 // Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
-// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v
-// after contact and before the floor, normal impulse), valid in touched blocks.
-kernel void contact_apply(NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
-                          global float8* restrict books, global float4* restrict velocity0,
-                          global float4* restrict velocity1) {
+// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v after
+// contact and before the floor, normal impulse), valid in touched blocks.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
+    NODE_ARGS, global const float* restrict floor_height, global int* restrict touched, global float8* restrict books,
+    global float4* restrict velocity0, global float4* restrict velocity1) {
   const int slot = get_global_id(0);
   const int block = near_list[slot];
   const int3 key = keys[block].xyz;
-  global const float* tools = (global const float*)(frame + first_tool);
   int changed = 0;
   for (int n = 0; n < BLOCK_NODES; ++n) {
     const int i = slot * BLOCK_NODES + n;
-    const float z = (float)(n >> 4);
-    global const float* ground = floor_height + FLOOR_WORDS * block;
-    const bool held = z <= ground[n & 15];
-    const float4 below = z - vload4(n & 15, ground + FLOOR_COLUMNS);
-    for (int s = 0; s < 2; ++s) {
-      const float4 v = s == 0 ? before0[i] : before1[i];
-      float4 after = (float4)(v.xyz, 0.0f);
-      Node node;
-      if (load_node(&node, s, slot, n, NODE_PASS)) {
-        global const float* at = tools + TOOL_WORDS * node_tool[i];
-        bool pushing, sticking;
-        const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
-        if (pushing) {
-          after = (float4)(v.xyz + j / node.m, dot(j, node.n));
-          changed = 1;
-        }
-      }
-      books[2 * i + s] = (float8)(v, after);
-      // Mass per room, as far as ground and plate leave room on this side.
-      const float beside = (s == 0 ? 1.0f : -1.0f) * shell[i].s3 - tools[TOOL_WORDS * max(node_tool[i], 0) + TOOL_HALF];
-      const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);
-      const float4 felt = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
-      if (s == 0) velocity0[(size_t)block * BLOCK_NODES + n] = felt;
-      else velocity1[i] = felt;
-    }
+    const Result result = apply_contact(slot, n, key, floor_height + FLOOR_WORDS * block, NODE_SAME);
+    books[2 * i] = result.books[0];
+    books[2 * i + 1] = result.books[1];
+    velocity0[(size_t)block * BLOCK_NODES + n] = result.felt[0];
+    velocity1[i] = result.felt[1];
+    changed |= result.changed;
   }
   touched[slot] = changed;
 }

@@ -12,6 +12,7 @@
 #include "soil/layout.h"
 
 typedef float16 real;
+typedef int16 ints;
 #define LAW_T float16
 #define LAW_LIT(x) ((float)(x))
 #define LAW_MIN(a, b) fmin(a, b)

@@ -5,23 +5,7 @@
 //      rows). Band [cells]: how far a side reaches.
 // One work-item per near block, nothing shared. Host: src/soil/contact.cpp.
 #include "soil/lanes.h"
-#include "soil/shell_query.h"
-
-static inline int3 window_of(global const float* tools, int tool) {
-  return as_int3(vload3(0, tools + TOOL_WORDS * tool + TOOL_WINDOW));
-}
-
-static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const float* tools,
-                         global const int* list, int begin, int end, float far, Closest* best) {
-  best->distance2 = INFINITY;
-  best->x = best->y = best->z = 0.0f;
-  best->feature = -1;
-  for (int i = begin; i < end; ++i) {
-    const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
-    const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
-    closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], far, best);
-  }
-}
+#include "soil/shell_side.h"
 
 // The same for `packs` packs of a home's particles from slot `at` on: what a triangle needs is worked out once for all.
 #define PACKS 8
@@ -41,20 +25,6 @@ static inline void query_packs(global const float* state, int capacity, int at, 
                        list[i], far, best + p);
     at -= NAVVY_LANES * packs;
   }
-}
-
-// What one point learns from its closest feature. Normal points to the front.
-static inline bool resolve(global const float4* triangles, int feature, float3 away, float distance2, float* phi,
-                           float3* normal, bool* rim) {
-  if (feature < 0) return false;
-  const float4 pseudo = triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL + (feature & 7)];
-  const float d = sqrt(distance2);
-  const float sign = dot(away, pseudo.xyz) >= 0.0f ? 1.0f : -1.0f;
-  *phi = sign * d;
-  // On the plate itself the direction is the plate's.
-  *normal = d > 1e-4f ? away * (sign / d) : triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL].xyz;
-  *rim = pseudo.w > 0.0f;
-  return true;
 }
 
 // Out per near node: split (0 none, 1 in front, 2 behind), tool, and float8 (normal, phi, inset, 0 0 0) [cells].
@@ -149,35 +119,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     vstore16(tags, 0, tag);
     for (int l = 0; l < count; ++l) {
       if (!concerned[l]) continue;
-      const int old_side = tag[l] >> 16;
-      int side = 0;
-      float phi = 0.0f;
-      float3 normal = (float3)(0.0f);
-      bool rim = true;
-      int tool = -1;
-      if (feature[l] >= 0 && d2[l] < 4.0f * band * band) {
-        tool = as_int(triangles[SHELL_WORDS * (feature[l] >> 3)].w);
-        const float3 here = convert_float3(4 * (key - window_of(tools, tool))) + (float3)(px[l], py[l], pz[l]);
-        resolve(triangles, feature[l], here - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal, &rim);
-      }
-      const bool behind_before = (old_side & 1) == 0;  // side = 1 + 2 tool + behind
-      const bool same_tool = old_side > 0 && (old_side - 1) / 2 == tool;
-      if (!rim && fabs(phi) < band) {
-        side = same_tool ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
-        const float s = (side & 1) == 0 ? -1.0f : 1.0f;
-        const float depth = tools[TOOL_WORDS * tool + TOOL_HALF] - s * phi;
-        if (depth > 0.0f) {
-          const float push = fmin(depth, longest_push);
-          px[l] += s * push * normal.x;
-          py[l] += s * push * normal.y;
-          pz[l] += s * push * normal.z;
-          far_push = fmax(far_push, push);
-          crossings += s * phi + push < 0.0f;  // still behind the plate's middle
-        }
-      } else if (!rim && same_tool && d2[l] < 4.0f * band * band) {
-        crossings += (phi < 0.0f) != behind_before;  // left the band on the side where it never was
-      }
-      tag[l] = (tag[l] & 0xffff) | (side << 16);
+      const Kept kept = keep_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
+                                  (float3)(cx[l], cy[l], cz[l]), band, longest_push, triangles, tools);
+      px[l] = kept.x.x;
+      py[l] = kept.x.y;
+      pz[l] = kept.x.z;
+      far_push = fmax(far_push, kept.push);
+      crossings += kept.crossed;
+      tag[l] = (tag[l] & 0xffff) | (kept.side << 16);
     }
     STORE(FIELD_X, vload16(0, px));
     STORE(FIELD_X + 1, vload16(0, py));

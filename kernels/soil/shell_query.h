@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for 16 points at a time.
+// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes.h or soil/groups/group.h), and what
+// one point learns from it.
 //
 // A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
 // distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of
@@ -14,7 +15,7 @@
 typedef struct Closest {
   real distance2;   // [cells^2]
   real x, y, z;     // the closest point, from its tool's window corner
-  int16 feature;    // 8 * triangle + feature, -1: none
+  ints feature;    // 8 * triangle + feature, -1: none
 } Closest;
 
 static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature, int corner_a, int corner_b,
@@ -24,8 +25,8 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   const real cx = a.x + t * ab.x, cy = a.y + t * ab.y, cz = a.z + t * ab.z;
   const real dx = px - cx, dy = py - cy, dz = pz - cz;
   const real d2 = dx * dx + dy * dy + dz * dz;
-  const int16 which = select(select((int16)(feature), (int16)(corner_b), t >= 1.0f), (int16)(corner_a), t <= 0.0f);
-  const int16 nearer = d2 < best->distance2;
+  const ints which = select(select((ints)(feature), (ints)(corner_b), t >= 1.0f), (ints)(corner_a), t <= 0.0f);
+  const ints nearer = d2 < best->distance2;
   best->distance2 = select(best->distance2, d2, nearer);
   best->x = select(best->x, cx, nearer);
   best->y = select(best->y, cy, nearer);
@@ -46,15 +47,15 @@ static inline void closest_triangle(real px, real py, real pz, global const floa
   const real ox = px - centre.x, oy = py - centre.y, oz = pz - centre.z;
   if (!some(ox * ox + oy * oy + oz * oz < reach * reach)) return;
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
-  const int16 inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
+  const ints inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
                        ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
                        ((px - c.x) * mc.x + (py - c.y) * mc.y + (pz - c.z) * mc.z >= 0.0f);
-  const int16 nearer = inside & (height * height < best->distance2);
+  const ints nearer = inside & (height * height < best->distance2);
   best->distance2 = select(best->distance2, height * height, nearer);
   best->x = select(best->x, px - height * n.x, nearer);
   best->y = select(best->y, py - height * n.y, nearer);
   best->z = select(best->z, pz - height * n.z, nearer);
-  best->feature = select(best->feature, (int16)(8 * t), nearer);
+  best->feature = select(best->feature, (ints)(8 * t), nearer);
   closest_edge(px, py, pz, a, b - a, 8 * t + 1, 8 * t + 4, 8 * t + 5, best);
   closest_edge(px, py, pz, b, c - b, 8 * t + 2, 8 * t + 5, 8 * t + 6, best);
   closest_edge(px, py, pz, c, a - c, 8 * t + 3, 8 * t + 6, 8 * t + 4, best);
@@ -66,6 +67,24 @@ static inline real segment_distance2(real px, real py, real pz, float3 a, float3
   const real t = fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
   const real dx = px - a.x - t * ab.x, dy = py - a.y - t * ab.y, dz = pz - a.z - t * ab.z;
   return dx * dx + dy * dy + dz * dz;
+}
+
+// Block from whose corner the tool's coordinates count.
+static inline int3 window_of(global const float* tools, int tool) {
+  return as_int3(vload3(0, tools + TOOL_WORDS * tool + TOOL_WINDOW));
+}
+
+// Nearest of the candidate triangles list[begin..end) of points of block `key`.
+static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const float* tools,
+                         global const int* list, int begin, int end, float far, Closest* best) {
+  best->distance2 = INFINITY;
+  best->x = best->y = best->z = 0.0f;
+  best->feature = -1;
+  for (int i = begin; i < end; ++i) {
+    const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
+    const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
+    closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], far, best);
+  }
 }
 
 #endif  // NAVVY_KERNELS_SOIL_SHELL_QUERY_H

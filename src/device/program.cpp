@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/program.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "device/opencl_private.h"
@@ -25,6 +26,7 @@ struct Kernel::State {
   std::string name;
   cl_kernel kernel = nullptr;
   cl_uint arguments = 0;
+  std::size_t group[3] = {1, 1, 1};  ///< work-group the kernel asks for
 
   State() = default;
   State(const State&) = delete;
@@ -114,6 +116,10 @@ Kernel::Kernel(const Program& program, const std::string& name) : state_(std::ma
   check(code, "clCreateKernel", device, name + " of kernels/" + state_->program->name);
   check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments, &state_->arguments, nullptr),
         "clGetKernelInfo", device, name);
+  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_COMPILE_WORK_GROUP_SIZE, sizeof state_->group,
+                                 state_->group, nullptr),
+        "clGetKernelWorkGroupInfo", device, name);
+  for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);  // 0: it asks for none
 }
 
 const std::string& Kernel::name() const { return state_->name; }
@@ -152,6 +158,11 @@ void Kernel::enqueue(Range global, Range local) {
     global.n[axis] = (global.n[axis] + local.n[axis] - 1) / local.n[axis] * local.n[axis];
   }
   launch(global, local.n);
+}
+
+void Kernel::enqueue_groups(std::size_t groups) {
+  const std::size_t* group = state_->group;
+  launch(Range(groups * group[0], group[1], group[2]), group);
 }
 
 void Kernel::launch(const Range& global, const std::size_t* local) {

@@ -84,6 +84,9 @@ class Kernel {
   /// kernel guards its index. Without `local` the driver chooses and nothing is rounded. An axis of 0 launches nothing.
   void enqueue(Range global);
   void enqueue(Range global, Range local);
+  /// Queues `groups` work-groups of the size the kernel was written for (reqd_work_group_size; without it, one
+  /// work-item).
+  void enqueue_groups(std::size_t groups);
 
   const std::string& name() const;
   /// Largest work-group this kernel can have on its device.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "soil/layout.h"
+#include "soil/schedule.h"
 
 namespace navvy::soil {
 namespace {
@@ -18,8 +19,8 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, doub
       cell_(cell),
       origin_(origin_W),
       reference_step_(settings_.reference * cell / slowest_sound),
-      shell_program_(device, "soil/shell.cl"),
-      contact_program_(device, "soil/contact.cl"),
+      shell_program_(device, kernel_path(device, "shell")),
+      contact_program_(device, kernel_path(device, "contact")),
       nodes_kernel_(shell_program_, "shell_nodes"),
       particles_kernel_(shell_program_, "shell_particles"),
       sums_kernel_(contact_program_, "contact_sums"),
@@ -40,7 +41,7 @@ void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const
   kernel
       .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, node_tool_, shell_,
             nodes_.friction, frame_, first_tool_, only, reach_, static_cast<float>(cell_), tail...)
-      .enqueue(static_cast<std::size_t>(nodes_.count), 1);
+      .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
 void Contact::solve(Transfer& transfer, double dt) {
@@ -51,7 +52,7 @@ void Contact::solve(Transfer& transfer, double dt) {
     if (!yields(motion)) continue;
     for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
-      twist_kernel_.args(frame_, first_tool_, motion.tool, sums_, nodes_.count).enqueue(1, 1);
+      twist_kernel_.args(frame_, first_tool_, motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
   launch(apply_kernel_, transfer, -1, transfer.floor(), touched_, books_, transfer.velocity(), nodes_.velocity1);

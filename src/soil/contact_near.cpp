@@ -224,11 +224,11 @@ void Contact::classify(ParticleStore& store, Transfer& transfer) {
   nodes_kernel_
       .args(nodes_.list, transfer.active_keys(), frame_, first_rim_, first_tool_, node_first_, node_candidates_, band,
             nodes_.split, node_tool_, shell_)
-      .enqueue(static_cast<std::size_t>(nodes_.count), 1);
+      .enqueue_groups(static_cast<std::size_t>(nodes_.count));
   particles_kernel_
       .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), frame_, first_tool_,
             home_first_, home_candidates_, band, static_cast<float>(settings_.longest_push), transfer.report())
-      .enqueue(near_home_list_.size(), 1);
+      .enqueue_groups(near_home_list_.size());
 }
 
 void Contact::save(StateWriter& writer) const {

@@ -3,18 +3,22 @@
 
 #include <utility>
 
+#include "soil/schedule.h"
 #include "soil/transfer.h"
 
 namespace navvy::soil {
 
 MassCount::MassCount(device::Device& device, std::size_t soils)
-    : device_(device), soils_(soils), program_(device, "soil/ledger.cl"), kernel_(program_, "ledger_masses") {}
+    : device_(device),
+      soils_(soils),
+      program_(device, kernel_path(device, "ledger")),
+      kernel_(program_, "ledger_masses") {}
 
 void MassCount::queue(ParticleStore& store) {
   sums_.reset();
   ensure(device_, masses_, store.homes().size() * soils_);
   kernel_.args(store.state(), store.capacity(), store.homes_buffer(), masses_, static_cast<int>(soils_))
-      .enqueue(store.homes().size(), 1);
+      .enqueue_groups(store.homes().size());
   sums_.emplace(masses_.map_read_later(0, store.homes().size() * soils_));
 }
 

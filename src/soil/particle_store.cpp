@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "soil/layout.h"
+#include "soil/schedule.h"
 
 namespace navvy::soil {
 namespace {
@@ -87,7 +88,7 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
                              const std::vector<float>& soils)
     : device_(device),
       site_(site),
-      program_(device, "soil/rebin.cl"),
+      program_(device, kernel_path(device, "rebin")),
       count_kernel_(program_, "rebin_count"),
       gather_kernel_(program_, "rebin_gather"),
       move_kernel_(program_, "rebin_move"),
@@ -243,7 +244,7 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, cells_, static_cast<std::size_t>(capacity_[at_]));
   fit(device_, counts_, 28 * old_homes);
   count_kernel_.args(state_[at_], capacity_[at_], homes_buffer_, home_keys_, codes_, cells_, counts_, site_)
-      .enqueue(old_homes, 1);
+      .enqueue_groups(old_homes);
   std::vector<int> counts(28 * old_homes);
   counts_.read(counts);
   for (std::size_t h = 0; h < old_homes; ++h)
@@ -281,11 +282,11 @@ std::vector<Particle> ParticleStore::rebin() {
   sources_.write(sources);
   fit(device_, from_, static_cast<std::size_t>(slots));
   gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
-      .enqueue(homes_.size(), 1);
+      .enqueue_groups(homes_.size());
   move_kernel_
       .args(state_[at_], capacity_[at_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
             home_friction_)
-      .enqueue(homes_.size(), 1);
+      .enqueue_groups(homes_.size());
   at_ = other;
   return {};
 }

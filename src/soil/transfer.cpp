@@ -5,15 +5,16 @@
 #include <limits>
 
 #include "soil/layout.h"
+#include "soil/schedule.h"
 #include "soil/soil_table.h"
 
 namespace navvy::soil {
 
 Transfer::Transfer(device::Device& device)
     : device_(device),
-      scatter_program_(device, "soil/particle_to_grid.cl"),
-      grid_program_(device, "soil/grid_update.cl"),
-      gather_program_(device, "soil/grid_to_particle.cl"),
+      scatter_program_(device, kernel_path(device, "particle_to_grid")),
+      grid_program_(device, kernel_path(device, "grid_update")),
+      gather_program_(device, kernel_path(device, "grid_to_particle")),
       scatter_(scatter_program_, "particle_to_grid"),
       grid_(grid_program_, "grid_update"),
       grid_near_(grid_program_, "grid_update_near"),
@@ -49,13 +50,13 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   scatter_
       .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report_, dt_f, cell_f,
             static_cast<float>(std::min(1.0, dt / mixing_time())))
-      .enqueue(store.homes().size(), 1);
-  grid_.args(far_list_, around_, store.homes_buffer(), tiles_, used_, floor_, velocity_, dv_f).enqueue(far_, 1);
+      .enqueue_groups(store.homes().size());
+  grid_.args(far_list_, around_, store.homes_buffer(), tiles_, used_, floor_, velocity_, dv_f).enqueue_groups(far_);
   if (near.count == 0) return;
   grid_near_
       .args(near.list, around_, store.homes_buffer(), tiles_, used_, store.home_friction(), near.split, near.before0,
             near.before1, near.friction, dv_f)
-      .enqueue(static_cast<std::size_t>(near.count), 1);
+      .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 
 void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
@@ -64,7 +65,7 @@ void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double c
             near.split, used_, report_, static_cast<float>(dt), static_cast<float>(cell),
             static_cast<float>(packed_mass(store.densest(), cell)),
             static_cast<float>(std::min(1.0, dt / closing_time())))
-      .enqueue(store.homes().size(), 1);
+      .enqueue_groups(store.homes().size());
 }
 
 Transfer::Report Transfer::read_report(std::size_t homes) const {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A chunk of a home's particles in local memory, sorted by cell, and the sums of one cell.
+#ifndef NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
+#define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
+
+#define CHUNK 208  // particles at a time, a multiple of NAVVY_LANES and at most CELLS
+
+// Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change of momentum per node
+// along x, y, z, mass [SI], offset from the base node [cells].
+#define STAGED_P 0
+#define STAGED_A 3
+#define STAGED_MASS 12
+#define STAGED_F 13
+#define STAGED 16
+
+// Slot of this work-item's particle among the `count` of the chunk, by cell, then in stored order. first, counts (zero
+// before): where each cell's particles stand afterwards.
+static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first, local int* counts) {
+  const int me = get_local_id(0);
+  int lower = 0, earlier = 0;
+  for (int i = 0; i < count; ++i) {
+    lower += cells[i] < cell;
+    earlier += cells[i] == cell && i < me;
+  }
+  if (earlier == 0) first[cell] = lower;
+  atomic_inc(&counts[cell]);
+  return lower + earlier;
+}
+
+// Base node of a cell in the tile.
+static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 64 * (cell / 36); }
+
+// Momentum and mass that the `count` particles from slot `first` on give to the nine nodes of one layer (0..2 above the
+// base node), x fastest; of those that belong to tile t.
+static inline void add_layer(local const float* stage, local const int* sides, int first, int count, int t, int layer,
+                             float4* sums) {
+  for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
+  for (int i = first; i < first + count; ++i) {
+    if (sides[i] != t) continue;
+    local const float* at = stage + i;
+    float wx[3], wy[3], wz[3];
+    spline(at[(STAGED_F + 0) * CHUNK], wx);
+    spline(at[(STAGED_F + 1) * CHUNK], wy);
+    spline(at[(STAGED_F + 2) * CHUNK], wz);
+    const float4 start = (float4)(at[0], at[CHUNK], at[2 * CHUNK], at[STAGED_MASS * CHUNK]);
+    const float4 ax = (float4)(at[3 * CHUNK], at[4 * CHUNK], at[5 * CHUNK], 0.0f);
+    const float4 ay = (float4)(at[6 * CHUNK], at[7 * CHUNK], at[8 * CHUNK], 0.0f);
+    const float4 az = (float4)(at[9 * CHUNK], at[10 * CHUNK], at[11 * CHUNK], 0.0f);
+    const float w = layer == 0 ? wz[0] : layer == 1 ? wz[1] : wz[2];
+    float4 row = start + (float)layer * az;
+    for (int j = 0; j < 3; ++j) {
+      const float4 next = row + ax;
+      sums[3 * j] = fma((float4)(w * wy[j] * wx[0]), row, sums[3 * j]);
+      sums[3 * j + 1] = fma((float4)(w * wy[j] * wx[1]), next, sums[3 * j + 1]);
+      sums[3 * j + 2] = fma((float4)(w * wy[j] * wx[2]), next + ax, sums[3 * j + 2]);
+      row += ay;
+    }
+  }
+}
+
+#endif  // NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H

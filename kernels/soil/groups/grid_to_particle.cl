@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers node velocities to particles and moves them: schedule of work-groups.
+//
+// In, Out: as in soil/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each work-item
+// takes one particle after the other. Every particle is one work-item's; the fastest of a block is found by an integer
+// maximum, which has no order. Host: src/soil/transfer.cpp.
+#include "soil/groups/group.h"
+
+#define MEMBERS 128
+
+// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind the shell.
+static inline float4 felt(local const float4* front, local const float4* back, local const uchar* split, int node,
+                          int side) {
+  const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
+  return behind ? back[node] : front[node];
+}
+
+// v and its first moments about the base node: over x, y, z.
+static inline float4 gather(local const float4* front, local const float4* back, local const uchar* split, int base,
+                            int side, const float* wx, const float* wy, const float* wz, float4* mx, float4* my,
+                            float4* mz) {
+  float4 sum = 0.0f;
+  *mx = *my = *mz = (float4)(0.0f);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j) {
+      const int node = base + 8 * j + 64 * k;
+      const float w = wz[k] * wy[j];
+      const float4 b = wx[1] * felt(front, back, split, node + 1, side);
+      const float4 c = wx[2] * felt(front, back, split, node + 2, side);
+      const float4 row = fma((float4)(wx[0]), felt(front, back, split, node, side), b) + c;
+      sum = fma((float4)(w), row, sum);
+      *mx = fma((float4)(w), fma((float4)(2.0f), c, b), *mx);
+      *my = fma((float4)(j * w), row, *my);
+      *mz = fma((float4)(k * w), row, *mz);
+    }
+  return sum;
+}
+
+__attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle(
+    global float* restrict state, const int capacity, global const int4* restrict homes,
+    global const int* restrict neighbours, global const float4* restrict velocity0,
+    global const float4* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
+    global const int* restrict used, global float* restrict report, const float dt, const float dx, const float full,
+    const float closing) {
+  local float4 front[TILE_SIZE], back[TILE_SIZE];
+  local uchar split[TILE_SIZE];
+  local int fastest;
+  const int block = get_group_id(0), me = get_local_id(0);
+  const int4 home = homes[block];
+  if (me == 0) fastest = 0;
+  for (int i = me; i < TILE_SIZE; i += MEMBERS) {
+    // Tile node -1..6 lies in the block before, this one or the one after.
+    const int3 node = (int3)(i & 7, (i >> 3) & 7, i >> 6) - 1;
+    const int3 d = (node + 4) / 4 - 1;
+    const int3 in_block = node - 4 * d;
+    const int n = in_block.x + 4 * in_block.y + 16 * in_block.z;
+    const int active = neighbours[27 * block + (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1)];
+    front[i] = velocity0[(size_t)active * BLOCK_NODES + n];
+    back[i] = (float4)(0.0f);
+    split[i] = 0;
+    const int slot = home.w ? near_slot[active] : -1;
+    if (slot >= 0 && node_split[slot * BLOCK_NODES + n] != 0) {
+      split[i] = (uchar)node_split[slot * BLOCK_NODES + n];
+      back[i] = velocity1[(size_t)slot * BLOCK_NODES + n];
+    }
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  for (int at = home.x + me; at < home.x + home.y; at += MEMBERS) {
+    const float x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
+    const float b[3] = {base_node(x[0]), base_node(x[1]), base_node(x[2])};
+    float w[3][3];
+    for (int axis = 0; axis < 3; ++axis) spline(x[axis] - b[axis], w[axis]);
+    const int base = (int)b[0] + 1 + 8 * ((int)b[1] + 1) + 64 * ((int)b[2] + 1);
+    float4 moments[3];
+    const float4 v = gather(front, back, split, base, tile_of(as_int(LOAD(FIELD_TAG))), w[0], w[1], w[2], &moments[0],
+                            &moments[1], &moments[2]);
+    // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T.
+    const float scale = 4.0f / dx;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float3 c = scale * (moments[axis].xyz - (x[axis] - b[axis]) * v.xyz);
+      STORE(FIELD_C + axis, c.x);
+      STORE(FIELD_C + 3 + axis, c.y);
+      STORE(FIELD_C + 6 + axis, c.z);
+    }
+    // v.w is the nodes' mean mass: soil packed tighter than J and its density state say closes (soil/grid_to_particle.cl).
+    const float j = LOAD(FIELD_J);
+    const float packed = full / fmax(v.w, MASS_QUANTUM);
+    STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));
+    STORE(FIELD_V, v.x);
+    STORE(FIELD_V + 1, v.y);
+    STORE(FIELD_V + 2, v.z);
+    STORE(FIELD_X, x[0] + (dt / dx) * v.x);
+    STORE(FIELD_X + 1, x[1] + (dt / dx) * v.y);
+    STORE(FIELD_X + 2, x[2] + (dt / dx) * v.z);
+    const float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
+    keep_largest(&fastest, isfinite(v.x + v.y + v.z) ? largest : INFINITY);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (me == 0) report[REPORT_WORDS * block + REPORT_SPEED] = as_float(fastest);
+}
