@@ -4,12 +4,11 @@
 // In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; tools: TOOL_WORDS floats each.
 // One work-item per near block. Host: src/soil/contact.cpp.
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
-#include "common/portable.h"
-#include "soil/layout.h"
 #include "soil/contact_node.h"
 
 // Out: CONTACT_SUMS per near block, see add_sums.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(NODE_ARGS, global float* restrict sums) {
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
+                                                                        global float* restrict sums) {
   const int slot = get_global_id(0);
   const int3 key = keys[near_list[slot]].xyz;
   float out[CONTACT_SUMS];
@@ -33,11 +32,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global 
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
 // Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
-// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v after
-// contact and before the floor, normal impulse), valid in touched blocks.
+// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v
+// after contact and before the floor, normal impulse), valid in touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
-    NODE_ARGS, global const float* restrict floor_height, global int* restrict touched, global float8* restrict books,
-    global float4* restrict velocity0, global float4* restrict velocity1) {
+    BLOCK_ARGS, NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
+    global float8* restrict books, global float4* restrict velocity0, global float4* restrict velocity1) {
   const int slot = get_global_id(0);
   const int block = near_list[slot];
   const int3 key = keys[block].xyz;

@@ -3,6 +3,8 @@
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 #define NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 
+#include "common/portable.h"
+#include "soil/layout.h"
 #include "soil/room.h"
 
 typedef struct Reach {
@@ -63,13 +65,13 @@ static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float
   return true;
 }
 
-#define NODE_ARGS                                                                                                   \
-  global const int *restrict near_list, global const int4 *restrict keys, global const float4 *restrict before0,    \
-      global const float4 *restrict before1, global const int *restrict split, global const int *restrict node_tool, \
-      global const float8 *restrict shell, global const float *restrict friction, global const float4 *restrict frame, \
-      const int first_tool, const int only, const Reach reach, const float dx
-#define NODE_SAME \
-  near_list, keys, before0, before1, split, node_tool, shell, friction, frame, first_tool, only, reach, dx
+#define BLOCK_ARGS global const int* restrict near_list, global const int4* restrict keys
+#define NODE_ARGS                                                                                                 \
+  global const float4 *restrict before0, global const float4 *restrict before1, global const int *restrict split, \
+      global const int *restrict node_tool, global const float8 *restrict shell,                                  \
+      global const float *restrict friction, global const float4 *restrict frame, const int first_tool,           \
+      const int only, const Reach reach, const float dx
+#define NODE_SAME before0, before1, split, node_tool, shell, friction, frame, first_tool, only, reach, dx
 #define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, tools, only
 
 // Adds field s of near node n of a block to the sums: the wrench of J (angular about the tool's origin, linear) and
@@ -132,14 +134,16 @@ static inline void solve_twist(global float* at, const float* total) {
   }
   for (int i = 0; i < 6; ++i) {
     const float change = a[i][6] / a[i][i];
-    if (i < 3) at[TOOL_SPIN + i] -= change;
-    else at[TOOL_SPEED + i - 3] -= change;
+    if (i < 3)
+      at[TOOL_SPIN + i] -= change;
+    else
+      at[TOOL_SPEED + i - 3] -= change;
   }
 }
 
 // What contact, resting ground and room make of near node n: see contact_apply.
 typedef struct Result {
-  float4 felt[2];   // per field, what particles will feel
+  float4 felt[2];  // per field, what particles will feel
   float8 books[2];
   int changed;
 } Result;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes.h or soil/groups/group.h), and what
-// one point learns from it.
+// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes.h or soil/groups/group.h).
 //
 // A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
 // distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of
@@ -34,8 +33,8 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   best->feature = select(best->feature, which, nearer);
 }
 
-// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips the triangle when all
-// points are farther than `far` from its plane, or from its centre by more than `far` and its radius.
+// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips the triangle when
+// all points are farther than `far` from its plane, or from its centre by more than `far` and its radius.
 static inline void closest_triangle(real px, real py, real pz, global const float4* triangles, int t, float far,
                                     Closest* best) {
   global const float4* at = triangles + SHELL_WORDS * t;

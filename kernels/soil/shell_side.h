@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one node or particle learns from the closest feature of a shell (soil/shell_query.h): signed distance, normal, side.
+// What one node or particle learns from the closest feature of a shell (soil/shell_query.h): signed distance, normal,
+// side.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 #define NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 
@@ -21,14 +22,14 @@ static inline bool resolve(global const float4* triangles, int feature, float3 a
 
 // One particle near a shell. side = 1 + 2 tool + behind, 0: none.
 typedef struct Kept {
-  float3 x;   // position [cells from its block's corner]
+  float3 x;  // position [cells from its block's corner]
   int side;
   float push;  // out of the plate [cells]
   int crossed;
 } Kept;
 
-// The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the plate
-// comes back to its surface.
+// The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
+// plate comes back to its surface.
 static inline Kept keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest, float band,
                              float longest_push, global const float4* triangles, global const float* tools) {
   Kept out = {x, 0, 0.0f, 0};

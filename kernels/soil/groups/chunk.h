@@ -3,6 +3,8 @@
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 #define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 
+#include "soil/groups/group.h"
+
 #define CHUNK 208  // particles at a time, a multiple of NAVVY_LANES and at most CELLS
 
 // Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change of momentum per node

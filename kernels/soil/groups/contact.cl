@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact of the two node fields with tools: schedule of work-groups.
 //
-// In, Out: as in soil/contact.cl. One work-group per near block, one node per work-item; sums over nodes and blocks are halved
-// pair by pair in a fixed order. Host: src/soil/contact.cpp.
-#include "common/portable.h"
-#include "soil/layout.h"
+// In, Out: as in soil/contact.cl. One work-group per near block, one node per work-item; sums over nodes and blocks are
+// halved pair by pair in a fixed order. Host: src/soil/contact.cpp.
 #include "soil/contact_node.h"
 
 // Out: CONTACT_SUMS per near block.
-__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(NODE_ARGS,
-                                                                                 global float* restrict sums) {
+__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
+                                                                                  global float* restrict sums) {
   local float parts[CONTACT_SUMS * BLOCK_NODES];
   const int slot = get_group_id(0), me = get_local_id(0);
   const int3 key = keys[near_list[slot]].xyz;
@@ -28,7 +26,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sum
 
 // One sweep of the two-way solve by one work-group: a work-item adds up one sum over the blocks.
 __attribute__((reqd_work_group_size(CONTACT_SUMS, 1, 1))) kernel void contact_twist(global float4* restrict frame,
-                                                                                    const int first_tool, const int tool,
+                                                                                    const int first_tool,
+                                                                                    const int tool,
                                                                                     global const float* restrict sums,
                                                                                     const int slots) {
   local float parts[CONTACT_SUMS];
@@ -44,8 +43,8 @@ __attribute__((reqd_work_group_size(CONTACT_SUMS, 1, 1))) kernel void contact_tw
 }
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_apply(
-    NODE_ARGS, global const float* restrict floor_height, global int* restrict touched, global float8* restrict books,
-    global float4* restrict velocity0, global float4* restrict velocity1) {
+    BLOCK_ARGS, NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
+    global float8* restrict books, global float4* restrict velocity0, global float4* restrict velocity1) {
   local int changed;
   const int slot = get_group_id(0), me = get_local_id(0);
   const int block = near_list[slot], i = slot * BLOCK_NODES + me;

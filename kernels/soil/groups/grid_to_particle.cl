@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and moves them: schedule of work-groups.
 //
-// In, Out: as in soil/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each work-item
-// takes one particle after the other. Every particle is one work-item's; the fastest of a block is found by an integer
-// maximum, which has no order. Host: src/soil/transfer.cpp.
+// In, Out: as in soil/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each
+// work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is found by
+// an integer maximum, which has no order. Host: src/soil/transfer.cpp.
 #include "soil/groups/group.h"
 
 #define MEMBERS 128
@@ -39,14 +39,15 @@ static inline float4 gather(local const float4* front, local const float4* back,
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle(
     global float* restrict state, const int capacity, global const int4* restrict homes,
     global const int* restrict neighbours, global const float4* restrict velocity0,
-    global const float4* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
-    global const int* restrict used, global float* restrict report, const float dt, const float dx, const float full,
-    const float closing) {
+    global const float4* restrict velocity1, global const int* restrict near_slot,
+    global const int* restrict node_split, global const int* restrict used, global float* restrict report,
+    const float dt, const float dx, const float full, const float closing) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
   const int4 home = homes[block];
+  (void)used;  // tells the lanes' schedule which tiles to copy; here split nodes choose their field when they are read
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
     // Tile node -1..6 lies in the block before, this one or the one after.
@@ -83,7 +84,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
       STORE(FIELD_C + 3 + axis, c.y);
       STORE(FIELD_C + 6 + axis, c.z);
     }
-    // v.w is the nodes' mean mass: soil packed tighter than J and its density state say closes (soil/grid_to_particle.cl).
+    // v.w is the nodes' mean mass: soil packed tighter than J and its density state say closes
+    // (soil/grid_to_particle.cl).
     const float j = LOAD(FIELD_J);
     const float packed = full / fmax(v.w, MASS_QUANTUM);
     STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));

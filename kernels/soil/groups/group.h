@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One particle or node per work-item: the scalar counterpart of soil/lanes.h for the schedule of work-groups. Law and shell
-// queries are the same sources in both.
+// One particle or node per work-item: the scalar counterpart of soil/lanes.h for the schedule of work-groups. Law and
+// shell queries are the same sources in both.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 #define NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 
@@ -22,8 +22,8 @@ typedef int ints;
 #define CELLS 216
 
 // Field of slot `at`, in kernels that name their arguments state and capacity.
-#define LOAD(field) state[(size_t)(field) * capacity + (at)]
-#define STORE(field, value) state[(size_t)(field) * capacity + (at)] = (value)
+#define LOAD(field) state[(size_t)(field)*capacity + (at)]
+#define STORE(field, value) state[(size_t)(field)*capacity + (at)] = (value)
 
 static inline int some(int yes) { return yes; }
 

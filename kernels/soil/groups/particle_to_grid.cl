@@ -2,18 +2,18 @@
 // Stress update of each particle, then scatter of mass and momentum to its block's tile: schedule of work-groups.
 //
 // In, Out: as in soil/particle_to_grid.cl, tiles without their pad.
-// One work-group per home block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it adds up
-// the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to the tile one offset after
-// the other. Cells of one offset share no node, so nothing is atomic. Particles are taken in stored order, cell by cell:
-// sums repeat bit for bit. Host: src/soil/transfer.cpp. Reference: src/soil/reference/reference_solver.cpp.
-#include "soil/groups/group.h"
-#include "soil/law.h"
+// One work-group per home block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it
+// adds up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to the tile one
+// offset after the other. Cells of one offset share no node, so nothing is atomic. Particles are taken in stored order,
+// cell by cell: sums repeat bit for bit. Host: src/soil/transfer.cpp. Reference:
+// src/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
+#include "soil/law.h"
 
 static inline LawSoil load_soil(constant float* at) {
-  const LawSoil soil = {at[SOIL_BULK],        at[SOIL_SHEAR],       at[SOIL_ALPHA],     at[SOIL_K_RESIDUAL],
-                        at[SOIL_K_BOND],      at[SOIL_INV_REMOULD], at[SOIL_INV_OPENING], at[SOIL_VISCOSITY],
-                        at[SOIL_SWELL],       at[SOIL_LOOSENING]};
+  const LawSoil soil = {at[SOIL_BULK],   at[SOIL_SHEAR],       at[SOIL_ALPHA],       at[SOIL_K_RESIDUAL],
+                        at[SOIL_K_BOND], at[SOIL_INV_REMOULD], at[SOIL_INV_OPENING], at[SOIL_VISCOSITY],
+                        at[SOIL_SWELL],  at[SOIL_LOOSENING]};
   return soil;
 }
 
@@ -58,7 +58,8 @@ static inline bool prepare(global float* state, int capacity, int at, constant f
   return isfinite(sum);
 }
 
-// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (soil/opening.h). A work-item is a cell.
+// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (soil/opening.h). A work-item is a
+// cell.
 static inline float cell_opening(global const float* state, int capacity, int4 home, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
@@ -91,8 +92,10 @@ static inline int needs(global float* state, int capacity, int4 home) {
   for (int i = get_local_id(0); i < home.y; i += CELLS) {
     const int at = home.x + i, tag = as_int(LOAD(FIELD_TAG));
     out |= LOAD(FIELD_J) > LOAD(FIELD_J0) ? 8 : 0;
-    if (home.w) out |= 1 << tile_of(tag);
-    else STORE(FIELD_TAG, as_float(tag & 0xffff));  // far from every shell nobody has a side
+    if (home.w)
+      out |= 1 << tile_of(tag);
+    else
+      STORE(FIELD_TAG, as_float(tag & 0xffff));  // far from every shell nobody has a side
   }
   return out;
 }
@@ -147,8 +150,10 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
           for (int o = 0; o < 9; ++o) {
             const int node = tile_node(me) + o % 3 + 8 * (o / 3) + 64 * layer;
             if (counts[me] > 0) {
-              if (t == 0) tile[node] += sums[o];
-              else tiles[(size_t)(home.z + t) * TILE_NODES + node] += sums[o];
+              if (t == 0)
+                tile[node] += sums[o];
+              else
+                tiles[(size_t)(home.z + t) * TILE_NODES + node] += sums[o];
             }
             barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
           }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of work-groups.
 //
-// In, Out: as in soil/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics, whose order does
-// not matter; the order inside a cell is found by one work-item per cell. Host: src/soil/particle_store.cpp.
+// In, Out: as in soil/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics, whose order
+// does not matter; the order inside a cell is found by one work-item per cell. Host: src/soil/particle_store.cpp.
 #include "soil/groups/group.h"
 
 #define MEMBERS 64
@@ -46,11 +46,13 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     for (int n = 0; n < 27; ++n) {
       const int old = sources[27 * home + n];
       const int end = old < 0 ? 0 : old_homes[old].x + old_homes[old].y;
-      for (int begin = old < 0 ? 0 : old_homes[old].x; begin < end; begin += MEMBERS) {
+      int left = old < 0 ? 0 : counts[28 * old + n];
+      for (int begin = old < 0 ? 0 : old_homes[old].x; begin < end && left > 0; begin += MEMBERS) {
         const int at = begin + me;
         cell[me] = at < end && codes[at] == n ? cells[at] : (uchar)255;
         barrier(CLK_LOCAL_MEM_FENCE);
         for (int i = 0; i < MEMBERS; ++i) {
+          left -= cell[i] != 255;
           if (cell[i] != me) continue;
           if (pass == 1) from[next] = begin + i;
           ++next;
@@ -70,8 +72,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
 // Also the mean tool friction of each home, and the lanes past its count, which get mass 0.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
-    global const int* restrict from, global const int4* restrict homes, global float* restrict state, const int capacity,
-    constant float* soils, global float* restrict home_friction) {
+    global const int* restrict from, global const int4* restrict homes, global float* restrict state,
+    const int capacity, constant float* soils, global float* restrict home_friction) {
   local float friction[MEMBERS];
   const int home = get_group_id(0), me = get_local_id(0);
   const int start = homes[home].x, end = start + homes[home].y;

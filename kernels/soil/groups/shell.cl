@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: schedule of work-groups.
 //
-// In, Out: as in soil/shell.cl. One work-group per near block, one node or particle per work-item; what a block reports is
-// found by integer atomics, which have no order. Host: src/soil/contact.cpp.
+// In, Out: as in soil/shell.cl. One work-group per near block, one node or particle per work-item; what a block reports
+// is found by integer atomics, which have no order. Host: src/soil/contact.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
@@ -61,8 +61,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
     query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     // Out of the band and never inside it: nothing to keep.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
-    const Kept kept = keep_side(x, tag >> 16, key, best.feature, best.distance2,
-                                (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
+    const Kept kept = keep_side(x, tag >> 16, key, best.feature, best.distance2, (float3)(best.x, best.y, best.z), band,
+                                longest_push, triangles, tools);
     STORE(FIELD_X, kept.x.x);
     STORE(FIELD_X + 1, kept.x.y);
     STORE(FIELD_X + 2, kept.x.z);
