@@ -60,6 +60,7 @@ class Rig {
   heightfield::Ground& ground() { return ground_; }
   const scene::World& world() const { return world_; }
   double cell() const { return world_.solver.cell; }
+  double datum() const { return ground_.datum(); }
 
   /// A resting particle of bank density at p_W that stands for `volume` [m3].
   Particle particle(const Vec3& p_W, double volume, int soil = 0) const {

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "native/native_soil.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "native/native_lanes.h"
+#include "soil/floor.h"
+#include "soil/soil_table.h"
+
+namespace navvy::bench {
+namespace {
+
+constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their drift and the kernel's reach
+constexpr std::size_t kCells = 216;
+constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
+
+/// Share of a node's kernel above level ground that ends `t` cells below it (kernels/soil/room.h).
+float room_above(float t) {
+  const float a = std::clamp(t, -0.5f, 0.5f), low = std::clamp(1.5f + t, 0.0f, 1.0f),
+              high = std::clamp(1.5f - t, 0.0f, 1.0f);
+  const float share = 0.5f + a * (0.75f - a * a / 3) + (low * low * low - high * high * high) / 6;
+  return std::max(share, 0.25f);
+}
+
+LawSoil law_of(const scene::Soil& soil, double cell) {
+  const soil::LawConstants k = soil::law_constants(soil, cell);
+  const auto all = [](double value) { return Lanes{} + static_cast<float>(value); };
+  return {all(k.bulk),        all(k.shear),       all(k.alpha),     all(k.k_residual), all(k.k_bond),
+          all(k.inv_remould), all(k.inv_opening), all(k.viscosity), all(k.swell),      all(k.loosening)};
+}
+
+/// Home block, cell of the base node floor(x - 0.5) in it, then the order of ids.
+struct SortKey {
+  std::array<int, 3> home{};
+  int cell = 0;
+  std::size_t index = 0;
+  bool operator<(const SortKey& o) const {
+    if (home != o.home) return std::tie(home[2], home[1], home[0]) < std::tie(o.home[2], o.home[1], o.home[0]);
+    return cell != o.cell ? cell < o.cell : index < o.index;
+  }
+};
+
+SortKey sort_key(const soil::Particle& p, std::size_t index) {
+  SortKey key;
+  key.index = index;
+  for (std::size_t a = 3; a-- > 0;) {
+    const int base = soil::kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a] - 0.5f));
+    key.home[a] = base >> 2;
+    key.cell = 4 * key.cell + (base & 3);
+  }
+  return key;
+}
+
+}  // namespace
+
+NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
+    : soil_(soil), cell_(static_cast<float>(cell)), ground_(static_cast<float>(ground)), sums_(kCells) {}
+
+void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
+  std::vector<soil::Particle> all = this->particles();
+  for (soil::Particle p : particles) {
+    p.id = static_cast<std::uint32_t>(all.size());
+    all.push_back(p);
+  }
+  sort(all);
+}
+
+std::vector<soil::Particle> NativeSoil::particles() const {
+  std::vector<soil::Particle> out(count_);
+  for (const Home& home : homes_)
+    for (std::size_t i = 0; i < home.count; ++i) {
+      const Pack& pack = packs_[home.first + i / kLanes];
+      const std::size_t l = i % kLanes;
+      soil::Particle& p = out[pack.id[l]];
+      for (std::size_t a = 0; a < 3; ++a) {
+        p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
+        p.x[a] = pack.x[a][l];
+        p.v[a] = pack.v[a][l];
+      }
+      for (std::size_t k = 0; k < 9; ++k) p.c[k] = pack.c[k][l];
+      for (std::size_t k = 0; k < 6; ++k) p.s[k] = pack.s[k][l];
+      p.j = pack.j[l];
+      p.j0 = pack.j0[l];
+      p.shear = pack.shear[l];
+      p.mass = static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
+      p.id = pack.id[l];
+    }
+  return out;
+}
+
+void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
+  std::vector<SortKey> keys;
+  keys.reserve(particles.size());
+  std::array<int, 3> low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
+  for (const soil::Particle& p : particles) {
+    keys.push_back(sort_key(p, keys.size()));
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], keys.back().home[a]);
+      high[a] = std::max(high[a], keys.back().home[a]);
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t a = 0; a < 3; ++a) {
+    window_[a] = soil::kBlockCells * low[a];
+    nodes_[a] = soil::kBlockCells * (high[a] - low[a] + 1) + 2 + 2 * kMargin;
+  }
+  row_ = static_cast<std::size_t>(nodes_[0]);
+  rows_ = static_cast<std::size_t>(nodes_[1]);
+  grid_.assign(row_ * rows_ * static_cast<std::size_t>(nodes_[2]), Float4{});
+  packs_.clear();
+  homes_.clear();
+  count_ = particles.size();
+  drift_ = 0;
+  ++sorts_;
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    if (n == 0 || keys[n].home != keys[n - 1].home) {
+      Home home;
+      home.first = packs_.size();
+      for (std::size_t a = 0; a < 3; ++a) home.corner[a] = soil::kBlockCells * (keys[n].home[a] - low[a]);
+      homes_.push_back(home);
+    }
+    append(particles[keys[n].index]);
+  }
+}
+
+void NativeSoil::append(const soil::Particle& p) {
+  Home& home = homes_.back();
+  const std::size_t l = home.count++ % kLanes;
+  if (l == 0) {
+    packs_.emplace_back();  // lanes without a particle: no mass, inside the home
+    for (auto& axis : packs_.back().x) std::fill(std::begin(axis), std::end(axis), 2.0f);
+    std::fill(std::begin(packs_.back().j), std::end(packs_.back().j), 1.0f);
+    std::fill(std::begin(packs_.back().j0), std::end(packs_.back().j0), 1.0f);
+  }
+  Pack& pack = packs_.back();
+  for (std::size_t a = 0; a < 3; ++a) {
+    pack.x[a][l] = p.x[a] + static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
+    pack.v[a][l] = p.v[a];
+  }
+  for (std::size_t k = 0; k < 9; ++k) pack.c[k][l] = p.c[k];
+  for (std::size_t k = 0; k < 6; ++k) pack.s[k][l] = p.s[k];
+  pack.j[l] = p.j;
+  pack.j0[l] = p.j0;
+  pack.shear[l] = p.shear;
+  pack.mass[l] = static_cast<float>(kilograms(p.mass));
+  pack.id[l] = p.id;
+}
+
+bool NativeSoil::sum_openings(const Home& home) {
+  bool open = false;
+  const std::size_t packs = (home.count + kLanes - 1) / kLanes;
+  for (std::size_t n = 0; n < packs && !open; ++n) {
+    const Pack& pack = packs_[home.first + n];
+    for (std::size_t l = 0; l < kLanes; ++l) open |= pack.j[l] > pack.j0[l];
+  }
+  if (!open) return false;
+  std::fill(sums_.begin(), sums_.end(), std::array<float, 3>{});
+  for (std::size_t i = 0; i < home.count; ++i) {
+    const Pack& pack = packs_[home.first + i / kLanes];
+    const std::size_t l = i % kLanes;
+    std::array<float, 3>& sum = sums_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
+    sum[0] += pack.mass[l] * pack.j[l];
+    sum[1] += pack.mass[l] * pack.j0[l];
+    if (pack.j[l] > pack.j0[l]) sum[2] = 1;
+  }
+  return true;
+}
+
+void NativeSoil::scatter(const Home& home, float dt) {
+  const LawSoil law = law_of(soil_, static_cast<double>(cell_));
+  const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
+  const float mixing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::mixing_time()));
+  const bool open = sum_openings(home);
+  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
+  for (std::size_t first = 0; first < home.count; first += kLanes) {
+    Pack& pack = packs_[home.first + first / kLanes];
+    const std::size_t lanes = std::min(kLanes, home.count - first);
+    Lanes c[9], s[6], sigma[6];
+    for (int k = 0; k < 9; ++k) c[k] = load(pack.c[k]);
+    for (int k = 0; k < 6; ++k) s[k] = load(pack.s[k]);
+    if (open)
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::array<float, 3>& sum = sums_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
+        if (sum[2] > 0) pack.j[l] += mixing * (pack.j0[l] * (sum[0] / sum[1]) - pack.j[l]);
+      }
+    Lanes j = load(pack.j), j0 = load(pack.j0), shear = load(pack.shear);
+    law_update(c, Lanes{} + dt, &law, s, &j, &j0, &shear, sigma);
+    for (int k = 0; k < 6; ++k) store(s[k], pack.s[k]);
+    store(j, pack.j);
+    store(j0, pack.j0);
+    store(shear, pack.shear);
+
+    // A = m C dx - dt 4/dx V sigma per node step; momentum at the base node.
+    Weights w(pack.x[0], pack.x[1], pack.x[2]);
+    const Lanes mass = load(pack.mass), cm = mass * dx, sv = (4 * dt / dx) * inv_density * mass * j;
+    const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    Lanes a[9], p[3];
+    for (int i = 0; i < 9; ++i) a[i] = cm * c[i] - sv * sigma[at[i]];
+    for (int i = 0; i < 3; ++i)
+      p[i] = mass * load(pack.v[i]) - (a[3 * i] * w.f[0] + a[3 * i + 1] * w.f[1] + a[3 * i + 2] * w.f[2]);
+    Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
+    turn(p[0], p[1], p[2], mass, start);
+    turn(a[0], a[3], a[6], Lanes{}, ax);
+    turn(a[1], a[4], a[7], Lanes{}, ay);
+    turn(a[2], a[5], a[8], Lanes{}, az);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1], w.base[2][l] + corner[2]};
+      Float4* layer = grid_.data() + node(base);
+      Four plane = start[l];
+      for (int k = 0; k < 3; ++k, layer += row_ * rows_, plane += az[l]) {
+        Four row = plane;
+        for (std::size_t i = 0; i < 3; ++i, row += ay[l]) {
+          const float wyz = w.w[2][k][l] * w.w[1][i][l];
+          Float4* out = layer + i * row_;
+          const Four next = row + ax[l], last = next + ax[l];
+          out[0] += (wyz * w.w[0][0][l]) * row;
+          out[1] += (wyz * w.w[0][1][l]) * next;
+          out[2] += (wyz * w.w[0][2][l]) * last;
+        }
+      }
+    }
+  }
+}
+
+void NativeSoil::update_grid(float dt) {
+  const float fall = static_cast<float>(kGravity) * dt, empty = static_cast<float>(kMassQuantum);
+  std::size_t n = 0;
+  for (int z = 0; z < nodes_[2]; ++z) {
+    const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
+    const bool held = above <= static_cast<float>(soil::kHeldMargin);
+    const float room = 1 / room_above(above);
+    for (std::size_t end = n + row_ * rows_; n < end; ++n) {
+      Float4 node = grid_[n];
+      const float mass = node[3];
+      if (mass > empty && !held) {
+        node *= 1 / mass;
+        node[2] -= fall;
+      } else {
+        node = Float4{};
+      }
+      node[3] = mass * room;
+      grid_[n] = node;
+    }
+  }
+}
+
+float NativeSoil::gather(const Home& home, float dt) {
+  const float dx = cell_, scale = 4 / dx;
+  const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
+  const auto closing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::closing_time()));
+  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
+  Lanes fastest{};
+  for (std::size_t first = 0; first < home.count; first += kLanes) {
+    Pack& pack = packs_[home.first + first / kLanes];
+    const std::size_t lanes = std::min(kLanes, home.count - first);
+    Weights w(pack.x[0], pack.x[1], pack.x[2]);
+    Four v[kLanes]{}, mx[kLanes]{}, my[kLanes]{}, mz[kLanes]{};
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1], w.base[2][l] + corner[2]};
+      const Float4* layer = grid_.data() + node(base);
+      Four sum{}, sum_x{}, sum_y{}, sum_z{};
+      for (int k = 0; k < 3; ++k, layer += row_ * rows_) {
+        Four plane{}, plane_x{}, plane_y{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Float4* in = layer + i * row_;
+          const Four b = w.w[0][1][l] * in[1], c = w.w[0][2][l] * in[2];
+          const Four row = (w.w[0][0][l] * in[0] + b + c) * w.w[1][i][l];
+          plane += row;
+          plane_x += (b + 2 * c) * w.w[1][i][l];
+          plane_y += static_cast<float>(i) * row;
+        }
+        sum += w.w[2][k][l] * plane;
+        sum_x += w.w[2][k][l] * plane_x;
+        sum_y += w.w[2][k][l] * plane_y;
+        sum_z += (static_cast<float>(k) * w.w[2][k][l]) * plane;
+      }
+      v[l] = sum;
+      mx[l] = sum_x;
+      my[l] = sum_y;
+      mz[l] = sum_z;
+    }
+    // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T, J towards what the nodes hold.
+    Lanes u[4], m[4];
+    unturn(v, u);
+    const Four* moments[3] = {mx, my, mz};
+    for (int axis = 0; axis < 3; ++axis) {
+      unturn(moments[axis], m);
+      for (int i = 0; i < 3; ++i) store(scale * (m[i] - w.f[axis] * u[i]), pack.c[3 * i + axis]);
+    }
+    const Lanes j = load(pack.j), j0 = load(pack.j0);
+    const Lanes packed = full / largest(u[3], Lanes{} + static_cast<float>(kMassQuantum));
+    store(j - closing * largest(least(j, j0) - packed, Lanes{}), pack.j);
+    for (int a = 0; a < 3; ++a) {
+      store(u[a], pack.v[a]);
+      store(load(pack.x[a]) + (dt / dx) * u[a], pack.x[a]);
+      fastest = largest(fastest, largest(u[a], -u[a]));
+    }
+  }
+  float out = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);
+  return out;
+}
+
+void NativeSoil::step(double dt) {
+  if (drift_ > kMostDrift) sort(particles());
+  std::fill(grid_.begin(), grid_.end(), Float4{});
+  for (const Home& home : homes_) scatter(home, static_cast<float>(dt));
+  update_grid(static_cast<float>(dt));
+  float fastest = 0;
+  for (const Home& home : homes_) fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
+  drift_ += static_cast<double>(fastest) * dt / static_cast<double>(cell_);
+}
+
+}  // namespace navvy::bench

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same transfers, law,
+// mixing and closing as kernels/soil, without tools, on level ground; float4 nodes on a dense grid, particles sorted by
+// cell.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/soil.h"
+#include "soil/particle.h"
+
+namespace navvy::bench {
+
+/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the installed library.
+class NativeSoil {
+ public:
+  /// `ground`: height of the resting ground [cells of the grid frame].
+  NativeSoil(const scene::Soil& soil, double cell, double ground);
+
+  void insert(const std::vector<soil::Particle>& particles);
+  /// Gravity 9.81 m/s2 along -z.
+  void step(double dt);
+  /// In the order of ids.
+  std::vector<soil::Particle> particles() const;
+  std::size_t size() const { return count_; }
+  int sorts() const { return sorts_; }
+
+ private:
+  static constexpr std::size_t kLanes = 16;
+  /// Fields of sixteen particles side by side; the homes' runs begin at a pack.
+  struct alignas(64) Pack {
+    float x[3][kLanes], v[3][kLanes], c[9][kLanes], s[6][kLanes];
+    float j[kLanes], j0[kLanes], shear[kLanes], mass[kLanes];
+    std::uint32_t id[kLanes];
+  };
+  /// One 4^3 block of cells: its packs and how many of their lanes are particles.
+  struct Home {
+    std::size_t first = 0, count = 0;
+    int corner[3] = {0, 0, 0};  ///< [cells of the window]
+  };
+  using Float4 = float __attribute__((vector_size(16)));
+
+  void sort(const std::vector<soil::Particle>& particles);
+  void append(const soil::Particle& p);  ///< to the last home
+  bool sum_openings(const Home& home);
+  void scatter(const Home& home, float dt);
+  void update_grid(float dt);
+  float gather(const Home& home, float dt);  ///< the fastest velocity component
+  std::size_t node(const int* base) const {
+    return static_cast<std::size_t>(base[0]) +
+           row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));
+  }
+
+  scene::Soil soil_;
+  float cell_, ground_;
+  double drift_ = 0;  ///< cells that particles may have moved since they were sorted
+  int sorts_ = 0;
+  std::size_t count_ = 0;
+  std::vector<Pack> packs_;
+  std::vector<Home> homes_;
+  std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
+  std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
+  std::size_t row_ = 0, rows_ = 0;
+  std::vector<Float4> grid_;                ///< momentum and mass, then velocity and mass per room
+  std::vector<std::array<float, 3>> sums_;  ///< per cell of a home: volume, bank volume, 1 when any is open
+};
+
+}  // namespace navvy::bench
