@@ -11,6 +11,7 @@ constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil
 constexpr double kSample = 0.1;      // along the line [m]
 constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
 constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
+constexpr double kOverload = 0.15;   // a load may be larger than a full bucket by this share of it
 constexpr double kWorth = 0.3;       // a slice's rest below this share of a bucket waits for the next slice
 
 }  // namespace
@@ -95,10 +96,13 @@ double DigPlan::volume_above(const SurfaceView& surface, double level) const {
 }
 
 double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
+  // What the slice still holds goes into equal loads: a short last scoop wears the walls as much as a long one.
+  const double rest = volume_above(surface, level);
+  const double load = rest / std::max(1.0, std::ceil(rest / scoop_volume_ - kOverload));
   double volume = 0;
   for (int i = start; i > 0; --i) {
     volume += std::max(0.0, remaining(surface, i, level)) * dig_.width * length_ / (samples() - 1);
-    if (volume >= scoop_volume_) return at(i);
+    if (volume >= load) return at(i);
   }
   return 0;
 }

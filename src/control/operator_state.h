@@ -53,6 +53,7 @@ struct Memory {
   double progress = 0;  ///< of the curl, 0..1
   double scoop_start = 0, scoop_end = 0, scoop_level = 0, curl_angle = 0, curl_z = 0;
   double scoop_volume = 0, full_mass = 0;  ///< of a full bucket: bank volume [m3], mass [kg]
+  double held = 0, held_since = 0;         ///< payload after the lift when it last fell [kg], and when [s]
   double bucket_before = 0;                ///< bucket angle before a dump step [rad]
   double base[7] = {0, 0, 0, 1, 0, 0, 0};  ///< base link's pose, shaking smoothed away: x y z, quaternion w x y z
   double up[3] = {0, 0, 1};                ///< the base's z axis in W when the dig began
@@ -106,6 +107,8 @@ struct Operator::State {
   /// To the next scoop, or to a look round before the end.
   void go_on(const scene::Dig& dig, Phase next, const Observation& seen);
   void start_lift(const Observation& seen);
+  /// Whether the lifted bucket still loses soil over the trench.
+  bool drips(const Observation& seen);
   void start_swing(const scene::Dig& dig, const Observation& seen);
   void start_dump(const Observation& seen);
   bool dumped(const Observation& seen) const;

@@ -141,8 +141,9 @@ TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
   dig.max_cycles = 2;
   const scene::Program steps = program({dig});
   DigRig whole(ew180_like(), steps, make_pose(-4, 0, 0));
-  for (int i = 0; i < 1700; ++i) whole.step();  // 8.5 s: in mid-scoop
-  EXPECT_EQ(whole.op.phase(), "curl");
+  for (int i = 0; i < 4000 && whole.op.phase() != "curl"; ++i) whole.step();
+  for (int i = 0; i < 100; ++i) whole.step();  // into mid-scoop
+  ASSERT_EQ(whole.op.phase(), "curl");
   StateWriter writer;
   whole.save(writer);
   DigRig resumed(ew180_like(), steps, make_pose(-4, 0, 0));

@@ -443,6 +443,10 @@ PROFILE = [(1.40, 0.0), (1.19, 0.20), (0.99, 0.37), (0.79, 0.49), (0.58, 0.545),
            (0.09, 0.10)]
 
 
+def half_width(x):
+    return 0.525 - 0.035 * min(1.0, max(0.0, (1.40 - x) / 0.83))
+
+
 def bucket():
     m = Mesh()
     # The shell of model.sdf as a plate 25 mm thick, outside painted, inside worn bright.
@@ -488,6 +492,8 @@ def bucket():
         for side in (-1, 1):
             m.cylinder("steel", (x, side * 0.27, z), "y", 0.075, -0.055, 0.055, 18)
     m.cylinder("steel", (-0.2907, 0, 0.3294), "y", 0.045, -0.3, 0.3, 14)
+    # Side clearance, as in model.sdf: 35 mm narrower on either side from the heel on.
+    m.points = [(x, y * half_width(x) / half_width(1.40) if abs(y) > 0.35 else y, z) for x, y, z in m.points]
     return m
 
 
