@@ -10,6 +10,8 @@ namespace {
 // At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [evidence, section 3: 10 and 60 mm/s; its 0.3
 // s asleep and 0.5 s more before deposit are one wait here].
 constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
+/// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake for good too [s].
+constexpr double kHollowRest = 5;
 /// A tool this far above the soil leaves it free to settle [cells] [evidence, section 4].
 constexpr double kToolAbove = 2;
 /// Densest state the columns take from particles [evidence, section 4: a tighter clamp creates volume].
@@ -176,13 +178,15 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   return out;
 }
 
-std::vector<int> Depositor::deposit(std::span<const int> blocks) {
+std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes& rest) {
   ShapeFinder finder(ground_, index_);
   std::vector<int> taken;
   std::vector<Plan> plans;
   for (const int block : blocks) {
-    const BlockShape shape = finder.find(index_.blocks()[static_cast<std::size_t>(block)]);
-    if (shape.hollow) continue;
+    const PlanKey& key = index_.blocks()[static_cast<std::size_t>(block)];
+    const BlockShape shape = finder.find(key);
+    const auto stood = rest.find(key);
+    if (shape.hollow && (stood == rest.end() || stood->second < kHollowRest)) continue;
     taken.push_back(block);
     plans.push_back({shape, cliffs(block)});
   }

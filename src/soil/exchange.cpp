@@ -204,7 +204,7 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
   std::set<PlanKey> done;
-  for (const int b : Depositor(ground, index).deposit(ready)) {
+  for (const int b : Depositor(ground, index).deposit(ready, rest)) {
     const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
     for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
     rest.erase(key);

@@ -138,6 +138,10 @@ TEST(ExchangeDeposit, RefusesAnArchAndASlabInTheAir) {
   EXPECT_EQ(site.checks(2 * kRest).deposited_blocks, 0);
   EXPECT_EQ(site.particles.size(), count);
   EXPECT_EQ(site.open_books(), site.closed());
+  // What has stood for good is booked as fallen in.
+  EXPECT_EQ(site.checks(5).deposited_blocks, 2);
+  EXPECT_TRUE(site.particles.empty());
+  EXPECT_EQ(site.open_books(), site.closed());
 }
 
 TEST(ExchangeDeposit, RefusesSoilUnderAToolUntilItLeaves) {
