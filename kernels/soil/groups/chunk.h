@@ -36,6 +36,7 @@ static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 6
 // base node), x fastest; of those that belong to tile t.
 static inline void add_layer(local const float* stage, local const int* sides, int first, int count, int t, int layer,
                              float4* sums) {
+  UNROLL
   for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
   for (int i = first; i < first + count; ++i) {
     if (sides[i] != t) continue;
@@ -50,6 +51,7 @@ static inline void add_layer(local const float* stage, local const int* sides, i
     const float4 az = (float4)(at[9 * CHUNK], at[10 * CHUNK], at[11 * CHUNK], 0.0f);
     const float w = layer == 0 ? wz[0] : layer == 1 ? wz[1] : wz[2];
     float4 row = start + (float)layer * az;
+    UNROLL
     for (int j = 0; j < 3; ++j) {
       const float4 next = row + ax;
       sums[3 * j] = fma((float4)(w * wy[j] * wx[0]), row, sums[3 * j]);

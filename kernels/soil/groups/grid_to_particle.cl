@@ -21,7 +21,9 @@ static inline float4 gather(local const float4* front, local const float4* back,
                             float4* mz) {
   float4 sum = 0.0f;
   *mx = *my = *mz = (float4)(0.0f);
+  UNROLL
   for (int k = 0; k < 3; ++k)
+    UNROLL
     for (int j = 0; j < 3; ++j) {
       const int node = base + 8 * j + 64 * k;
       const float w = wz[k] * wy[j];
@@ -71,6 +73,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     const float x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
     const float b[3] = {base_node(x[0]), base_node(x[1]), base_node(x[2])};
     float w[3][3];
+    UNROLL
     for (int axis = 0; axis < 3; ++axis) spline(x[axis] - b[axis], w[axis]);
     const int base = (int)b[0] + 1 + 8 * ((int)b[1] + 1) + 64 * ((int)b[2] + 1);
     float4 moments[3];
@@ -78,6 +81,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
                             &moments[1], &moments[2]);
     // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T.
     const float scale = 4.0f / dx;
+    UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const float3 c = scale * (moments[axis].xyz - (x[axis] - b[axis]) * v.xyz);
       STORE(FIELD_C + axis, c.x);

@@ -17,6 +17,9 @@ typedef int ints;
 #define LAW_STEP(edge, x) step((float)(edge), x)
 #define LAW_FN static inline
 
+// Loops over a work-item's own small arrays are unrolled: then these are registers, which a GPU cannot index.
+#define UNROLL _Pragma("unroll")
+
 // Tile nodes without the pad, and the cells of base nodes -1..4 in a tile, x fastest.
 #define TILE_SIZE 512
 #define CELLS 216

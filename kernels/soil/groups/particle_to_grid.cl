@@ -24,13 +24,16 @@ static inline bool prepare(global float* state, int capacity, int at, constant f
   constant float* row = soils + SOIL_WORDS * (tag & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], s[6], sigma[6];
+  UNROLL
   for (int k = 0; k < 9; ++k) c[k] = LOAD(FIELD_C + k);
+  UNROLL
   for (int k = 0; k < 6; ++k) s[k] = LOAD(FIELD_S + k);
   float j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0), shear = LOAD(FIELD_SHEAR);
   const bool lost = !isfinite(j);  // the law's floor would hide it
   if (opening > 0.0f) j += mixing * (j0 * opening - j);
   law_update(c, dt, &soil, s, &j, &j0, &shear, sigma);
   if (lost) j = NAN;
+  UNROLL
   for (int k = 0; k < 6; ++k) STORE(FIELD_S + k, s[k]);
   STORE(FIELD_J, j);
   STORE(FIELD_J0, j0);
@@ -44,8 +47,10 @@ static inline bool prepare(global float* state, int capacity, int at, constant f
   const float a[9] = {cm * c[0] - sv * sigma[0], cm * c[1] - sv * sigma[3], cm * c[2] - sv * sigma[5],
                       cm * c[3] - sv * sigma[3], cm * c[4] - sv * sigma[1], cm * c[5] - sv * sigma[4],
                       cm * c[6] - sv * sigma[5], cm * c[7] - sv * sigma[4], cm * c[8] - sv * sigma[2]};
+  UNROLL
   for (int i = 0; i < 3; ++i) {
     out[STAGED_P + i] = mass * LOAD(FIELD_V + i) - (a[3 * i] * fx + a[3 * i + 1] * fy + a[3 * i + 2] * fz);
+    UNROLL
     for (int k = 0; k < 3; ++k) out[STAGED_A + 3 * k + i] = a[3 * i + k];
   }
   out[STAGED_MASS] = mass;
@@ -139,6 +144,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
     if (me < count) {
       const int slot = place_in_chunk(cells, count, cell, first, counts);
       sides[slot] = side;
+      UNROLL
       for (int f = 0; f < STAGED; ++f) stage[f * CHUNK + slot] = mine[f];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -147,6 +153,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
         for (int layer = 0; layer < 3; ++layer) {
           float4 sums[9];
           add_layer(stage, sides, first[me], counts[me], t, layer, sums);
+          UNROLL
           for (int o = 0; o < 9; ++o) {
             const int node = tile_node(me) + o % 3 + 8 * (o / 3) + 64 * layer;
             if (counts[me] > 0) {
