@@ -111,6 +111,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   real fastest = 0.0f;
   for (int at = home.x; at < home.x + home.y; at += 16) {
     const int count = min(16, home.x + home.y - at);
+    UNROLL
+    for (int f = 0; f < FIELD_S; ++f) SOON(f);
+    SOON(FIELD_J);
+    SOON(FIELD_J0);
+    SOON(FIELD_TAG);
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
     const real bx = base_node(x), by = base_node(y), bz = base_node(z);
     const real fx = x - bx, fy = y - by, fz = z - bz;

@@ -55,6 +55,17 @@ typedef int16 ints;
 #define LOAD(field) vload16(0, state + (size_t)(field) * capacity + at)
 #define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + at)
 
+// Asks for a field of the pack four packs on: 27 arrays are more streams than a processor follows by itself. Nothing
+// where the compiler does not know how.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_prefetch)
+#define SOON(field) __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + at + 4 * NAVVY_LANES))
+#endif
+#endif
+#ifndef SOON
+#define SOON(field)
+#endif
+
 // Turns four rows into 16 float4s in `part`, and back.
 #define TURN(part, a, b, c, d)                    \
   do {                                            \

@@ -101,6 +101,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   int broken = 0;
   for (int at = home.x; at < home.x + home.y; at += 16) {
     const int count = min(16, home.x + home.y - at);
+    UNROLL
+    for (int f = 0; f < FIELD_ID; ++f) SOON(f);
     int16 tag = as_int16(LOAD(FIELD_TAG));
     if (!home.w) {  // far from every shell nobody has a side
       tag &= 0xffff;
