@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OpenCL soil steps beside the native loop of bench/native, from the same state in one run: a block falling apart,
 // with the shipped flags and the full law. The native loop runs one copy on each thread that the OpenCL device has.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <string>
 #include <thread>
@@ -24,29 +22,13 @@ constexpr int kRuns = 5;
 
 std::string size_name(std::size_t particles) { return std::to_string(particles / 1000) + "k"; }
 
-/// A row, and the least processor time of a run over all threads [s]: what a busy machine leaves comparable.
-struct Measured {
-  bench::Row row;
-  double processor = 0;
-};
-
-/// Runs `work` and keeps the least processor time.
-template <class Work>
-void clocked(Measured& out, const Work& work) {
-  const std::clock_t start = std::clock();
-  work();
-  const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  out.processor = out.processor == 0 ? took : std::min(out.processor, took);
-}
-
 /// Steps one copy of `start` on each of `threads` threads.
-Measured native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>& start, int steps, double dt,
-                    int threads) {
+bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>& start, int steps, double dt,
+                      int threads) {
   const double ground = -rig.datum() / rig.cell();  // the surface is z = 0
   std::vector<bench::NativeSoil> copies;
-  Measured out;
-  bench::Row& row = out.row;
-  row.bench = "native_loop:" + size_name(start.size()) + ", " + std::to_string(threads) + " copies";
+  bench::Row row;
+  row.bench = "native_loop:" + size_name(start.size());
   row.particles = start.size() * static_cast<std::size_t>(threads);
   row.steps = static_cast<std::uint64_t>(steps);
   row.simulated = steps * dt;
@@ -57,25 +39,22 @@ Measured native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>
         for (bench::NativeSoil& copy : copies) copy.insert(start);
       },
       [&] {
-        clocked(out, [&] {
-          std::vector<std::thread> workers;
-          workers.reserve(copies.size());
-          for (bench::NativeSoil& copy : copies)
-            workers.emplace_back([&copy, steps, dt] {
-              for (int i = 0; i < steps; ++i) copy.step(dt);
-            });
-          for (std::thread& worker : workers) worker.join();
-        });
+        std::vector<std::thread> workers;
+        workers.reserve(copies.size());
+        for (bench::NativeSoil& copy : copies)
+          workers.emplace_back([&copy, steps, dt] {
+            for (int i = 0; i < steps; ++i) copy.step(dt);
+          });
+        for (std::thread& worker : workers) worker.join();
       },
       kRuns);
-  return out;
+  return row;
 }
 
-Measured opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, double dt) {
+bench::Row opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, double dt) {
   StateWriter writer;
   rig.solver().save(writer);
-  Measured out;
-  bench::Row& row = out.row;
+  bench::Row row;
   row.bench = "soil_collapse:" + size_name(particles);
   row.particles = particles;
   row.steps = static_cast<std::uint64_t>(steps);
@@ -87,15 +66,13 @@ Measured opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, doubl
         rig.solver().load(reader);
       },
       [&] {
-        clocked(out, [&] {
-          for (int i = 0; i < steps; ++i) rig.solver().step(dt, {}, {});
-        });
+        for (int i = 0; i < steps; ++i) rig.solver().step(dt, {}, {});
       },
       kRuns);
   StateHash state;
   rig.solver().hash(state);
   row.hash = state.hex();
-  return out;
+  return row;
 }
 
 void compare(double edge, int steps) {
@@ -105,16 +82,16 @@ void compare(double edge, int steps) {
   const auto start = rig.solver().particles();
   const double dt = rig.solver().step_limit(0);
   const device::DeviceInfo& device = soil::rig::Rig::device().info();
-  const Measured native = native_row(rig, start, steps, dt, device.compute_units);
-  const Measured opencl = opencl_row(rig, start.size(), steps, dt);
-  bench::print(device, native.row);
-  bench::print(device, opencl.row);
-  const auto work = [](const Measured& m) {
-    return 1e-6 * static_cast<double>(m.row.particles) * static_cast<double>(m.row.steps);
+  const bench::Row native = native_row(rig, start, steps, dt, device.compute_units);
+  const bench::Row opencl = opencl_row(rig, start.size(), steps, dt);
+  bench::print(device, native);
+  bench::print(device, opencl);
+  const auto work = [](const bench::Row& row) {
+    return 1e-6 * static_cast<double>(row.particles) * static_cast<double>(row.steps);
   };
-  const double native_wall = work(native) / native.row.timing.best / device.compute_units,
-               opencl_wall = work(opencl) / opencl.row.timing.best / device.compute_units;
-  const double native_cpu = work(native) / native.processor, opencl_cpu = work(opencl) / opencl.processor;
+  const double native_wall = work(native) / native.timing.best / device.compute_units,
+               opencl_wall = work(opencl) / opencl.timing.best / device.compute_units;
+  const double native_cpu = work(native) / native.timing.processor, opencl_cpu = work(opencl) / opencl.timing.processor;
   std::printf(
       "%s, M particle-steps/s per thread: native %.1f, OpenCL %.1f, ratio %.2f; per processor second: native "
       "%.1f, OpenCL %.1f, ratio %.2f\n",

@@ -2,6 +2,7 @@
 #include "bench/measure.h"
 
 #include <algorithm>
+#include <ctime>
 #include <vector>
 
 #include "core/stopwatch.h"
@@ -32,14 +33,17 @@ kernel void fma_peak(global float* out, const int rounds) {
 
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs) {
-  std::vector<double> times;
+  std::vector<double> times, processor;
   for (int run = -1; run < runs; ++run) {
     restore();
     device.finish();
+    const std::clock_t start = std::clock();
     const Stopwatch watch;
     work();
     device.finish();
-    if (run >= 0) times.push_back(watch.seconds());
+    if (run < 0) continue;
+    times.push_back(watch.seconds());
+    processor.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   std::sort(times.begin(), times.end());
   Timing out;
@@ -47,6 +51,7 @@ Timing measure(device::Device& device, const std::function<void()>& restore, con
   out.median = times[times.size() / 2];
   out.spread = (times.back() - out.best) / out.best;
   out.runs = runs;
+  out.processor = *std::min_element(processor.begin(), processor.end());
   return out;
 }
 

@@ -15,7 +15,7 @@ class Device;
 namespace navvy::bench {
 
 /// Runs `restore` then `work` once to warm up and `runs` times for the clock; only `work` is timed, up to the end of
-/// what it queued on the device.
+/// what it queued on the device. Processor time is counted too: it tells on a busy machine.
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs = 5);
 

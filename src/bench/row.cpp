@@ -49,7 +49,8 @@ const std::vector<std::string>& columns() {
                                                  "state_hash",
                                                  "site_m",
                                                  "copy_bytes_per_s",
-                                                 "fma_flops_per_s"};
+                                                 "fma_flops_per_s",
+                                                 "processor_ms"};
   return names;
 }
 
@@ -74,7 +75,8 @@ std::vector<std::string> cells(const Row& row) {
           row.hash,
           number(row.site, "%.0f"),
           number(row.peak.copy_bandwidth, "%.4g"),
-          number(row.peak.flops, "%.4g")};
+          number(row.peak.flops, "%.4g"),
+          number(row.timing.processor * 1e3, "%.1f")};
 }
 
 std::string csv_header() {

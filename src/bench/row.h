@@ -13,6 +13,7 @@ struct Timing {
   double median = 0;  ///< [s]; 0 = as best
   double spread = 0;  ///< (slowest - best) / best
   int runs = 0;
+  double processor = 0;  ///< least time of a run that all threads of this program took together [s]
 };
 
 /// What a device can do at most, measured on it; 0 = not measured.

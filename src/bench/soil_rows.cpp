@@ -109,9 +109,9 @@ Row held_bucket(device::Device& device, int steps) {
   return time_steps(device, site, steps, {motion});
 }
 
-/// A tilted bucket with its lip in a bed of `length` x 2 x 0.6 m: what a trench costs.
-Row dig(device::Device& device, double length, int steps) {
-  const Box bed = {Vec3(0, -1, -0.6), Vec3(length, 1, 0)};
+/// A tilted bucket with its lip in a bed of `length` x `width` x 0.6 m: what a trench costs.
+Row dig(device::Device& device, double length, double width, int steps) {
+  const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
   options.size = std::max(20.0, 2 * length + 4);
   options.surface = lab::pit(bed);
@@ -152,13 +152,16 @@ std::vector<SoilCase> make_cases() {
   using Device = device::Device;
   return {
       {"soil_held_bucket", "a load at rest in a bucket", true, [](Device& d) { return held_bucket(d, 100); }},
-      {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 100); }},
-      {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 50); }},
+      {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 2, 100); }},
+      {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 2, 50); }},
+      {"soil_dig:403k", "the same in a wide bed", false, [](Device& d) { return dig(d, 12, 7, 20); }},
       {"soil_collapse:8k", "a block of 1 m falling apart", true, [](Device& d) { return collapse(d, 1.0, 100); }},
       {"soil_collapse:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
+      {"soil_collapse:50k", "1.85 m", false, [](Device& d) { return collapse(d, 1.85, 50); }},
       {"soil_collapse:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
       {"soil_collapse:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
       {"soil_collapse:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
+      {"soil_collapse:1953k", "6.25 m", false, [](Device& d) { return collapse(d, 6.25, 5); }},
       {"site_dig:0.01km2", "a dig with waking ground", true, [](Device& d) { return site_dig(d, 100, 100); }},
       {"site_dig:0.1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 316.2, 100); }},
       {"site_dig:1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 1000, 100); }},
