@@ -19,14 +19,21 @@ constexpr double kSettle = 0.3, kAtRest = 0.02;  // past a move's time at rest i
 constexpr double kPatience = 2.0;                // beyond a move's own time [s]
 
 const char* name_of(Phase phase) {
-  static const char* const names[] = {"idle", "drive", "return", "approach", "penetrate", "drag",      "curl",
-                                      "lift", "swing", "dump",   "look",     "wait",      "trajectory"};
+  static const char* const names[] = {"idle",  "drive", "return", "approach", "penetrate",  "drag", "curl",    "lift",
+                                      "swing", "dump",  "look",   "wait",     "trajectory", "tip",  "wait_for"};
   return names[static_cast<int>(phase)];
 }
 
 double smooth(double t) {
   const double c = std::clamp(t, 0.0, 1.0);
   return c * c * (3 - 2 * c);
+}
+
+void check_bed(const scene::Machine& machine) {
+  const std::string joint = machine.beds.empty() ? "" : machine.beds[0].joint;
+  if (machine.joint_index(joint) < 0)
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/tip", joint,
+                           "tip needs a machine with a bed on a joint of its own", "add <navvy:bed>"});
 }
 
 /// A trajectory as the loader would let it pass; programs built in C++ may be anything.
@@ -54,6 +61,8 @@ Operator::State::State(const scene::Machine& machine_in, const scene::Program& p
       if (!arm) arm.emplace(machine);
   for (const scene::ProgramStep& step : program.steps)
     if (const auto* trajectory = std::get_if<scene::Trajectory>(&step)) check_trajectory(machine, *trajectory);
+  for (const scene::ProgramStep& step : program.steps)
+    if (std::holds_alternative<scene::Tip>(step)) check_bed(machine);
 }
 
 Operator::Operator(const scene::Machine& machine, const scene::Program& program)
@@ -64,6 +73,7 @@ Operator::Operator(Operator&&) noexcept = default;
 bool Operator::done() const { return state_->m.step >= static_cast<int>(state_->program.steps.size()); }
 const std::string& Operator::phase() const { return state_->phase_name; }
 int Operator::cycles() const { return state_->m.cycles; }
+Progress Operator::progress() const { return {state_->m.step, static_cast<int>(state_->program.steps.size())}; }
 CycleEvent Operator::event() const { return state_->event; }
 
 void Operator::State::enter(Phase next) {

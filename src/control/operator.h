@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,11 @@
 
 namespace navvy::control {
 
+/// How far a machine's program has come.
+struct Progress {
+  int done = 0, steps = 0;
+};
+
 /// What the operator knows at one control step.
 struct Observation {
   std::vector<vehicle::JointState> joints;  ///< as in scene::Machine::joints
@@ -28,6 +34,7 @@ struct Observation {
   const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
   double payload = 0;                    ///< soil in the bucket [kg]
   double force = 0;                      ///< low-passed soil force on the bucket [N]
+  const std::map<std::string, Progress>* programs = nullptr;  ///< of all machines of the world, by name
 };
 
 /// What it wants; joints without an entry keep their last command.
@@ -36,8 +43,8 @@ struct Command {
   std::optional<vehicle::DriveInput> drive;
 };
 
-/// Moments of a digging cycle, told once each.
-enum class CycleEvent { kNone, kScoopStart, kLiftOut, kDumpStart, kCycleEnd };
+/// Moments of a digging cycle and of a tip, told once each.
+enum class CycleEvent { kNone, kScoopStart, kLiftOut, kDumpStart, kCycleEnd, kTipStart, kTipEnd };
 
 /// Runs one machine's program.
 ///
@@ -53,10 +60,11 @@ class Operator {
   /// `time` [s] simulated, `dt` [s] since the last call.
   Command update(const Observation& seen, double time, double dt);
   bool done() const;
-  /// "drive", "return", "approach", "penetrate", "drag", "curl", "lift", "swing", "dump", "look", "wait", "trajectory"
-  /// or "idle".
+  /// "drive", "return", "approach", "penetrate", "drag", "curl", "lift", "swing", "dump", "look", "wait", "tip",
+  /// "wait_for", "trajectory" or "idle".
   const std::string& phase() const;
   int cycles() const;
+  Progress progress() const;
   /// The event of the last update.
   CycleEvent event() const;
 

@@ -25,7 +25,9 @@ enum class Phase : int {
   kDump,
   kLook,
   kWait,
-  kTrajectory
+  kTrajectory,
+  kTip,
+  kWaitFor
 };
 
 /// Everything that changes while a program runs; plain values without gaps, so saving and hashing take them whole.
@@ -58,7 +60,7 @@ struct Memory {
   double base[7] = {0, 0, 0, 1, 0, 0, 0};  ///< base link's pose, shaking smoothed away: x y z, quaternion w x y z
   double up[3] = {0, 0, 1};                ///< the base's z axis in W when the dig began
   // Drive.
-  double speed = 0, heading = 0, standing = 0, way = 0;
+  double speed = 0, heading = 0, standing = 0, way = 0;  // `standing` also: [s] that the bed has been where it is told
 };
 static_assert(offsetof(Memory, phase_time) == 10 * sizeof(int), "no gap before the doubles");
 
@@ -79,6 +81,8 @@ struct Operator::State {
   bool run(const scene::Swing& step, const Observation& seen, double dt, Command& out);
   bool run(const scene::Dump& step, const Observation& seen, double dt, Command& out);
   bool run(const scene::Wait& step, const Observation& seen, double dt, Command& out);
+  bool run(const scene::Tip& step, const Observation& seen, double dt, Command& out);
+  bool run(const scene::WaitFor& step, const Observation& seen, double dt, Command& out);
   bool run(const scene::Trajectory& step, const Observation& seen, double dt, Command& out);
 
   void enter(Phase phase);

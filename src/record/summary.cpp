@@ -40,6 +40,32 @@ json cycle_list(const sim::Session& session) {
   return cycles;
 }
 
+json tip_list(const sim::Session& session) {
+  json tips = json::array();
+  for (const sim::BedTip& tip : session.tips())
+    tips.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
+                    {"start_s", tip.start},
+                    {"end_s", tip.end},
+                    {"payload_at_start_kg", tip.payload_start},
+                    {"payload_at_end_kg", tip.payload_end}});
+  return tips;
+}
+
+/// What buckets and beds hold now, by "machine/shell".
+json carried(const sim::Session& session) {
+  json out = json::object();
+  for (const coupling::ToolLoad& tool : session.world().coupling().tools()) {
+    const scene::MachineInWorld& placed =
+        session.world().description().machines[static_cast<std::size_t>(tool.machine)];
+    const std::string& shell = placed.machine.shells[static_cast<std::size_t>(tool.shell)].name;
+    const auto holds = [&](const auto& container) { return container.shell == shell; };
+    if (std::any_of(placed.machine.buckets.begin(), placed.machine.buckets.end(), holds) ||
+        std::any_of(placed.machine.beds.begin(), placed.machine.beds.end(), holds))
+      out[placed.name + "/" + shell] = session.world().coupling().payload(tool);
+  }
+  return out;
+}
+
 json ledger(const sim::Session& session) {
   const soil::Ledger sums = session.world().soil().ledger();
   json soils = json::array();
@@ -47,7 +73,8 @@ json ledger(const sim::Session& session) {
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
-                     {"left_site_kg", kilograms(sums.left_site[i])}});
+                     {"left_site_kg", kilograms(sums.left_site[i])},
+                     {"loaded_kg", kilograms(sums.inserted[i])}});
   return {{"error_units", sums.error()}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
@@ -104,6 +131,8 @@ std::string summary_json(const sim::Session& session, const RunStatus& status) {
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();
   for (const sim::Cycle& cycle : session.cycles()) out["payload_kg"].push_back(cycle.payload_lift_out);
+  out["tip_list"] = tip_list(session);
+  out["carried_kg"] = carried(session);
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;
   out["energy_j"] = session.energy();

@@ -130,6 +130,14 @@ struct Bucket {
   Vec3 opening = Vec3::UnitZ();        ///< unit, link frame: out of the mouth
 };
 
+/// What makes a link a container that tips its load: a dumper's bed, a skip.
+struct Bed {
+  std::string link;
+  std::string shell;
+  std::string joint;      ///< tips it
+  double capacity = 3.0;  ///< struck [m3]
+};
+
 struct Machine {
   std::string name;
   std::string file;        ///< SDF it came from
@@ -143,6 +151,7 @@ struct Machine {
   Drive drive;
   std::vector<Shell> shells;
   std::vector<Bucket> buckets;
+  std::vector<Bed> beds;
   std::string swing_joint, boom_joint, stick_joint, bucket_joint;  ///< roles of an excavator's arm; empty: none
 
   /// Index by name, -1 when there is none.

@@ -45,6 +45,20 @@ struct Wait {
   double duration = 1;  ///< [s]
 };
 
+/// Tip the bed to an angle of its joint, at the pace its cylinder allows, and keep it there for a while. It stays until
+/// the next tip, also while the machine drives.
+struct Tip {
+  double angle = 0;  ///< [rad]
+  double hold = 0;   ///< after it has arrived [s]
+};
+
+/// Wait until another machine of the world has done some or all steps of its program.
+struct WaitFor {
+  std::string machine;
+  int steps = 0;          ///< 0: all
+  double longest = 3600;  ///< then it goes on, with a warning [s]
+};
+
 /// Open-loop joint positions over time, linear between knots; times count from the start of this step.
 struct Trajectory {
   std::vector<std::string> joints;
@@ -52,7 +66,7 @@ struct Trajectory {
   std::vector<std::vector<double>> positions;  ///< [knot][joint], [rad] or [m]
 };
 
-using ProgramStep = std::variant<DriveTo, Dig, Swing, Dump, Wait, Trajectory>;
+using ProgramStep = std::variant<DriveTo, Dig, Swing, Dump, Wait, Tip, WaitFor, Trajectory>;
 
 struct Program {
   std::vector<ProgramStep> steps;

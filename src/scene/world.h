@@ -21,11 +21,18 @@ struct Solver {
   bool exchange = true;         ///< false: ground neither wakes nor takes soil back by itself (rigs, tests)
 };
 
+/// Soil in a machine's first bed at the start.
+struct BedLoad {
+  std::string soil;
+  double mass = 0;  ///< [kg]; 0: empty
+};
+
 struct MachineInWorld {
   std::string name;
   Machine machine;
   Pose X_WM = Pose::Identity();
   bool on_ground = true;  ///< z of the pose counts from the ground under the machine
+  BedLoad load;
   Program program;
 };
 

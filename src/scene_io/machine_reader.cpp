@@ -286,6 +286,28 @@ scene::Bucket read_bucket(Element& element, const Names& names, Faults& faults) 
   return bucket;
 }
 
+scene::Bed read_bed(Element& element, const Names& names, Faults& faults) {
+  scene::Bed bed;
+  Fields(element, faults)
+      .attribute("name")
+      .text("link", bed.link)
+      .required("link")
+      .text("shell", bed.shell)
+      .required("shell")
+      .text("joint", bed.joint)
+      .required("joint")
+      .number("capacity_m3", bed.capacity, {1e-4, 1000})
+      .finish();
+  require_name(element, "link", "link", names.links, faults);
+  require_name(element, "shell", "navvy:shell", names.shells, faults);
+  require_name(element, "joint", "joint", names.joints, faults);
+  const auto type = names.joint_type.find(bed.joint);
+  if (type != names.joint_type.end() && type->second != "revolute")
+    faults.error(*element.FirstChildElement("joint"), type->second, "a bed tips on a revolute joint",
+                 "name the joint of its hinge");
+  return bed;
+}
+
 void read_arm(Element& element, const Names& names, scene::Machine& machine, Faults& faults) {
   Fields(element, faults)
       .text("swing_joint", machine.swing_joint)
@@ -356,6 +378,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     if (kind == "navvy:wheel") machine.wheels.push_back(read_wheel(*e, names, faults));
     if (kind == "navvy:shell") machine.shells.push_back(read_shell(*e, names, faults));
     if (kind == "navvy:bucket") machine.buckets.push_back(read_bucket(*e, names, faults));
+    if (kind == "navvy:bed") machine.beds.push_back(read_bed(*e, names, faults));
     if (kind == "navvy:arm") read_arm(*e, names, machine, faults);
     if (kind == "navvy:joint" && has_joints) read_initial_position(*e, machine, faults);
     if (kind == "navvy:drive") {

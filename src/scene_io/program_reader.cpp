@@ -85,6 +85,36 @@ class ProgramReader {
     return step;
   }
 
+  scene::Tip tip(Element& element) {
+    scene::Tip step;
+    Fields fields(element, faults_);
+    fields.number("angle_deg", step.angle, {-360, 360}, kDegree)
+        .required("angle_deg")
+        .number("hold_s", step.hold, {0, 600})
+        .finish();
+    require(element, machine_ && !machine_->beds.empty(), "tip needs a machine with <navvy:bed>");
+    if (!machine_ || machine_->beds.empty() || !fields.has("angle_deg")) return step;
+    const int index = machine_->joint_index(machine_->beds[0].joint);
+    if (index < 0) return step;
+    const scene::Joint& joint = machine_->joints[static_cast<std::size_t>(index)];
+    if (joint.has_limits && (step.angle < joint.lower - 1e-6 || step.angle > joint.upper + 1e-6))
+      faults_.error(*fields.child("angle_deg"), text_of(*fields.child("angle_deg")),
+                    "must lie within the limits of the bed's joint, " + std::to_string(joint.lower / kDegree) + " to " +
+                        std::to_string(joint.upper / kDegree));
+    return step;
+  }
+
+  scene::WaitFor wait_for(Element& element) {
+    scene::WaitFor step;
+    Fields(element, faults_)
+        .text("machine", step.machine)
+        .required("machine")
+        .whole("steps", step.steps, {1, 1e6})
+        .number("longest_s", step.longest, {0, 1e6})
+        .finish();
+    return step;
+  }
+
   scene::Trajectory trajectory(Element& element) {
     scene::Trajectory step;
     std::vector<std::vector<double>> columns;
@@ -192,6 +222,8 @@ scene::Program read_program(Element& element, const scene::Machine* machine, con
       {"swing", [&](Element& e) { return reader.swing(e); }},
       {"dump", [&](Element& e) { return reader.dump(e); }},
       {"wait", [&](Element& e) { return reader.wait(e); }},
+      {"tip", [&](Element& e) { return reader.tip(e); }},
+      {"wait_for", [&](Element& e) { return reader.wait_for(e); }},
       {"trajectory", [&](Element& e) { return reader.trajectory(e); }}};
   scene::Program program;
   Fields fields(element, faults);

@@ -8,6 +8,7 @@
 #include "scene_io/ground_reader.h"
 #include "scene_io/machine_reader.h"
 #include "scene_io/mesh_path.h"
+#include "scene_io/program_order.h"
 #include "scene_io/program_reader.h"
 #include "scene_io/sdf_rules.h"
 #include "scene_io/soil_reader.h"
@@ -96,6 +97,20 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   lights.push_back(light);
 }
 
+void read_load(Element& element, scene::MachineInWorld& instance, const scene::World& world, Faults& faults) {
+  if (!world.soils.empty()) instance.load.soil = world.soils[0].name;
+  Fields fields(element, faults);
+  fields.text("soil", instance.load.soil).number("mass_kg", instance.load.mass, {0, 1e6}).required("mass_kg").finish();
+  if (fields.has("soil") && world.soil_index(instance.load.soil) < 0) {
+    std::vector<std::string> names;
+    for (const scene::Soil& soil : world.soils) names.push_back(soil.name);
+    faults.error(*fields.child("soil"), instance.load.soil, "no soil of this name in the world",
+                 suggestion(instance.load.soil, names));
+  }
+  if (!instance.machine.links.empty() && instance.machine.beds.empty())
+    faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load");
+}
+
 // What <include> and an inline <model> share: place, joints, program.
 void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, bool ground_known,
                    Faults& faults) {
@@ -114,6 +129,7 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
   if (!instance.machine.links.empty() && std::string(element.Name()) == "include")
     for (Element* e = element.FirstChildElement("navvy:joint"); e; e = e->NextSiblingElement("navvy:joint"))
       read_initial_position(*e, instance.machine, faults);
+  if (Element* e = element.FirstChildElement("navvy:load")) read_load(*e, instance, world, faults);
   if (Element* e = element.FirstChildElement("navvy:program"))
     instance.program = read_program(*e, &instance.machine, ground_known ? &world.ground : nullptr, faults);
 }
@@ -190,8 +206,9 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   }
   if (Element* program = model->FirstChildElement("navvy:program"))
     faults.error(*program, "", "a program belongs to the world that uses the machine", "move it into <include>");
-  if (Element* flag = model->FirstChildElement("navvy:on_ground"))
-    faults.error(*flag, "", "belongs to the world that uses the machine", "move it into <include>");
+  for (const char* name : {"navvy:on_ground", "navvy:load"})
+    if (Element* e = model->FirstChildElement(name))
+      faults.error(*e, "", "belongs to the world that uses the machine", "move it into <include>");
   return read_machine(*model, faults.error_count() == before, faults);
 }
 
@@ -232,6 +249,7 @@ scene::World read_world(Document& document, Faults& faults) {
   }
   const bool ground_known = ground && faults.error_count() == before_ground;
   read_machines(*element, world, ground_known, sdf_sound, faults);
+  check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);
   for (Element* e = element->FirstChildElement("navvy:camera"); e; e = e->NextSiblingElement("navvy:camera")) {
     scene::Camera camera = read_camera(*e, world, faults);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -30,9 +31,11 @@ struct Session::State {
   struct Crew {
     int machine = 0;
     int tool = -1;  ///< index into Coupling::tools of the bucket, -1 without
+    int bed = -1;   ///< the same of the bed
     control::Operator op;
     control::Observation seen;
     std::optional<Cycle> open;
+    std::optional<BedTip> open_tip;
   };
 
   World world;
@@ -40,6 +43,8 @@ struct Session::State {
   std::string device_name;
   std::vector<Crew> crews;
   std::vector<Cycle> cycles;
+  std::vector<BedTip> tips;
+  std::map<std::string, control::Progress> programs;  ///< as the operators see them: at the start of the step
   ForceStatistics force;
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
@@ -48,23 +53,32 @@ struct Session::State {
   void observe(Crew& crew);
   void command(Crew& crew);
   void note_event(Crew& crew);
+  void note_tip(Crew& crew);
+  void note_progress();
+  int tool_of(int machine, const std::string& shell) const;
   void note_forces();
 };
+
+/// Index into Coupling::tools, -1 without.
+int Session::State::tool_of(int machine, const std::string& shell) const {
+  const scene::Machine& placed = world.description().machines[static_cast<std::size_t>(machine)].machine;
+  const auto& tools = world.coupling().tools();
+  for (std::size_t t = 0; t < tools.size(); ++t)
+    if (tools[t].machine == machine && placed.shells[static_cast<std::size_t>(tools[t].shell)].name == shell)
+      return static_cast<int>(t);
+  return -1;
+}
 
 void Session::State::enlist(int machine) {
   const scene::MachineInWorld& placed = world.description().machines[static_cast<std::size_t>(machine)];
   if (placed.program.steps.empty()) return;
-  Crew crew{machine, -1, control::Operator(placed.machine, placed.program), {}, {}};
-  const auto& tools = world.coupling().tools();
-  for (std::size_t t = 0; t < tools.size(); ++t) {
-    const bool mine = tools[t].machine == machine;
-    if (mine && !placed.machine.buckets.empty() &&
-        placed.machine.shells[static_cast<std::size_t>(tools[t].shell)].name == placed.machine.buckets[0].shell)
-      crew.tool = static_cast<int>(t);
-  }
+  Crew crew{machine, -1, -1, control::Operator(placed.machine, placed.program), {}, {}, {}};
+  if (!placed.machine.buckets.empty()) crew.tool = tool_of(machine, placed.machine.buckets[0].shell);
+  if (!placed.machine.beds.empty()) crew.bed = tool_of(machine, placed.machine.beds[0].shell);
   crew.seen.joints.resize(placed.machine.joints.size());
   crew.seen.ground = &world.ground();
   crew.seen.surface = &surface;
+  crew.seen.programs = &programs;
   crews.push_back(std::move(crew));
 }
 
@@ -80,11 +94,30 @@ void Session::State::observe(Crew& crew) {
   if (world.steps() % kPayloadInterval == 0) crew.seen.payload = world.coupling().payload(tool);
 }
 
+void Session::State::note_progress() {
+  for (const Crew& crew : crews)
+    programs[world.description().machines[static_cast<std::size_t>(crew.machine)].name] = crew.op.progress();
+}
+
 void Session::State::command(Crew& crew) {
   const control::Command command = crew.op.update(crew.seen, world.time(), world.dt());
   for (std::size_t j = 0; j < command.joints.size(); ++j)
     if (command.joints[j]) world.set_joint(crew.machine, static_cast<int>(j), *command.joints[j]);
   if (command.drive) world.set_drive(crew.machine, *command.drive);
+}
+
+void Session::State::note_tip(Crew& crew) {
+  if (crew.bed < 0) return;
+  const auto payload = [&] {
+    return world.coupling().payload(world.coupling().tools()[static_cast<std::size_t>(crew.bed)]);
+  };
+  const control::CycleEvent event = crew.op.event();
+  if (event == control::CycleEvent::kTipStart) crew.open_tip = BedTip{crew.machine, world.time(), 0, payload(), 0};
+  if (event != control::CycleEvent::kTipEnd || !crew.open_tip) return;
+  crew.open_tip->end = world.time();
+  crew.open_tip->payload_end = payload();
+  tips.push_back(*crew.open_tip);
+  crew.open_tip.reset();
 }
 
 void Session::State::note_event(Crew& crew) {
@@ -149,10 +182,12 @@ void Session::step() {
   {
     const Lap lap(s.control_time);
     bool busy = false;
+    s.note_progress();
     for (State::Crew& crew : s.crews) {
       s.observe(crew);
       s.command(crew);
       s.note_event(crew);
+      s.note_tip(crew);
       busy = busy || !crew.op.done();
     }
     s.idle = busy || s.crews.empty() ? 0 : s.idle + s.world.dt();
@@ -180,6 +215,7 @@ std::string Session::phase(int machine) const {
 }
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
+const std::vector<BedTip>& Session::tips() const { return state_->tips; }
 const ForceStatistics& Session::force() const { return state_->force; }
 double Session::control_time() const { return state_->control_time; }
 
@@ -198,10 +234,11 @@ std::string Session::state_hash() const {
 }
 
 void Session::save(StateWriter& writer) const {
-  static_assert(std::is_trivially_copyable_v<Cycle>);
+  static_assert(std::is_trivially_copyable_v<Cycle> && std::is_trivially_copyable_v<BedTip>);
   state_->world.save(writer);
-  writer.begin("session", 1);
+  writer.begin("session", 2);
   writer.vector(state_->cycles);
+  writer.vector(state_->tips);
   writer.value(state_->force);
   writer.value(state_->idle);
   writer.value(static_cast<std::uint64_t>(state_->crews.size()));
@@ -209,6 +246,8 @@ void Session::save(StateWriter& writer) const {
     writer.value(crew.seen.payload);
     writer.value(static_cast<std::uint8_t>(crew.open.has_value()));
     writer.value(crew.open.value_or(Cycle{}));
+    writer.value(static_cast<std::uint8_t>(crew.open_tip.has_value()));
+    writer.value(crew.open_tip.value_or(BedTip{}));
   }
   writer.end();
   for (const State::Crew& crew : state_->crews) crew.op.save(writer);
@@ -216,8 +255,9 @@ void Session::save(StateWriter& writer) const {
 
 void Session::load(StateReader& reader) {
   state_->world.load(reader);
-  reader.begin("session", 1);
+  reader.begin("session", 2);
   state_->cycles = reader.vector<Cycle>();
+  state_->tips = reader.vector<BedTip>();
   state_->force = reader.value<ForceStatistics>();
   state_->idle = reader.value<double>();
   if (reader.value<std::uint64_t>() != state_->crews.size())
@@ -229,6 +269,9 @@ void Session::load(StateReader& reader) {
     const bool open = reader.value<std::uint8_t>() != 0;
     const auto cycle = reader.value<Cycle>();
     crew.open = open ? std::optional<Cycle>(cycle) : std::nullopt;
+    const bool tipping = reader.value<std::uint8_t>() != 0;
+    const auto tip = reader.value<BedTip>();
+    crew.open_tip = tipping ? std::optional<BedTip>(tip) : std::nullopt;
   }
   reader.end();
   for (State::Crew& crew : state_->crews) crew.op.load(reader);

@@ -19,6 +19,13 @@ struct Cycle {
   double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
 };
 
+/// One tip of a machine's bed; times [s] simulated, masses [kg].
+struct BedTip {
+  int machine = 0;
+  double start = 0, end = 0;
+  double payload_start = 0, payload_end = 0;  ///< in the bed
+};
+
 /// Soil force on buckets over all steps in contact.
 struct ForceStatistics {
   double peak = 0;  ///< of the low-passed force [N]
@@ -47,6 +54,7 @@ class Session {
   const std::string& device_name() const;
   std::string phase(int machine) const;  ///< "idle" for a machine without a program
   const std::vector<Cycle>& cycles() const;
+  const std::vector<BedTip>& tips() const;
   const ForceStatistics& force() const;
   double energy() const;        ///< work of all machines' drives and cylinders [J]
   double control_time() const;  ///< wall time [s]

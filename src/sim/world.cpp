@@ -43,6 +43,15 @@ struct World::State {
                              "the base step must be positive and finite",
                              "check cell, courant and the soils' stiffness"});
     for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+    for (const coupling::ToolLoad& tool : coupling.tools()) load_bed(tool);
+  }
+  void load_bed(const coupling::ToolLoad& tool) {
+    const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
+    if (!(placed.load.mass > 0) || placed.machine.beds.empty() ||
+        placed.machine.beds[0].shell != placed.machine.shells[static_cast<std::size_t>(tool.shell)].name)
+      return;
+    const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
+    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
   }
   void wake(const scene::AwakeSoil& awake) {
     const auto cell = [&](double metres, double from, int cells) {

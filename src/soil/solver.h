@@ -92,6 +92,10 @@ class Solver {
   /// Adds free particles (tests and rigs); their mass is booked as new in the ledger.
   void insert(const std::vector<Particle>& particles);
 
+  /// Fills a shell from its lowest point up with `mass` [kg] of loose soil at rest; booked as new in the ledger.
+  /// @throws InputError when it holds less.
+  void fill(int tool, const Pose& X_WT, int soil, double mass);
+
   /// Host copy in a repeatable order (by id).
   std::vector<Particle> particles() const;
   /// W of the origin of the frame G that their blocks are counted in [m].

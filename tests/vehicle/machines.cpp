@@ -90,6 +90,8 @@ scene::Machine box() {
   return m;
 }
 
+scene::Machine dumper() { return scene_io::load_machine(scene_io::find_data("vehicles/dumper/model.sdf")); }
+
 scene::Machine ew180(double boom, double stick, double bucket, double swing) {
   scene::Machine m = scene_io::load_machine(scene_io::find_data("vehicles/ew180/model.sdf"));
   const auto set = [&](const std::string& name, double q) {

@@ -22,6 +22,9 @@ scene::Machine box();
 /// The shipped excavator, arm joints moved to these angles [rad] (initial positions).
 scene::Machine ew180(double boom = 0.75, double stick = -2.2, double bucket = -1.3, double swing = 0);
 
+/// The shipped dumper.
+scene::Machine dumper();
+
 /// Ground as a function of x and y; the normal by differences over 0.1 m.
 class FunctionGround final : public GroundQuery {
  public:

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps of a truck: tip, wait_for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/operator.h"
+#include "core/error.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kStep = 0.01;  // [s]
+
+/// Two links and the joint that tips one.
+scene::Machine truck() {
+  scene::Machine machine;
+  machine.name = "truck";
+  machine.links.resize(2);
+  machine.links[0].name = "frame";
+  machine.links[1].name = "bed";
+  scene::Joint joint;
+  joint.name = "tip_joint";
+  joint.type = scene::Joint::Type::kRevolute;
+  joint.parent = 0;
+  joint.child = 1;
+  machine.joints.push_back(joint);
+  scene::Shell shell;
+  shell.name = "bed";
+  shell.link = "bed";
+  machine.shells.push_back(shell);
+  machine.beds.push_back({"bed", "bed", "tip_joint", 3});
+  return machine;
+}
+
+struct Run {
+  double time = 0, angle = 0;
+  double started = -1, ended = -1;  // events of the tip [s]
+};
+
+/// Runs a program; the bed follows its command at `rate` [rad/s], up to `stop` [rad].
+Run run(Operator& op, double rate, double stop, Observation seen = {}) {
+  Run out;
+  seen.joints.resize(1);
+  for (; out.time < 500 && !op.done(); out.time += kStep) {
+    seen.joints[0].position = out.angle;
+    const Command command = op.update(seen, out.time, kStep);
+    if (op.event() == CycleEvent::kTipStart) out.started = out.time;
+    if (op.event() == CycleEvent::kTipEnd) out.ended = out.time;
+    if (!command.joints[0]) continue;
+    EXPECT_EQ(command.joints[0]->mode, vehicle::JointMode::kPosition);
+    const double target = std::min(command.joints[0]->target, stop);
+    out.angle += std::clamp(target - out.angle, -rate * kStep, rate * kStep);
+  }
+  return out;
+}
+
+scene::Program program(std::vector<scene::ProgramStep> steps) { return {std::move(steps), {}}; }
+
+TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
+  Operator op(truck(), program({scene::Tip{1.2, 2.0}}));
+  const Run tip = run(op, 0.1, 10);
+  EXPECT_TRUE(op.done());
+  EXPECT_NEAR(tip.angle, 1.2, radians(1));
+  EXPECT_EQ(tip.started, 0);
+  // 12 s for the way, 2 s of holding; it counts as there a degree before.
+  EXPECT_NEAR(tip.ended, 14, 0.3);
+}
+
+TEST(Truck, GivesUpOnABedThatSticks) {
+  Operator op(truck(), program({scene::Tip{1.2, 0}}));
+  const Run tip = run(op, 0.1, 0.5);
+  EXPECT_TRUE(op.done());
+  EXPECT_LT(tip.ended, 120);
+  EXPECT_GT(tip.ended, 20);
+}
+
+TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
+  for (const int steps : {2, 0}) {
+    Operator op(truck(), program({scene::WaitFor{"digger", steps, 100}}));
+    std::map<std::string, Progress> programs{{"digger", {1, 4}}};
+    Observation seen;
+    seen.joints.resize(1);
+    seen.programs = &programs;
+    for (int i = 0; i < 100; ++i) op.update(seen, i * kStep, kStep);
+    EXPECT_FALSE(op.done());
+    EXPECT_EQ(op.phase(), "wait_for");
+    programs["digger"].done = 2;
+    op.update(seen, 1, kStep);
+    EXPECT_EQ(op.done(), steps == 2);
+    programs["digger"].done = 4;
+    op.update(seen, 1, kStep);
+    EXPECT_TRUE(op.done());
+  }
+}
+
+TEST(Truck, DoesNotWaitForEver) {
+  Operator op(truck(), program({scene::WaitFor{"digger", 0, 3}}));
+  std::map<std::string, Progress> programs{{"digger", {0, 1}}};
+  Observation seen;
+  seen.programs = &programs;
+  EXPECT_NEAR(run(op, 0.1, 10, seen).time, 3, 0.05);
+}
+
+TEST(Truck, ATipNeedsABed) {
+  scene::Machine machine = truck();
+  machine.beds.clear();
+  EXPECT_THROW(Operator(machine, program({scene::Tip{1, 0}})), InputError);
+}
+
+}  // namespace
+}  // namespace navvy::control
