@@ -33,14 +33,14 @@ scene::Machine truck() {
   return machine;
 }
 
-struct Run {
+struct Trial {
   double time = 0, angle = 0;
   double started = -1, ended = -1;  // events of the tip [s]
 };
 
 /// Runs a program; the bed follows its command at `rate` [rad/s], up to `stop` [rad].
-Run run(Operator& op, double rate, double stop, Observation seen = {}) {
-  Run out;
+Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
+  Trial out;
   seen.joints.resize(1);
   for (; out.time < 500 && !op.done(); out.time += kStep) {
     seen.joints[0].position = out.angle;
@@ -59,7 +59,7 @@ scene::Program program(std::vector<scene::ProgramStep> steps) { return {std::mov
 
 TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
   Operator op(truck(), program({scene::Tip{1.2, 2.0}}));
-  const Run tip = run(op, 0.1, 10);
+  const Trial tip = run(op, 0.1, 10);
   EXPECT_TRUE(op.done());
   EXPECT_NEAR(tip.angle, 1.2, radians(1));
   EXPECT_EQ(tip.started, 0);
@@ -69,7 +69,7 @@ TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
 
 TEST(Truck, GivesUpOnABedThatSticks) {
   Operator op(truck(), program({scene::Tip{1.2, 0}}));
-  const Run tip = run(op, 0.1, 0.5);
+  const Trial tip = run(op, 0.1, 0.5);
   EXPECT_TRUE(op.done());
   EXPECT_LT(tip.ended, 120);
   EXPECT_GT(tip.ended, 20);

@@ -16,7 +16,7 @@ RADIUS, WIDTH = 0.50, 0.40  # of a tyre
 # The bed's inside in its link's frame (the hinge): front board, floor, tail, as (x, z), and its half width at z.
 TOP, FRONT, REAR, LIP = (3.02, 1.00), (2.80, 0.22), (0.65, 0.22), (-0.45, 0.60)
 RIM_FRONT, RIM_REAR = (2.964, 0.80), (0.40, 0.80)
-PLATE = 0.025
+PLATE = 0.065  # box walls: clods that lie on a side do not show outside
 
 
 def half_width(z):
@@ -185,9 +185,9 @@ def bed_side(m, side):
         m.face(material, corners[::-1] if flip else corners)
     # Rim, and ribs down the outside.
     def along(points, radius):
-        m.tube("yellow", [(x, side * (half_width(z) + 0.02), z) for x, z in points], radius, 8)
-    along([(3.03, 0.80), RIM_FRONT, RIM_REAR, LIP], 0.045)
-    along([(-0.43, 0.57), (0.66, 0.19), (2.80, 0.19), RIM_FRONT], 0.035)
+        m.tube("yellow", [(x, side * (half_width(z) + 0.5 * PLATE), z) for x, z in points], radius, 8)
+    along([(3.05, 0.80), RIM_FRONT, RIM_REAR, LIP], 0.055)
+    along([(-0.43, 0.56), (0.66, 0.19), (2.82, 0.19), (3.0, 0.80)], 0.05)
     for x in (0.55, 1.10, 1.65, 2.20, 2.72):
         low, high = half_width(0.22) + PLATE, half_width(0.80) + PLATE
         ys = [side * v for v in (low, low + 0.05, high + 0.05, high)]
@@ -202,15 +202,15 @@ def bed():
     for side in (-1, 1):
         bed_side(m, side)
     w = half_width(1.0)
-    m.tube("yellow", [(TOP[0] + 0.01, -w - 0.02, TOP[1]), (TOP[0] + 0.01, w + 0.02, TOP[1])], 0.045, 8)
+    m.tube("yellow", [(TOP[0] + 0.03, -w - 0.02, TOP[1]), (TOP[0] + 0.03, w + 0.02, TOP[1])], 0.055, 8)
     for side in (-1, 1):
-        m.tube("yellow", [(TOP[0] + 0.01, side * (w + 0.02), TOP[1]), (3.0, side * (w + 0.02), 0.78)], 0.04, 8)
+        m.tube("yellow", [(TOP[0] + 0.03, side * (w + 0.02), TOP[1]), (3.01, side * (w + 0.02), 0.78)], 0.05, 8)
     m.tube("worn", [(LIP[0], -half_width(0.6), LIP[1]), (LIP[0], half_width(0.6), LIP[1])], 0.03, 8)
     for y in (-0.55, 0.0, 0.55):  # ribs of the front board
-        m.prism("yellow", [(2.83, 0.24), (2.91, 0.20), (3.11, 0.98), (3.05, 1.0)], y - 0.04, y + 0.04, "y", 0.006)
+        m.prism("yellow", [(2.85, 0.24), (2.94, 0.20), (3.14, 0.98), (3.07, 1.0)], y - 0.04, y + 0.04, "y", 0.006)
     for x in (0.30, 0.85, 1.40, 1.95, 2.50):  # cross members under the floor
-        low = 0.10 if x > 0.6 else 0.13
-        m.box("dark", (x - 0.05, -0.92, low), (x + 0.05, 0.92, 0.20 if x > 0.6 else 0.30), 0.01)
+        low = 0.08 if x > 0.6 else 0.11
+        m.box("dark", (x - 0.05, -0.92, low), (x + 0.05, 0.92, 0.18 if x > 0.6 else 0.28), 0.01)
     for side in (-1, 1):
         y0, y1 = sorted((side * 0.26, side * 0.42))
         m.prism("dark", [(-0.06, -0.02), (0.06, -0.04), (2.70, 0.02), (2.70, 0.14), (0.60, 0.16), (-0.02, 0.36), (-0.12, 0.10)], y0, y1,
