@@ -39,7 +39,15 @@ void measure_scene(device::Device& device, const std::string& file, double secon
 
 int main(int argc, char** argv) {
   try {
-    const double seconds = argc > 1 ? std::atof(argv[1]) : 40;  // the trench: arrival and the first bucket
+    double seconds = 40;  // the trench: arrival and the first bucket
+    if (argc > 1) {
+      char* end = nullptr;
+      seconds = std::strtod(argv[1], &end);
+      if (end == argv[1] || *end != '\0' || !(seconds > 0)) {
+        std::fprintf(stderr, "usage: scene_bench [SECONDS [SCENE.sdf...]]   one row a scene, run for so long (40)\n");
+        return 2;
+      }
+    }
     std::vector<std::string> files;
     for (int i = 2; i < argc; ++i) files.emplace_back(argv[i]);
     const std::string folder = std::string(NAVVY_SOURCE_DIR) + "/scenarios/";
