@@ -252,8 +252,8 @@ def half_width(x):
 
 def bucket():
     m = Mesh()
-    # The shell of model.sdf as a plate 25 mm thick, outside painted, inside worn bright.
-    line, half, thick = PROFILE, 0.525, 0.025
+    # A plate 25 mm thick around the shell of model.sdf, outside painted, inside worn bright.
+    line, half, thick = PROFILE, 0.55, 0.025
     inside = []
     for i, p in enumerate(line):
         a, b = line[max(0, i - 1)], line[min(len(line) - 1, i + 1)]
@@ -287,6 +287,8 @@ def bucket():
         outer = [(x + 0.02 * (x - 0.6), z + 0.022) for x, z in strip]
         m.prism("worn", strip + outer[::-1], y - 0.04, y + 0.04, "y", 0)
     m.cylinder("grey", (0.10, 0, 0.10), "y", 0.045, -half, half, 14)
+    # PROFILE is drawn flatter than the shell is deep; the outside lies outside the shell, or clods show through.
+    m.points = [(x, y, 1.19 * z if z > 0 else z) for x, y, z in m.points]
     # Ears: from the back to the stick pin and the coupler pin.
     for y in (-0.30, -0.24, 0.24, 0.30):
         m.prism("grey", [(0.42, 0.53), (-0.2907 + 0.03, 0.3294 + 0.085)] + arc(-0.2907, 0.3294, 0.085, 100, 235, 8) +
