@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validation/trench_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::validation {
+namespace {
+
+/// Half a metre around the design belongs to the dig; wheel ruts lie farther off.
+constexpr double kAround = 0.5;
+
+/// A point in the frame of the dig's line: s along it from its first end, t to its left.
+struct OnLine {
+  double s = 0, t = 0;
+};
+
+/// Frame of the dig's line.
+struct Line {
+  explicit Line(const scene::Dig& dig)
+      : from(dig.from), along((dig.to - dig.from).normalized()), length((dig.to - dig.from).norm()) {}
+  OnLine at(const Vec2& p) const { return {(p - from).dot(along), (p - from).dot(Vec2(-along.y(), along.x()))}; }
+
+  Vec2 from, along;
+  double length;
+};
+
+Vec2 middle_of(const heightfield::Ground& ground, int ix, int iy) {
+  return ground.origin() + ground.cell() * Vec2(ix + 0.5, iy + 0.5);
+}
+
+bool belongs_to_dig(const OnLine& q, double length, double width) {
+  return q.s >= -kAround && q.s <= length + kAround && std::abs(q.t) <= 0.5 * width + kAround;
+}
+
+/// Share of the cell around p that lies inside the design, by 5 x 5 points.
+double covered(const Vec2& p, const Line& line, double cell, double width) {
+  int inside = 0;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j) {
+      const OnLine q = line.at(p + 0.2 * cell * Vec2(i, j));
+      inside += q.s >= 0 && q.s <= line.length && std::abs(q.t) <= 0.5 * width ? 1 : 0;
+    }
+  return inside / 25.0;
+}
+
+/// One cell's share of the sums of a slice across the line.
+struct Slice {
+  double floor_sum = 0, floor_count = 0, moment = 0, removed = 0;
+};
+
+}  // namespace
+
+TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig) {
+  TrenchMeasure out;
+  const Line line(dig);
+  const double length = line.length, cell = ground.cell(), area = cell * cell;
+  std::vector<Slice> slices(static_cast<std::size_t>(std::floor(length / cell)));
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix) {
+      const double drop = ground.start_height(ix, iy) - ground.height(ix, iy);
+      const OnLine q = line.at(middle_of(ground, ix, iy));
+      if (!belongs_to_dig(q, length, dig.width)) continue;
+      const double s = q.s, t = q.t, inside = covered(middle_of(ground, ix, iy), line, cell, dig.width);
+      out.inside_volume += area * inside * std::clamp(drop, 0.0, dig.depth);
+      out.overdug += area * (inside * std::max(drop - dig.depth, 0.0) + (1 - inside) * std::max(drop, 0.0));
+      if (s < 0 || s >= cell * static_cast<double>(slices.size())) continue;
+      Slice& slice = slices[static_cast<std::size_t>(s / cell)];
+      if (drop > 0.5 * cell) slice.moment += drop * t, slice.removed += drop;
+      // The floor is judged over the middle half of the width, clear of crumbs at the walls.
+      if (std::abs(t) < 0.25 * dig.width) slice.floor_sum += drop, slice.floor_count += 1;
+    }
+  out.design_volume = length * dig.width * dig.depth;
+  int good = 0;
+  for (const Slice& slice : slices) {
+    if (!(slice.floor_count > 0)) continue;
+    const double depth = slice.floor_sum / slice.floor_count;
+    if (std::abs(depth - dig.depth) <= 0.10) ++good;
+    // Ends are ramps; the line is judged where at least half the depth was taken.
+    if (depth > 0.5 * dig.depth)
+      out.center_offset = std::max(out.center_offset, std::abs(slice.moment / slice.removed));
+  }
+  out.floor_share = good / static_cast<double>(slices.size());
+  return out;
+}
+
+WheelTracks::WheelTracks(const heightfield::Ground& ground)
+    : ground_(ground), marked_(static_cast<std::size_t>(ground.nx()) * static_cast<std::size_t>(ground.ny())) {}
+
+void WheelTracks::mark(const sim::World& world) {
+  const auto& wheels = world.description().machines.at(0).machine.wheels;
+  for (std::size_t w = 0; w < wheels.size(); ++w) {
+    const Vec3 center = world.wheel(0, static_cast<int>(w)).X_WWheel.translation();
+    const double reach = 0.5 * (wheels[w].twin_spacing + wheels[w].width) + ground_.cell();
+    const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);
+    const Vec2i high = ground_.column_at(center.x() + reach, center.y() + reach);
+    for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
+      for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix)
+        if ((middle_of(ground_, ix, iy) - center.head<2>()).norm() <= reach)
+          marked_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(ground_.nx()) +
+                  static_cast<std::size_t>(ix)] = 1;
+  }
+}
+
+bool WheelTracks::hold(int ix, int iy) const {
+  return marked_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(ground_.nx()) +
+                 static_cast<std::size_t>(ix)] != 0;
+}
+
+double spoil_radius(double loose_volume, double repose, double width) {
+  return std::cbrt(3 * loose_volume / (kPi * std::tan(repose))) + 0.5 * width;
+}
+
+double change_elsewhere(const heightfield::Ground& ground, const scene::Dig& dig, double spoil_radius,
+                        const WheelTracks& tracks) {
+  const Line line(dig);
+  double most = 0;
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix) {
+      const Vec2 p = middle_of(ground, ix, iy);
+      if (belongs_to_dig(line.at(p), line.length, dig.width) || (p - dig.dump_at).norm() < spoil_radius ||
+          tracks.hold(ix, iy))
+        continue;
+      most = std::max(most, std::abs(ground.height(ix, iy) - ground.start_height(ix, iy)));
+    }
+  return most;
+}
+
+}  // namespace navvy::validation
