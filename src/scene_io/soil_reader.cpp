@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "scene/soil_values.h"
 #include "scene_io/fields.h"
 #include "scene_io/loader.h"
 #include "scene_io/sdf_rules.h"
@@ -13,33 +14,14 @@ namespace navvy::scene_io {
 
 namespace {
 
-// The table of a soil; ranges are what any soil, snow and lunar dust included, stays within.
 void read_values(Element& element, scene::Soil& soil, Faults& faults) {
   std::vector<double> color;
   double repose = 0;
   Fields fields(element, faults);
-  fields.attribute("name")
-      .attribute("ref")
-      .text("source", soil.source)
-      .number("bank_density_kg_per_m3", soil.bank_density, {50, 6000})
-      .number("swell", soil.swell, {1, 2})
-      .number("friction_angle_deg", soil.friction_angle, {0, 60}, kDegree)
-      .number("repose_angle_deg", repose, {0, 44}, kDegree)
-      .number("cohesion_pa", soil.cohesion, {0, 1e6})
-      .number("residual_cohesion_pa", soil.residual_cohesion, {0, 1e6})
-      .number("remoulding_strain", soil.remoulding_strain, {1e-3, 100})
-      .number("loosening_strain", soil.loosening_strain, {1e-3, 100})
-      .number("opening_strain", soil.opening_strain, {1e-4, 1})
-      .number("young_modulus_pa", soil.young_modulus, {1e4, 1e9})
-      .number("poisson", soil.poisson, {0, 0.49})
-      .number("tool_friction_angle_deg", soil.tool_friction_angle, {0, 60}, kDegree)
-      .number("adhesion_pa", soil.adhesion, {0, 1e5})
-      .number("bekker_kc_n_per_m_n1", soil.bekker_kc, {-1e9, 1e9})
-      .number("bekker_kphi_n_per_m_n2", soil.bekker_kphi, {1, 1e9})
-      .number("bekker_n", soil.bekker_n, {0.05, 3})
-      .number("janosi_k_m", soil.janosi_k, {1e-4, 1})
-      .list("color", color, {0, 1})
-      .finish();
+  fields.attribute("name").attribute("ref").text("source", soil.source);
+  for (const scene::SoilValue& v : scene::soil_values())
+    fields.number(v.name, soil.*v.value, {v.low, v.high}, v.factor);
+  fields.number("repose_angle_deg", repose, {0, 44}, kDegree).list("color", color, {0, 1}).finish();
   if (Element* child = fields.child("color")) {
     if (color.size() == 3) {
       for (int i = 0; i < 3; ++i) soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);

@@ -2,9 +2,10 @@
 #include "soil/soil_table.h"
 
 #include <cmath>
-#include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "scene/soil_values.h"
 #include "soil/layout.h"
 
 namespace navvy::soil {
@@ -20,34 +21,6 @@ constexpr double kMixingTime = 0.02;
 /// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by
 /// that. tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
 constexpr double kPacked = 1.05, kClosingTime = 0.1;
-
-void require(bool ok, const scene::Soil& soil, const std::string& element, double value, const std::string& rule,
-             std::vector<Fault>& faults) {
-  if (ok) return;
-  Fault fault;
-  fault.element = "soil[" + soil.name + "]/" + element;
-  fault.value = std::to_string(value);
-  fault.rule = rule;
-  fault.remedy = "correct the soil";
-  faults.push_back(fault);
-}
-
-void check(const scene::Soil& s, std::vector<Fault>& faults) {
-  require(s.bank_density > 100 && s.bank_density < 20000, s, "bank_density", s.bank_density, "100 .. 20000 kg/m3",
-          faults);
-  require(s.swell >= 1 && s.swell < 3, s, "swell", s.swell, "1 .. 3", faults);
-  require(s.friction_angle >= 0 && s.friction_angle < radians(60), s, "friction_angle", s.friction_angle,
-          "0 .. 60 degrees", faults);
-  require(s.cohesion >= 0 && s.cohesion < 1e7, s, "cohesion", s.cohesion, "0 .. 1e7 Pa", faults);
-  require(s.residual_cohesion >= 0 && s.residual_cohesion <= s.cohesion, s, "residual_cohesion", s.residual_cohesion,
-          "0 .. cohesion", faults);
-  require(s.remoulding_strain > 0, s, "remoulding_strain", s.remoulding_strain, "> 0", faults);
-  require(s.loosening_strain > 0, s, "loosening_strain", s.loosening_strain, "> 0", faults);
-  require(s.opening_strain > 0, s, "opening_strain", s.opening_strain, "> 0", faults);
-  require(s.young_modulus >= 1e4 && s.young_modulus <= 1e10, s, "young_modulus", s.young_modulus, "1e4 .. 1e10 Pa",
-          faults);
-  require(s.poisson >= 0 && s.poisson < 0.49, s, "poisson", s.poisson, "0 .. 0.49", faults);
-}
 
 }  // namespace
 
@@ -78,7 +51,8 @@ double sound_speed(const scene::Soil& soil) {
 
 std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell) {
   std::vector<Fault> faults;
-  for (const scene::Soil& soil : soils) check(soil, faults);
+  for (const scene::Soil& soil : soils)
+    for (Fault& fault : scene::check_soil(soil)) faults.push_back(std::move(fault));
   if (!faults.empty()) throw InputError(faults);
   std::vector<float> table(soils.size() * SOIL_WORDS, 0.0f);
   for (std::size_t i = 0; i < soils.size(); ++i) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/soil_values.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/math.h"
+
+namespace navvy::scene {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+/// A bound in degrees comes back from radians with the last bits changed.
+constexpr double kRounding = 1e-12;
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+Fault fault(const Soil& soil, const char* name, double value, const std::string& rule, const std::string& remedy) {
+  Fault out;
+  out.element = "soil[" + soil.name + "]/" + name;
+  out.value = text_of(value);
+  out.rule = rule;
+  out.remedy = remedy;
+  return out;
+}
+
+}  // namespace
+
+const std::vector<SoilValue>& soil_values() {
+  static const std::vector<SoilValue> table = {
+      {"bank_density_kg_per_m3", &Soil::bank_density, 50, 20000},
+      {"swell", &Soil::swell, 1, 2},
+      {"friction_angle_deg", &Soil::friction_angle, 0, 60, kDegree},
+      {"cohesion_pa", &Soil::cohesion, 0, 1e6},
+      {"residual_cohesion_pa", &Soil::residual_cohesion, 0, 1e6},
+      {"remoulding_strain", &Soil::remoulding_strain, 1e-3, 100},
+      {"loosening_strain", &Soil::loosening_strain, 1e-3, 100},
+      {"opening_strain", &Soil::opening_strain, 1e-4, 1},
+      {"young_modulus_pa", &Soil::young_modulus, 1e4, 1e9},
+      {"poisson", &Soil::poisson, 0, 0.49},
+      {"tool_friction_angle_deg", &Soil::tool_friction_angle, 0, 60, kDegree},
+      {"adhesion_pa", &Soil::adhesion, 0, 1e5},
+      {"bekker_kc_n_per_m_n1", &Soil::bekker_kc, -1e9, 1e9},
+      {"bekker_kphi_n_per_m_n2", &Soil::bekker_kphi, 1, 1e9},
+      {"bekker_n", &Soil::bekker_n, 0.05, 3},
+      {"janosi_k_m", &Soil::janosi_k, 1e-4, 1},
+  };
+  return table;
+}
+
+std::vector<Fault> check_soil(const Soil& soil) {
+  std::vector<Fault> out;
+  for (const SoilValue& v : soil_values()) {
+    const double value = v.written(soil);
+    const bool ok = value >= v.low - kRounding * std::abs(v.low) && value <= v.high + kRounding * std::abs(v.high);
+    if (!ok)
+      out.push_back(fault(soil, v.name, value, "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
+                          "correct the soil"));
+  }
+  if (soil.residual_cohesion > soil.cohesion)
+    out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
+                        "must not exceed cohesion_pa, " + text_of(soil.cohesion), "remoulding only weakens soil"));
+  return out;
+}
+
+}  // namespace navvy::scene

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers of a soil by their names in scene files, and the one table of what each may be: the scene reader, the
+// solver and the laboratory's files all go by it.
+#pragma once
+
+#include <vector>
+
+#include "core/error.h"
+#include "scene/soil.h"
+
+namespace navvy::scene {
+
+/// One number of a soil. Range and text are in the unit that its name ends in; value in the struct = written x factor.
+struct SoilValue {
+  const char* name;
+  double Soil::*value;
+  double low,
+      high;  ///< both allowed; what any soil stays within, snow, lunar dust and the laboratory's weights included
+  double factor = 1;
+
+  double written(const Soil& soil) const { return soil.*value / factor; }
+};
+
+/// Every number of a soil but its colour, in the order of scenarios/README.md.
+const std::vector<SoilValue>& soil_values();
+
+/// What is outside the table, or not a number, and a residual cohesion above the cohesion; empty when all is in order.
+std::vector<Fault> check_soil(const Soil& soil);
+
+}  // namespace navvy::scene

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/soil_values.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "core/math.h"
+
+namespace navvy::scene {
+namespace {
+
+std::string messages(const Soil& soil) {
+  std::string out;
+  for (const Fault& fault : check_soil(soil)) out += fault.text() + "\n";
+  return out;
+}
+
+TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
+  EXPECT_EQ(messages({}), "");
+  for (const SoilValue& v : soil_values())
+    for (const double bound : {v.low, v.high}) {
+      Soil soil;
+      soil.cohesion = 1e6;  // above any residual
+      soil.*v.value = bound * v.factor;
+      if (soil.residual_cohesion > soil.cohesion) soil.residual_cohesion = soil.cohesion;
+      EXPECT_EQ(messages(soil), "") << v.name << " " << bound;
+    }
+}
+
+TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
+  Soil soil;
+  soil.name = "mud";
+  soil.friction_angle = radians(75);
+  soil.poisson = std::nan("");
+  soil.residual_cohesion = 2 * soil.cohesion;
+  const std::string all = messages(soil);
+  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"), std::string::npos) << all;
+  EXPECT_NE(all.find("soil[mud]/poisson: 'nan'"), std::string::npos) << all;
+  EXPECT_NE(all.find("soil[mud]/residual_cohesion_pa: '10000': must not exceed cohesion_pa, 5000"), std::string::npos)
+      << all;
+}
+
+TEST(SoilValues, ThePageOfScenesSaysTheSame) {
+  std::map<std::string, std::string> ranges, defaults;
+  std::ifstream page(NAVVY_SOURCE_DIR "/scenarios/README.md");
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("| `", 0) != 0) continue;
+    std::vector<std::string> cells;
+    for (std::size_t from = 1, bar; (bar = line.find('|', from)) != std::string::npos; from = bar + 1)
+      cells.push_back(line.substr(from, bar - from));
+    if (cells.size() != 5) continue;
+    const std::size_t first = cells[0].find('`'), last = cells[0].rfind('`');
+    const std::string name = cells[0].substr(first + 1, last - first - 1);
+    if (ranges.count(name) == 0) defaults[name] = cells[2], ranges[name] = cells[3];
+  }
+  for (const SoilValue& v : soil_values()) {
+    ASSERT_EQ(ranges.count(v.name), 1u) << v.name << " is not on the page";
+    const std::size_t dots = ranges[v.name].find("..");
+    ASSERT_NE(dots, std::string::npos) << v.name;
+    EXPECT_DOUBLE_EQ(std::stod(ranges[v.name].substr(0, dots)), v.low) << v.name;
+    EXPECT_DOUBLE_EQ(std::stod(ranges[v.name].substr(dots + 2)), v.high) << v.name;
+    // The struct's angles are written in radians with few digits.
+    EXPECT_NEAR(std::stod(defaults[v.name]), v.written(Soil{}), 1e-3 * (1 + std::abs(v.written(Soil{})))) << v.name;
+  }
+}
+
+}  // namespace
+}  // namespace navvy::scene
