@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
@@ -11,7 +13,8 @@
 #include "core/math.h"
 #include "device/device.h"
 #include "scene_io/loader.h"
-#include "sim/session.h"
+#include "sim/program_check.h"
+#include "sim/world.h"
 
 namespace navvy::cli {
 namespace {
@@ -19,7 +22,12 @@ namespace {
 int check(const std::vector<std::string>& files) {
   int errors = 0, warnings = 0;
   for (const std::string& file : files) {
-    for (const Fault& fault : scene_io::check(file)) {
+    std::optional<scene::World> world;
+    std::vector<Fault> faults = scene_io::check(file, &world);
+    // What only a machine on its ground can tell: the test that a run makes before it starts.
+    if (world)
+      for (Fault& fault : sim::check_programs(*world)) faults.push_back(std::move(fault));
+    for (const Fault& fault : faults) {
       std::cout << fault.text() << "\n";
       ++(fault.severity == Fault::Severity::kError ? errors : warnings);
     }
@@ -68,7 +76,8 @@ int channels(const SceneOptions& options) {
 
 void add_check(CLI::App& app, Action& action) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand("check", "validate scene, machine or soil files without running them");
+  CLI::App* command =
+      app.add_subcommand("check", "validate scene, machine or soil files, the reach of digs too, without running them");
   command->add_option("files", *files, "SDF files")->required();
   command->callback([files, &action] { action = [files] { return check(*files); }; });
 }

@@ -78,8 +78,8 @@ class Operator {
 };
 
 /// Every target of the program that cannot be reached from where the machine will then stand: needed and possible
-/// distances. `X_WB` is the base link's pose at the start.
+/// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const heightfield::Ground& ground, const std::string& file);
+                               const SurfaceView& surface, const std::string& file);
 
 }  // namespace navvy::control

@@ -171,8 +171,7 @@ class ReachCheck {
 }  // namespace
 
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const heightfield::Ground& ground, const std::string& file) {
-  const GroundSurface surface(ground);
+                               const SurfaceView& surface, const std::string& file) {
   ReachCheck check(machine, program, surface, file);
   Pose X = X_WB;
   for (std::size_t i = 0; i < program.steps.size(); ++i) check.look(i, X);

@@ -2,6 +2,7 @@
 #include "scene_io/ground_reader.h"
 
 #include <filesystem>
+#include <functional>
 
 #include "scene_io/fields.h"
 
@@ -62,32 +63,30 @@ scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind k
   return feature;
 }
 
+/// A rectangle with what `others` adds to the table of its element.
+void read_rectangle(Element& element, Vec2& low, Vec2& high, Faults& faults,
+                    const std::function<void(Fields&)>& others) {
+  Fields fields(element, faults);
+  fields.vec2("min_m", low, kPlace).required("min_m").vec2("max_m", high, kPlace).required("max_m");
+  others(fields);
+  fields.finish();
+  if (low.x() >= high.x() || low.y() >= high.y()) faults.error(element, "", "min_m must be less than max_m in x and y");
+}
+
 scene::GroundPatch read_patch(Element& element, const std::vector<scene::Soil>& soils, Faults& faults) {
   scene::GroundPatch patch;
-  Fields(element, faults)
-      .vec2("min_m", patch.min, kPlace)
-      .required("min_m")
-      .vec2("max_m", patch.max, kPlace)
-      .required("max_m")
-      .each("layer", [&](Element& layer) { patch.layers.push_back(read_layer(layer, soils, faults)); })
-      .required("layer")
-      .finish();
-  if (patch.min.x() >= patch.max.x() || patch.min.y() >= patch.max.y())
-    faults.error(element, "", "min_m must be less than max_m in x and y");
+  read_rectangle(element, patch.min, patch.max, faults, [&](Fields& fields) {
+    fields.each("layer", [&](Element& layer) { patch.layers.push_back(read_layer(layer, soils, faults)); })
+        .required("layer");
+  });
   return patch;
 }
 
 scene::AwakeSoil read_awake(Element& element, Faults& faults) {
   scene::AwakeSoil awake;
-  Fields(element, faults)
-      .vec2("min_m", awake.min, kPlace)
-      .required("min_m")
-      .vec2("max_m", awake.max, kPlace)
-      .required("max_m")
-      .number("bottom_m", awake.bottom, {-1e4, 1e4})
-      .finish();
-  if (awake.min.x() >= awake.max.x() || awake.min.y() >= awake.max.y())
-    faults.error(element, "", "min_m must be less than max_m in x and y");
+  read_rectangle(element, awake.min, awake.max, faults, [&](Fields& fields) {
+    fields.number("bottom_m", awake.bottom, {-1e4, 1e4});
+  });
   return awake;
 }
 
@@ -109,7 +108,9 @@ void read_file(Fields& fields, scene::Ground& ground, Faults& faults) {
   std::error_code failed;
   ground.file = path.string();
   if (!std::filesystem::is_regular_file(path, failed))
-    faults.error(*file, text_of(*file), "no such file", "paths count from the scene file");
+    faults.error(
+        *file, text_of(*file), "no such file",
+        from_scene ? "paths count from the scene file" : "on the command line paths count from this directory");
 }
 
 }  // namespace

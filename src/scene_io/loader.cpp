@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "scene_io/overrides.h"
 #include "scene_io/soil_reader.h"
@@ -61,8 +62,9 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file) {
+std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world) {
   Faults faults;
+  if (world != nullptr) world->reset();
   const auto document = Document::open(file, faults);
   if (!document) return faults.list();
   const Element& root = *document->root();
@@ -71,7 +73,8 @@ std::vector<Fault> check(const std::string& file) {
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     read_machine_file(file, faults);
   } else {
-    read_world(*document, faults);
+    scene::World read = read_world(*document, faults);
+    if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
   return faults.list();
 }

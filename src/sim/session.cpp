@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/stopwatch.h"
+#include "sim/program_check.h"
 #include "sim/soil_surface.h"
 
 namespace navvy::sim {
@@ -163,15 +164,12 @@ void Session::State::note_forces() {
 Session::Session(scene::World description, device::Device& device)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
-  std::vector<Fault> faults;
+  std::vector<Pose> X_WB;
   for (std::size_t m = 0; m < s.world.description().machines.size(); ++m) {
-    const scene::MachineInWorld& placed = s.world.description().machines[m];
     s.enlist(static_cast<int>(m));
-    const std::vector<Fault> more =
-        control::check_reach(placed.machine, placed.program, s.world.link(static_cast<int>(m), 0).X_WL,
-                             s.world.ground(), s.world.description().file);
-    faults.insert(faults.end(), more.begin(), more.end());
+    X_WB.push_back(s.world.link(static_cast<int>(m), 0).X_WL);
   }
+  std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

@@ -131,6 +131,58 @@ TEST_F(Program, TellsBadInputByStatusAndMessage) {
   EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
 }
 
+// Faults that scene_io's corpus (tests/scene_io/broken) cannot hold, as they show only with the ground laid and the
+// machine on it: every broken/NAME.sdf is refused with all the lines of broken/NAME.txt.
+TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(NAVVY_SOURCE_DIR "/tests/cli/broken")) {
+    if (entry.path().extension() != ".sdf") continue;
+    ++files;
+    EXPECT_EQ(run({"check", entry.path().string()}), 2) << entry.path();
+    std::istringstream expected(text_of(fs::path(entry.path()).replace_extension(".txt")));
+    for (std::string fragment; std::getline(expected, fragment);)
+      EXPECT_NE(said().find(fragment), std::string::npos) << "'" << fragment << "' not found in:\n" << said();
+  }
+  EXPECT_GE(files, 2);
+  const std::string unreachable = NAVVY_SOURCE_DIR "/tests/cli/broken/dig_out_of_reach.sdf";
+  run({"check", unreachable});
+  const std::string checked = said();
+  EXPECT_EQ(run({"run", unreachable, "--no-render", "--quiet", "--out", out()}), 2);
+  EXPECT_EQ(checked.find(complained()), 0u) << "check:\n" << checked << "run:\n" << complained();
+}
+
+TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
+  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--resume", "no_such.snapshot", "--out", out()}), 2);
+  EXPECT_NE(complained().find("--resume: 'no_such.snapshot': no such snapshot"), std::string::npos) << complained();
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--terrain", "no_such.tif"}), 2);
+  EXPECT_NE(complained().find("on the command line paths count from this directory"), std::string::npos)
+      << complained();
+  for (const char* value : {"0", "-1", "nan", "inf"}) {
+    EXPECT_EQ(run({"lab", "rest", "--cell", value}), 2) << value;
+    EXPECT_NE(complained().find("must be a number above 0"), std::string::npos) << complained();
+    EXPECT_LT(complained().size(), 200u) << complained();
+  }
+  EXPECT_EQ(run({"lab", "rest", "--phi-deg", "75"}), 2);
+  EXPECT_NE(complained().find("/friction_angle_deg: '75': must be a number from 0 to 60"), std::string::npos)
+      << complained();
+  // Hours of a rig are not lost to a path that cannot be written: its minute is not even begun.
+  const std::string impossible = (directory_ / "stdin" / "rest.json").string();
+  EXPECT_EQ(run({"lab", "column", "--json", impossible}), 4) << complained();
+  EXPECT_NE(complained().find(impossible), std::string::npos) << complained();
+  EXPECT_EQ(said(), "") << "the rig ran";
+}
+
+TEST_F(Program, LabWritesEveryNumberOfItsSoil) {
+  const std::string json = (directory_ / "light.json").string();
+  ASSERT_EQ(run({"lab", "light-tool", "--delta-deg", "12", "--quiet", "--json", json}), 0) << complained();
+  const auto soil = nlohmann::json::parse(text_of(json)).at("inputs").at("soil");
+  EXPECT_NEAR(soil.at("tool_friction_angle_deg").get<double>(), 12, 1e-9);
+  for (const char* name : {"name", "bank_density_kg_per_m3", "swell", "friction_angle_deg", "cohesion_pa",
+                           "residual_cohesion_pa", "remoulding_strain", "loosening_strain", "opening_strain",
+                           "young_modulus_pa", "poisson", "adhesion_pa", "bekker_n", "janosi_k_m"})
+    EXPECT_TRUE(soil.contains(name)) << name;
+}
+
 TEST_F(Program, SaysWhenItCannotWriteThere) {
   // A directory below a file cannot be made. (Core's tests have the full disk: PoCL's own cache would fail first here.)
   const std::string impossible = (directory_ / "stdin" / "out").string();

@@ -31,6 +31,16 @@ double tip_angle(const Pose& X_WB) {
 
 }  // namespace
 
+scene::Dig trench() {
+  scene::Dig dig;
+  dig.from = Vec2(4.85, 0);
+  dig.to = Vec2(1.65, 0);
+  dig.depth = 0.8;
+  dig.dump_at = Vec2(-1.7, 5.9);
+  dig.dump_height = 1.6;
+  return dig;
+}
+
 heightfield::Ground flat_ground(double cell) {
   heightfield::Ground::Setup setup;
   setup.nx = static_cast<int>(24 / cell);

@@ -12,6 +12,9 @@
 
 namespace navvy::control::testing {
 
+/// The trench of scenarios/trench.sdf: 7.6 m to 4.4 m ahead of the swing axis of a machine at (-4, 0).
+scene::Dig trench();
+
 /// Flat ground of loam, 24 x 20 m about the origin, 4 m deep.
 heightfield::Ground flat_ground(double cell = 0.1);
 

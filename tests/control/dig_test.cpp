@@ -11,17 +11,6 @@
 namespace navvy::control::testing {
 namespace {
 
-/// The trench of scenarios/trench.sdf: 7.6 m to 4.4 m ahead of the swing axis of a machine at (-4, 0).
-scene::Dig trench() {
-  scene::Dig dig;
-  dig.from = Vec2(4.85, 0);
-  dig.to = Vec2(1.65, 0);
-  dig.depth = 0.8;
-  dig.dump_at = Vec2(-1.7, 5.9);
-  dig.dump_height = 1.6;
-  return dig;
-}
-
 scene::Program program(std::vector<scene::ProgramStep> steps) {
   scene::Program out;
   out.steps = std::move(steps);

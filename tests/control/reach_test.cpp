@@ -8,16 +8,6 @@
 namespace navvy::control::testing {
 namespace {
 
-scene::Dig trench() {
-  scene::Dig dig;
-  dig.from = Vec2(4.85, 0);
-  dig.to = Vec2(1.65, 0);
-  dig.depth = 0.8;
-  dig.dump_at = Vec2(-1.7, 5.9);
-  dig.dump_height = 1.6;
-  return dig;
-}
-
 class Reach : public ::testing::Test {
  protected:
   /// All faults of one step seen from the machine at (-4, 0), as one text.
@@ -26,7 +16,7 @@ class Reach : public ::testing::Test {
     program.steps = {step};
     program.lines = {42};
     std::string all;
-    for (const Fault& fault : check_reach(machine, program, make_pose(-4, 0, 0), ground, "dig.sdf"))
+    for (const Fault& fault : check_reach(machine, program, make_pose(-4, 0, 0), GroundSurface(ground), "dig.sdf"))
       all += fault.text() + "\n";
     return all;
   }
@@ -105,13 +95,13 @@ TEST_F(Reach, LooksFromWhereTheDriveBeforeTheDigEnds) {
   drive.has_heading = true;
   scene::Program program;
   program.steps = {drive, trench()};
-  EXPECT_TRUE(check_reach(machine, program, make_pose(-9, 0, 0), ground, "").empty());
+  EXPECT_TRUE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
   // From (-9, 0) alone the trench is out of reach.
   program.steps = {trench()};
-  EXPECT_FALSE(check_reach(machine, program, make_pose(-9, 0, 0), ground, "").empty());
+  EXPECT_FALSE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
   // A place that steering cannot get to.
   drive.target = Vec2(-6, 2.5);
-  EXPECT_FALSE(check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), ground, "").empty());
+  EXPECT_FALSE(check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the programs of a scene can be carried out: asked by a session before it starts, and by `navvy check`.
+#pragma once
+
+#include <vector>
+
+#include "control/surface.h"
+#include "core/error.h"
+#include "core/math.h"
+#include "scene/world.h"
+
+namespace navvy::sim {
+
+/// Every target of every program that is out of reach, with file and line. `X_WB` holds where the machines stand, one
+/// pose a machine; `surface` is what digs and drives look at.
+std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
+                                  const std::vector<Pose>& X_WB);
+
+/// The same for a scene that does not run: lays its ground (reads its map) and puts the machines on it. What is wrong
+/// with the ground is among the faults. Needs no device.
+std::vector<Fault> check_programs(const scene::World& world);
+
+}  // namespace navvy::sim
