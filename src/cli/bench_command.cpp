@@ -49,6 +49,8 @@ int run_bench(const BenchOptions& options) {
       std::printf("%-20s %s%s\n", c.name.c_str(), c.help.c_str(), c.quick ? " (quick)" : "");
     return kOk;
   }
+  for (const std::string& path : {options.csv, options.json})
+    if (!path.empty()) require_writable(path);
   std::vector<bench::Row> rows;
   for (const std::string& choice : chosen(options.devices)) {
     device::Device device(choice);

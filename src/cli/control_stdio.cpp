@@ -33,12 +33,21 @@ bool ControlStdio::exchange() {
   };
   const json in = json::parse(line, nullptr, false);
   if (!in.is_object()) throw fault("line", line.substr(0, 80), "must be one JSON object");
-  if (in.value("end", false)) return false;
+  if (in.contains("end")) {
+    if (!in["end"].is_boolean()) throw fault("end", in["end"].dump(), "must be true or false");
+    if (in["end"].get<bool>()) return false;
+  }
   if (!in.contains("inputs")) return true;
   if (!in["inputs"].is_object()) throw fault("inputs", in["inputs"].dump(), "must be an object of names and numbers");
   for (const auto& [name, value] : in["inputs"].items()) {
     if (!value.is_number()) throw fault(name, value.dump(), "must be a number");
-    world_.set(name, value.get<double>());
+    try {
+      world_.set(name, value.get<double>());
+    } catch (const InputError& error) {
+      const Fault& cause = error.faults().front();
+      throw InputError(Fault{cause.severity, "standard input", static_cast<int>(lines_), cause.element, cause.value,
+                             cause.rule, cause.remedy});
+    }
   }
   return true;
 }

@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/validators.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -20,6 +21,7 @@
 #include "device/device.h"
 #include "lab/lab.h"
 #include "lab/soils.h"
+#include "scene/soil_values.h"
 #include "scene_io/loader.h"
 
 namespace navvy::cli {
@@ -124,17 +126,11 @@ std::string key(const std::string& name, const std::string& unit) {
 
 nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
 
-nlohmann::json soil_json(const scene::Soil& s) {
-  return {{"name", s.name},
-          {"phi_deg", degrees(s.friction_angle)},
-          {"cohesion_pa", s.cohesion},
-          {"residual_cohesion_pa", s.residual_cohesion},
-          {"bank_density_kg_m3", s.bank_density},
-          {"swell", s.swell},
-          {"young_pa", s.young_modulus},
-          {"poisson", s.poisson},
-          {"delta_deg", degrees(s.tool_friction_angle)},
-          {"adhesion_pa", s.adhesion}};
+/// Every number under its name in scene files.
+nlohmann::json soil_json(const scene::Soil& soil) {
+  nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
+  for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
+  return out;
 }
 
 nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::Report& report) {
@@ -198,6 +194,7 @@ std::function<void(double)> progress_line(bool quiet) {
 
 int run_rig(const LabOptions& options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
+  if (!options.json.empty()) require_writable(options.json);
   device::Device device(options.device);
   lab::Setup setup = lab::default_setup(rig, device);
   setup.soil = chosen_soil(options, setup.soil);
@@ -244,7 +241,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   for (SoilOption& value : options->soil_values)
     command->add_option(value.name, value.value, value.help)->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero)
       ->default_str(text_of(rig.default_cell));
   command->add_option("--device", options->device, "OpenCL device: cpu, gpu, an index or a part of a name");
   command->add_option("--json", options->json, "write inputs, results and series to this file");

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -13,6 +15,8 @@
 #include "cli/control_stdio.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
+#include "cli/validators.h"
+#include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
@@ -88,14 +92,25 @@ int step_to_the_end(const RunOptions& options, sim::Session& session, record::Re
     throw;
   }
   line.end();
+  if (snapshot_due)
+    log_warning("no snapshot: the run ended at " + std::to_string(session.world().time()) + " s, before --snapshot-at");
   recorder.finish(interrupted ? "interrupted" : "finished");
   return interrupted ? kInterrupted : kOk;
+}
+
+/// A snapshot that cannot be read is bad input, told before the scene is built.
+void require_snapshot(const std::string& path) {
+  if (path.empty() || (std::filesystem::is_regular_file(path) && std::ifstream(path).is_open())) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, "no such snapshot, or it cannot be read",
+                         "--snapshot FILE --snapshot-at T writes one; a run that stopped itself leaves failed.snapshot "
+                         "among its results"});
 }
 
 int run(const RunOptions& options) {
   if (!options.control.empty() && options.control != "stdio")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control, "only 'stdio' is known",
                            "leave it out to let the scene's program drive"});
+  require_snapshot(options.resume);
   const scene::World description = options.scene.load();
   device::Device device(options.scene.device);
   if (!options.quiet) log_info("device " + device.info().text());
@@ -105,6 +120,7 @@ int run(const RunOptions& options) {
   sim::Session session(description, device);
   if (!options.resume.empty()) session.load(options.resume);
   record::Recorder recorder(session, record_options);
+  if (!options.snapshot.empty()) require_writable(options.snapshot);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
@@ -124,9 +140,11 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--control", options->control,
                       "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
   command->add_option("--control-rate", options->control_rate, "control steps per simulated second")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero)
+      ->needs("--control");
   command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
-  command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]");
+  command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");
+  command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");

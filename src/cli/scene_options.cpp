@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "cli/validators.h"
 #include "core/error.h"
 
 namespace navvy::cli {
@@ -33,7 +34,7 @@ void SceneOptions::add_to(CLI::App& command) {
   command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
       ->allow_extra_args(false);
   command.add_option("--seed", seed, "seed of everything random");
-  command.add_option("--duration", duration, "most simulated time [s]")->check(CLI::PositiveNumber);
+  command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
   command.add_flag("--no-render", no_render, "draw no pictures");
   command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
   command.add_option("--at", at,
@@ -45,7 +46,7 @@ void SceneOptions::add_to(CLI::App& command) {
 scene_io::Overrides SceneOptions::overrides() const {
   scene_io::Overrides out;
   for (const std::string& setting : set) out.set.push_back(scene_io::parse_setting(setting));
-  if (seed != 0) out.seed = seed;
+  out.seed = seed;
   if (duration > 0) out.duration = duration;
   if (no_render) out.render = false;
   if (!terrain.empty()) out.terrain = terrain;

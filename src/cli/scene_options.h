@@ -2,6 +2,8 @@
 // Options that every command on a scene shares.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct SceneOptions {
   std::string device;
   std::vector<std::string> set;
   std::string terrain, at, size;
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed;
   double duration = 0;
   bool no_render = false;
 

@@ -2,6 +2,7 @@
 #include "core/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -61,6 +62,16 @@ void commit_file(const std::string& path) {
     ::unlink(part.c_str());
     fail("rename to", path, cause);
   }
+}
+
+void require_writable(const std::string& path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) fail("write", path, EISDIR);
+  const std::string part = partial_name(path);
+  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (fd < 0) fail("create", part, errno);
+  ::close(fd);
+  ::unlink(part.c_str());
 }
 
 void write_file_atomically(const std::string& path, const std::string& content) {

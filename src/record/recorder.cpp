@@ -17,11 +17,21 @@
 
 namespace navvy::record {
 namespace fs = std::filesystem;
+namespace {
+
+/// How many whole periods of `rate` [Hz] have passed by `time` (with a hair for rounding of time = steps x dt).
+std::uint64_t count_at(double time, double rate) { return static_cast<std::uint64_t>(std::floor(time * rate + 1e-9)); }
+
+}  // namespace
 
 struct Recorder::State {
   State(sim::Session& s, Options o)
       : session(s), options(std::move(o)), telemetry(s, options.directory + "/telemetry.csv"), frames(s.world()) {
-    next_frame.assign(s.world().description().cameras.size(), 0);
+    // A resumed run goes on in its numbers and counts its own speed only.
+    status.start_time = s.world().time();
+    for (const scene::Camera& camera : s.world().description().cameras)
+      next_frame.push_back(count_at(status.start_time, camera.rate));
+    next_sample = count_at(status.start_time, s.world().description().recording.telemetry_rate);
   }
 
   sim::Session& session;
@@ -80,7 +90,7 @@ void Recorder::State::sample_when_due() {
   if (!due(time, next_sample, rate)) return;
   const Lap lap(status.record_time);
   telemetry.sample();
-  next_sample = static_cast<std::uint64_t>(std::floor(time * rate + 1e-9)) + 1;
+  next_sample = count_at(time, rate) + 1;
 }
 
 void Recorder::State::draw_when_due() {
@@ -96,7 +106,7 @@ void Recorder::State::draw_when_due() {
     char name[32];
     std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(next_frame[i]));
     render::write_png(path("frames/" + cameras[i].name + name), image);
-    next_frame[i] = static_cast<std::uint64_t>(std::floor(time * cameras[i].rate + 1e-9)) + 1;
+    next_frame[i] = count_at(time, cameras[i].rate) + 1;
     ++status.frames;
   }
 }
@@ -139,7 +149,7 @@ Progress Recorder::progress() const {
   out.time = world.time();
   out.duration = world.description().recording.duration;
   const double spent = s.total.seconds();
-  out.real_time_factor = spent > 0 ? out.time / spent : 0;
+  out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
   out.remaining = out.real_time_factor > 0 ? (out.duration - out.time) / out.real_time_factor : 0;
   out.particles = world.soil().stats().particles;
   out.cycles = static_cast<int>(s.session.cycles().size());

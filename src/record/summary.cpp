@@ -71,7 +71,7 @@ json ledger(const sim::Session& session) {
   json soils = json::array();
   for (std::size_t i = 0; i < sums.columns.size(); ++i)
     soils.push_back({{"soil", session.world().description().soils[i].name},
-                     {"columns_kg", kilograms(sums.columns[i])},
+                     {"columns_change_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
                      {"left_site_kg", kilograms(sums.left_site[i])},
                      {"loaded_kg", kilograms(sums.inserted[i])}});
@@ -124,7 +124,7 @@ std::string summary_json(const sim::Session& session, const RunStatus& status) {
   out["wall_time_s"] = status.wall_time;
   out["render_time_s"] = status.render_time;
   out["simulated_time_s"] = world.time();
-  out["real_time_factor"] = status.wall_time > 0 ? world.time() / status.wall_time : 0.0;
+  out["real_time_factor"] = status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil().stage_times()) out["soil_stage_s"][stage] = seconds;
   out["cycles"] = session.cycles().size();

@@ -14,6 +14,7 @@ inline constexpr int kSummarySchemaVersion = 1;
 struct RunStatus {
   std::string status = "running";
   std::string message;     ///< cause of a failure
+  double start_time = 0;   ///< simulated time at which the run began: not 0 when it was resumed [s]
   double wall_time = 0;    ///< [s], without rendering
   double render_time = 0;  ///< [s]
   double record_time = 0;  ///< [s]

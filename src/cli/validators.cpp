@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/validators.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace navvy::cli {
+
+std::string above_zero(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool ok = code == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value > 0;
+  return ok ? "" : "'" + text + "': must be a number above 0";
+}
+
+}  // namespace navvy::cli
