@@ -8,12 +8,15 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "device/device.h"
+#include "lab/shapes.h"
 #include "lab/site.h"
+#include "lab/soils.h"
 
 namespace navvy::bench {
 namespace {
 
 using lab::Box;
+using lab::open_box;
 using lab::Site;
 
 /// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell (kernels/soil).
@@ -23,28 +26,7 @@ constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.
 constexpr double kFlopsPerParticle = 1300;
 constexpr int kRuns = 3;
 
-scene::Soil sand() {
-  scene::Soil soil;
-  soil.name = "sand";
-  soil.bank_density = 1600;
-  soil.swell = 1;
-  soil.friction_angle = radians(35);
-  soil.cohesion = soil.residual_cohesion = 0;
-  soil.tool_friction_angle = radians(20);
-  return soil;
-}
-
-/// A box open at the top, floor at z = 0 of its frame.
-scene::Shell open_box(double length, double width, double height) {
-  scene::Shell s;
-  s.name = "box";
-  s.half_thickness = 0.015;
-  const double x = length / 2, y = width / 2, h = height;
-  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
-  s.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
-                 {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
-  return s;
-}
+scene::Soil sand() { return lab::clean_sand(35); }
 
 /// Times `steps` steps from the site's present state; tools go on at their speed.
 Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
@@ -186,11 +168,9 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
   if (wanted.empty())
     throw InputError(
         Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word", "one of:" + names});
-  Peak peak;
   for (const SoilCase* c : wanted) {
-    // A neighbour may have been busy: the best of all looks so far is what the device can do.
-    const Peak now = measure_peak(device);
-    peak = {std::max(peak.copy_bandwidth, now.copy_bandwidth), std::max(peak.flops, now.flops)};
+    // Beside its row, so that a machine which is busier now than a row ago counts in both.
+    const Peak peak = measure_peak(device);
     Row row = c->run(device);
     row.bench = c->name;
     row.device = device.info().name;

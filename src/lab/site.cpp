@@ -27,16 +27,16 @@ heightfield::Ground::Setup make_ground(const scene::World& world, const SiteOpti
   heightfield::Ground::Setup out;
   const double cell = world.solver.cell;
   const int half = static_cast<int>(std::lround(options.size / cell / 2));
-  const double corner = -half * cell;
+  const Vec2 corner = options.corner.value_or(Vec2::Constant(-half * cell));
   out.nx = out.ny = 2 * half;
   out.cell = cell;
-  out.origin = Vec2(corner, corner);
+  out.origin = corner;
   // Whole cells of depth: nodes then lie at z = 0.
   out.datum = -std::ceil(options.depth / cell - 1e-9) * cell;
   out.soils = world.soils;
   out.layers = {{world.soils.front().name, options.depth}};
   out.surface = [surface = options.surface, corner, cell](int ix, int iy) {
-    return surface ? surface(corner + (ix + 0.5) * cell, corner + (iy + 0.5) * cell) : 0.0;
+    return surface ? surface(corner.x() + (ix + 0.5) * cell, corner.y() + (iy + 0.5) * cell) : 0.0;
   };
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/math.h"
@@ -23,10 +24,11 @@ struct Box {
   bool contains(const Vec3& p) const { return (p.array() >= low.array()).all() && (p.array() < high.array()).all(); }
 };
 
-/// A square site. W's origin is its middle unless `corner` says otherwise.
+/// A square site.
 struct SiteOptions {
-  double size = 40;                                   ///< edge [m], rounded to whole cells
-  double depth = 4;                                   ///< from z = 0 down to bedrock [m]
+  double size = 40;            ///< edge [m], rounded to whole cells
+  std::optional<Vec2> corner;  ///< W of its lower-left corner [m]; without, W's origin is its middle
+  double depth = 4;            ///< from z = 0 down to bedrock [m]
   std::function<double(double x, double y)> surface;  ///< of the resting ground [m]; empty: flat at 0
   Vec3 gravity = Vec3(0, 0, -kGravity);               ///< tilt it for slopes, zero it for weightless cases
   bool exchange = false;                              ///< ground wakes and takes soil back by itself

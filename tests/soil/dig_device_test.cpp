@@ -110,9 +110,9 @@ TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
   scoop.go(10.4, 0.9, -5, 0.4);  // what stopping shakes has passed
   scoop.go(10.4, 0.9, -5, 0.3);
   const double held = scoop.payload();
-  rig::report("drag on the box in loam [N]", cut.x(), "> 0", "soil pushes against the cut");
-  rig::report("payload after lift and after holding [kg]", held, std::to_string(lifted) + " +-1 %", "issue: shell");
-  rig::report("held, F / (m g)", -scoop.force().z() / (held * kGravity), "1 +-3 %",
+  print_value("drag on the box in loam [N]", cut.x(), "> 0", "soil pushes against the cut");
+  print_value("payload after lift and after holding [kg]", held, std::to_string(lifted) + " +-1 %", "issue: shell");
+  print_value("held, F / (m g)", -scoop.force().z() / (held * kGravity), "1 +-3 %",
               "grains still fall on the ground only");
   EXPECT_GT(cut.x(), 300);
   EXPECT_GT(held, 40);
@@ -146,7 +146,7 @@ TEST(SoilDig, IsTheSameAtTheOtherEndOfASquareKilometre) {
   near.cut();
   far.cut();
   const double drag = near.force().x();
-  rig::report("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %", "issue: place");
+  print_value("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %", "issue: place");
   EXPECT_NEAR(far.force().x(), drag, 1e-3 * drag);
   EXPECT_EQ(near.solver().stats().particles, far.solver().stats().particles);
   EXPECT_LT(far.ground().touched_tiles(), 20u);
@@ -156,7 +156,7 @@ TEST(SoilDig, FourTimesTheCohesionNeedsMoreForce) {
   Scoop weak(Vec2::Zero(), 2000), strong(Vec2::Zero(), 8000);
   weak.cut();
   strong.cut();
-  rig::report("drag at 8 kPa / 2 kPa", strong.force().x() / weak.force().x(), "> 1.2",
+  print_value("drag at 8 kPa / 2 kPa", strong.force().x() / weak.force().x(), "> 1.2",
               "issue: forces come from the soil");
   EXPECT_GT(strong.force().x(), 1.2 * weak.force().x());
 }

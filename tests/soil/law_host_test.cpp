@@ -34,7 +34,7 @@ TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
     e.c[1] = 0.5;  // dvx/dy
     for (int i = 0; i < 4000; ++i) e.step(1e-3);
     const double ratio = e.sigma[3] / -e.sigma[1];
-    rig::report("tau / sigma_n at phi " + std::to_string(phi), ratio, std::to_string(std::sin(radians(phi))) + " +-3 %",
+    print_value("tau / sigma_n at phi " + std::to_string(phi), ratio, std::to_string(std::sin(radians(phi))) + " +-3 %",
                 "VALIDATION 1, simple shear without dilatancy");
     EXPECT_NEAR(ratio, std::sin(radians(phi)), 0.03 * std::sin(radians(phi)));
   }

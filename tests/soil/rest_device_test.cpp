@@ -41,10 +41,10 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
       weight += 1;
     }
     const double slope = zs / zz, rms = std::sqrt(error2 / zz);
-    rig::report("sigma_z / (rho g z), c " + std::to_string(cohesion), slope, "0.99 .. 1.01", "VALIDATION 1");
-    rig::report("rms of sigma_z", rms, "< 4 %", "VALIDATION 1");
-    rig::report("sigma_x / sigma_z", ratio / weight, std::to_string(k0) + " +-3 %", "VALIDATION 1");
-    rig::report("farthest motion in 1 s [mm]", farthest * 1000, "< 1", "SOIL_SOLVER 6: 0.1-0.3 mm");
+    print_value("sigma_z / (rho g z), c " + std::to_string(cohesion), slope, "0.99 .. 1.01", "VALIDATION 1");
+    print_value("rms of sigma_z", rms, "< 4 %", "VALIDATION 1");
+    print_value("sigma_x / sigma_z", ratio / weight, std::to_string(k0) + " +-3 %", "VALIDATION 1");
+    print_value("farthest motion in 1 s [mm]", farthest * 1000, "< 1", "SOIL_SOLVER 6: 0.1-0.3 mm");
     EXPECT_NEAR(slope, 1, 0.01);
     EXPECT_LT(rms, 0.04);
     EXPECT_NEAR(ratio / weight, k0, 0.03 * k0);
@@ -80,7 +80,7 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   std::sort(xs.begin(), xs.end());
   const double front = xs[static_cast<std::size_t>(0.99 * static_cast<double>(xs.size()))];
   const double run_out = (front - x0 - length) / length;
-  rig::report("plane collapse a = 1, run-out / L0", run_out, "1.0 .. 1.8",
+  print_value("plane collapse a = 1, run-out / L0", run_out, "1.0 .. 1.8",
               "Lube 2005, VALIDATION 2; lower end for 20 cells");
   // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short (SOIL_SOLVER 3).
   EXPECT_GT(run_out, 1.0);
@@ -146,7 +146,7 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
   for (const scene::Soil& soil : {loam, dense}) {
     double speed = 0;
     const double ratio = tipped(soil, speed);
-    rig::report("volume of the tipped load / bank, c " + std::to_string(soil.cohesion), ratio,
+    print_value("volume of the tipped load / bank, c " + std::to_string(soil.cohesion), ratio,
                 std::to_string(soil.swell) + " +-5 %", "VALIDATION 1, swell; throw and re-land");
     EXPECT_NEAR(ratio, soil.swell, 0.05 * soil.swell);
     EXPECT_LT(speed, 0.05);
@@ -178,7 +178,7 @@ TEST(SoilRest, CrowdedSoilMakesRoomUntilItsNodesHoldWhatItsDensityStateSays) {
     for (int y = 98; y < 103; ++y)
       for (int x = 98; x < 103; ++x) mass += cells[{x, y, z}];
   const double density = mass / (75 * std::pow(rig.cell(), 3)) / rig.world().soils[0].bank_density;
-  rig::report("crowded soil after 2 s, density / bank", density, "1 .. 1.1", "closing of J; 2 at the start");
+  print_value("crowded soil after 2 s, density / bank", density, "1 .. 1.1", "closing of J; 2 at the start");
   EXPECT_GT(density, 0.9);
   EXPECT_LT(density, 1.1);
 }

@@ -112,7 +112,7 @@ TEST(SoilSchedule, BothAgreeAfterOneStepToRounding) {
   for (const double inverse_mass : {0.0, 0.01}) {
     const Outcome lanes = dig("lanes", 1, inverse_mass), groups = dig("groups", 1, inverse_mass);
     const Difference d = difference(lanes, groups);
-    rig::report("schedules after one step with a tool, positions [cells]", d.x, "< 2e-6", "float ulp of 4 cells");
+    print_value("schedules after one step with a tool, positions [cells]", d.x, "< 2e-6", "float ulp of 4 cells");
     EXPECT_LT(d.x, 2e-6);
     EXPECT_LT(d.v, 1e-5);  // sums of a node in another order
     EXPECT_LT(d.s, 0.1);
@@ -125,9 +125,9 @@ TEST(SoilSchedule, BothAgreeAfterOneStepToRounding) {
 TEST(SoilSchedule, BothAgreeOverADigWithRebins) {
   const Outcome lanes = dig("lanes", 120), groups = dig("groups", 120);
   const Difference d = difference(lanes, groups);
-  rig::report("schedules after 120 steps with a tool, positions, mean [cells]", d.mean_x, "< 1e-3",
+  print_value("schedules after 120 steps with a tool, positions, mean [cells]", d.mean_x, "< 1e-3",
               "rounding that grows");
-  rig::report("same, largest [cells]", d.x, "-", "-");
+  print_value("same, largest [cells]", d.x, "-", "-");
   EXPECT_GT(groups.rebins, 2u);
   EXPECT_LT(d.mean_x, 1e-5);  // twenty ulps of 4 cells
   EXPECT_LT((lanes.impulse - groups.impulse).norm(), 1e-4 * lanes.impulse.norm());

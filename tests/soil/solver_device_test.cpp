@@ -57,7 +57,7 @@ TEST_P(TwinTest, AgreesWithTheDoubleTwin) {
     worst_v = std::max(worst_v, (p.v - twin.points[i].v).cwiseAbs().maxCoeff());
     for (std::size_t k = 0; k < 6; ++k) worst_s = std::max(worst_s, std::abs(p.s[k] - twin.points[i].s[k]));
   }
-  rig::report("float against double after 6 steps, positions [cells]", worst_x, "< 2e-5",
+  print_value("float against double after 6 steps, positions [cells]", worst_x, "< 2e-5",
               "float ulp of 4 cells x steps");
   // Positions: a few ulp (4.8e-7) of an offset of up to 5.5 cells. Velocities: stress rounding (J to 6e-8 times
   // K = 1e6 Pa is 0.06 Pa) over six steps, and the yield decision may fall the other way for a particle on the edge.
@@ -93,7 +93,7 @@ TEST(SoilSolver, FallsAndFliesLikeABody) {
     x += rig.position(p) / static_cast<double>(soil.size());
   }
   const Vec3 v_expected(2, 0.5, 1 - kGravity * t);
-  rig::report("vertical speed after 0.4 s of free flight [m/s]", v.z(), std::to_string(v_expected.z()) + " +-1e-4 rel.",
+  print_value("vertical speed after 0.4 s of free flight [m/s]", v.z(), std::to_string(v_expected.z()) + " +-1e-4 rel.",
               "VALIDATION 1");
   for (int a = 0; a < 3; ++a) EXPECT_NEAR(v[a], v_expected[a], 1e-4 * v_expected.norm());
   // Symplectic Euler is half a step behind the parabola; the rest is float rounding of positions.

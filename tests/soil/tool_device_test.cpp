@@ -68,7 +68,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   const double before = rig.solver().payload(0, bucket.motion.X_WT);
   const Vec3 force = bucket.run(0.8);
   const double held = rig.solver().payload(0, bucket.motion.X_WT);
-  rig::report("held bucket, F / (m g)", -force.z() / weight, "1 +-1 %", "VALIDATION 1");
+  print_value("held bucket, F / (m g)", -force.z() / weight, "1 +-1 %", "VALIDATION 1");
   EXPECT_NEAR(-force.z() / weight, 1, 0.01);
   EXPECT_LT(std::hypot(force.x(), force.y()), 0.01 * weight);
   EXPECT_NEAR(held, weight / kGravity, 1e-3);
@@ -80,7 +80,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   bucket.run(1.2);
   bucket.motion.w_WT = Vec3::Zero();
   bucket.run(0.9);
-  rig::report("left in the tipped bucket [kg]", rig.solver().payload(0, bucket.motion.X_WT), "< 1 % of 500 kg",
+  print_value("left in the tipped bucket [kg]", rig.solver().payload(0, bucket.motion.X_WT), "< 1 % of 500 kg",
               "SOIL_SOLVER 5");
   EXPECT_LT(rig.solver().payload(0, bucket.motion.X_WT), 0.01 * weight / kGravity);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
@@ -109,7 +109,7 @@ TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
   const double lifted = rig.solver().payload(0, bucket.motion.X_WT);
   const Vec3 force = bucket.run(0.4);
   const double held = rig.solver().payload(0, bucket.motion.X_WT);
-  rig::report("scooped load, F / (m g)", -force.z() / (held * kGravity), "1 +-2 %",
+  print_value("scooped load, F / (m g)", -force.z() / (held * kGravity), "1 +-2 %",
               "held bucket, grains may still fall");
   EXPECT_GT(held, 50);
   EXPECT_NEAR(held, lifted, 0.01 * held);
@@ -145,7 +145,7 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   const double kp = (1 + std::sin(soil.friction_angle)) / (1 - std::sin(soil.friction_angle));
   const double rankine =
       width * (0.5 * soil.bank_density * kGravity * depth * depth * kp + 2 * soil.cohesion * depth * std::sqrt(kp));
-  rig::report("blade at 0.05 m of travel, c " + std::to_string(GetParam().cohesion), -force.x(),
+  print_value("blade at 0.05 m of travel, c " + std::to_string(GetParam().cohesion), -force.x(),
               std::to_string(rankine) + " N +-20 %", "Rankine passive, smooth wide blade, VALIDATION 3");
   // 20 %: the gate is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3 cells deep.
   EXPECT_NEAR(-force.x() / rankine, 1, 0.2);
@@ -194,7 +194,7 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
     most = std::max(most, 0.5 * mass * m.v_WT.squaredNorm() + 0.5 * w.dot(inertia.cwiseProduct(w)) +
                               mass * kGravity * m.X_WT.translation().z());
   }
-  rig::report("light plate, highest energy / energy at the start", most / start, "<= 1.01", "VALIDATION 1, two-way");
+  print_value("light plate, highest energy / energy at the start", most / start, "<= 1.01", "VALIDATION 1, two-way");
   EXPECT_LE(most, 1.01 * start);  // 1 %: the gain of one gravity kick before the first contact
   EXPECT_LT(driver.motion.v_WT.norm(), 0.02);
   EXPECT_LT(driver.worst, 1e-5);
@@ -240,7 +240,7 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
     ++counted;
   }
   rms = std::sqrt(rms / counted);
-  rig::report("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5", "thin-tools.md section 6");
+  print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5", "thin-tools.md section 6");
   EXPECT_LT(rms, 1.5);  // explicit exchange: 15-29; the servo's own motion is about 1
   EXPECT_LT((m.X_WT.translation() - home.translation()).norm(), 0.05);
   EXPECT_NEAR(rig.solver().payload(0, m.X_WT), load, 0.01 * load);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "values.h"
 #include "vehicle/machines.h"
 
 namespace navvy::vehicle {
@@ -53,7 +54,10 @@ TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
       at = engine->link(0, 0).X_WL.translation();  // middle of the rear axle
       run(*engine, ground, 3, kStep);
     }
-    EXPECT_NEAR(circle_radius(p[0], p[1], p[2]), std::abs(radius), 0.03 * std::abs(radius));
+    const double measured = circle_radius(p[0], p[1], p[2]);
+    print_value("radius of the turn [m]", measured, std::to_string(std::abs(radius)) + " +-3 %",
+                "Ackermann; VALIDATION 5");
+    EXPECT_NEAR(measured, std::abs(radius), 0.03 * std::abs(radius));
     EXPECT_EQ(engine->link(0, 0).w_WL.z() > 0, radius > 0);
     // The open differential: both wheels turn, the outer one faster.
     const double left = engine->wheel(0, 2).spin, right = engine->wheel(0, 3).spin;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "values.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/machines.h"
 
@@ -44,11 +45,13 @@ double locked_tip_force(double stick, double bucket, const std::string& role, do
 
 TEST(Ew180, BreakoutForceIs120kN) {
   const double measured = locked_tip_force(-1.5, -0.723, "bucket_joint", -1);
+  print_value("breakout force, tip locked [N]", measured, "120e3 +-5 %", "ISO 6015; vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(measured, 120e3, 0.05 * 120e3);
 }
 
 TEST(Ew180, TearOutForceIs90kN) {
   const double measured = locked_tip_force(-1.415, -0.723, "arm_joint", -1);
+  print_value("tear-out force, tip locked [N]", measured, "90e3 +-5 %", "ISO 6015; vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(measured, 90e3, 0.05 * 90e3);
 }
 
@@ -70,6 +73,7 @@ TEST(Ew180, SwingTorqueIs48kNm) {
     engine->add_force(0, upper, force, p);
     moment = (p - state.X_WL.translation()).cross(force).z();
   });
+  print_value("swing torque [N m]", std::abs(moment), "48e3 +-5 %, gated at 2 %", "vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(std::abs(moment), 48e3, 0.02 * 48e3);
   EXPECT_TRUE(engine->joint(0, swing).stalled);
 }
@@ -135,7 +139,8 @@ TEST(Ew180, TippingLoadAt7mOverTheSideIsTheMomentBalance) {
     if (engine->wheel(0, 1).force_W.z() <= 0 && engine->wheel(0, 3).force_W.z() <= 0) tipped_at = load;
   });
   ASSERT_GT(tipped_at, 0);
-  RecordProperty("tipping_load_kg", static_cast<int>(tipped_at));
+  print_value("tipping load at 7 m over the side [kg]", tipped_at, std::to_string(expected) + " +-5 %",
+              "moment balance");
   // 5 %: the balance is that of rigid tyres, the machine leans on its own by a degree.
   EXPECT_NEAR(tipped_at, expected, 0.05 * expected);
   EXPECT_GT(expected, 1600);  // the class lifts about 2 t there
