@@ -14,30 +14,22 @@
 namespace navvy::bench {
 namespace {
 
-std::vector<Row> quick_rows(device::Device& device) {
-  std::vector<Row> rows;
-  run_soil_cases(device, "", true, [&](const Row& row) { rows.push_back(row); });
-  return rows;
-}
-
 // Between runs ground and soil are restored together: otherwise the ledger of mass opens, and the solver stops.
-TEST(SoilRows, EveryQuickCaseDoesTheSameWorkTwiceAndOtherWorkThanTheNext) {
+TEST(SoilRows, TheSameCaseTwiceDoesTheSameWork) {
   device::Device device;
-  const std::vector<Row> first = quick_rows(device), second = quick_rows(device);
-  ASSERT_EQ(first.size(), second.size());
-  std::set<std::string> hashes;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_EQ(first[i].hash, second[i].hash) << first[i].bench;
-    EXPECT_EQ(first[i].particles, second[i].particles) << first[i].bench;
-    EXPECT_EQ(first[i].hash.size(), 16u) << first[i].bench;
-    hashes.insert(first[i].hash);
+  for (const SoilCase& c : soil_cases()) {
+    if (c.name != "soil_collapse:8k" && c.name != "site_dig:0.01km2") continue;
+    const Row first = c.run(device), second = c.run(device);
+    EXPECT_EQ(first.hash, second.hash) << c.name;
+    EXPECT_EQ(first.particles, second.particles) << c.name;
   }
-  EXPECT_EQ(hashes.size(), first.size()) << "two cases end in one state";
 }
 
 TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
   device::Device device;
-  const std::vector<Row> rows = quick_rows(device);
+  std::vector<Row> rows;
+  run_soil_cases(device, "", true, [&](const Row& row) { rows.push_back(row); });
+  std::set<std::string> hashes;
   std::size_t quick = 0;
   for (const SoilCase& c : soil_cases()) quick += c.quick ? 1 : 0;
   ASSERT_EQ(rows.size(), quick);
@@ -59,6 +51,8 @@ TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
     if (colon != std::string::npos && k == row.bench.size() - 1)
       EXPECT_NEAR(static_cast<double>(row.particles), 1000 * std::stod(row.bench.substr(colon + 1)), 500);
     EXPECT_GT(row.particles, 1000u);
+    EXPECT_EQ(row.hash.size(), 16u);
+    EXPECT_TRUE(hashes.insert(row.hash).second) << "two cases end in one state";
   }
 }
 
