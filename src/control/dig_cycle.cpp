@@ -10,9 +10,9 @@
 namespace navvy::control {
 namespace {
 
-// Of the heaped capacity, when the curl begins. At 0.1 m cells plates hold soil off by up to half a cell; what the bucket
-// cannot keep it spills on the trench's edges, and walls that are rubbed by heaps going up wear. Filled to 0.75 the EW180
-// kept 520 kg of 720 through the curl, filled to 0.55 400 of 510.
+// Of the heaped capacity, when the curl begins. At 0.1 m cells plates hold soil off by up to half a cell; what the
+// bucket cannot keep it spills on the trench's edges, and walls that are rubbed by heaps going up wear. Filled to 0.75
+// the EW180 kept 520 kg of 720 through the curl, filled to 0.55 400 of 510.
 constexpr double kFill = 0.55;
 constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
 constexpr double kEmptyPayload = 10;  // [kg] the bucket counts as empty

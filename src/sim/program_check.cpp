@@ -24,6 +24,7 @@ std::vector<Fault> check_programs(const scene::World& world) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
     std::vector<Pose> X_WB;
+    X_WB.reserve(world.machines.size());
     for (const scene::MachineInWorld& placed : world.machines) X_WB.push_back(coupling::place(placed, ground));
     return check_programs(world, control::GroundSurface(ground), X_WB);
   } catch (const InputError& error) {

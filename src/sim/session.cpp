@@ -165,6 +165,7 @@ Session::Session(scene::World description, device::Device& device)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
+  X_WB.reserve(s.world.description().machines.size());
   for (std::size_t m = 0; m < s.world.description().machines.size(); ++m) {
     s.enlist(static_cast<int>(m));
     X_WB.push_back(s.world.link(static_cast<int>(m), 0).X_WL);
