@@ -37,6 +37,7 @@ struct RunOptions {
   std::string resume;
   std::string snapshot;
   double snapshot_at = -1;
+  double hash_every = 0;
   bool quiet = false;
 };
 
@@ -117,6 +118,7 @@ int run(const RunOptions& options) {
   record::Options record_options;
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
   record_options.render = description.recording.render;
+  record_options.hash_every = options.hash_every;
   sim::Session session(description, device);
   if (!options.resume.empty()) session.load(options.resume);
   record::Recorder recorder(session, record_options);
@@ -146,6 +148,9 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");
   command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
+  command->add_option("--hash-every", options->hash_every,
+                      "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

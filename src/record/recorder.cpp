@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/stopwatch.h"
+#include "record/hash_log.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
 #include "render/renderer.h"
@@ -39,6 +40,7 @@ struct Recorder::State {
   Telemetry telemetry;
   sim::FrameBuilder frames;
   std::unique_ptr<render::Renderer> renderer;
+  std::unique_ptr<HashLog> hashes;
   std::vector<std::uint64_t> next_frame;  ///< per camera, counts frames
   std::uint64_t next_sample = 0;
   RunStatus status;
@@ -48,6 +50,7 @@ struct Recorder::State {
   std::string path(const std::string& name) const { return options.directory + "/" + name; }
   void sample_when_due();
   void draw_when_due();
+  void hash_when_due();
   void checkpoint(bool force);
 };
 
@@ -79,6 +82,8 @@ Recorder::Recorder(sim::Session& session, Options options) {
   s.sample_when_due();
   if (s.options.render) s.renderer = std::make_unique<render::Renderer>();
   s.draw_when_due();
+  if (s.options.hash_every > 0)
+    s.hashes = std::make_unique<HashLog>(session, s.path("hashes.csv"), s.options.hash_every);
   s.checkpoint(true);
 }
 
@@ -111,6 +116,12 @@ void Recorder::State::draw_when_due() {
   }
 }
 
+void Recorder::State::hash_when_due() {
+  if (!hashes) return;
+  const Lap lap(status.record_time);
+  hashes->observe();
+}
+
 void Recorder::State::checkpoint(bool force) {
   status.wall_time = total.seconds() - status.render_time - status.record_time;
   if (!force && since_checkpoint.seconds() < options.checkpoint) return;
@@ -124,6 +135,7 @@ void Recorder::State::checkpoint(bool force) {
 void Recorder::observe() {
   state_->sample_when_due();
   state_->draw_when_due();
+  state_->hash_when_due();
   state_->checkpoint(false);
 }
 
@@ -138,6 +150,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     s.session.save(writer);
     write_file_atomically(s.path("failed.snapshot"), writer.bytes());
   }
+  if (s.hashes) s.hashes->finish();
   write_terrain(s.session.world().ground(), s.path("terrain_end.tif"));
   s.checkpoint(true);
 }

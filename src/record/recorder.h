@@ -15,6 +15,7 @@ namespace navvy::record {
 struct Options {
   std::string directory;  ///< results go here; one that holds an earlier run is kept as "<directory>.previous"
   bool render = true;
+  double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
   double checkpoint = 2;  ///< wall time between looks whether telemetry is to be rewritten [s]
 };
 
@@ -27,8 +28,9 @@ struct Progress {
   std::string phase;
 };
 
-/// Writes summary.json (at the start and at the end), telemetry.csv, terrain_start.tif, terrain_end.tif,
-/// frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe; draws on the calling thread.
+/// Writes summary.json (at the start and at the end), telemetry.csv, hashes.csv when asked, terrain_start.tif,
+/// terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe; draws on the calling
+/// thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start. @throws FileError.

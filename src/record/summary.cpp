@@ -142,6 +142,9 @@ std::string summary_json(const sim::Session& session, const RunStatus& status) {
   out["particles_peak"] = stats.particles_peak;
   out["particle_steps"] = stats.particle_steps;
   out["shell_crossings"] = stats.shell_crossings;
+  out["rebins"] = stats.rebins;
+  out["woken_columns"] = stats.wakes;
+  out["deposited_blocks"] = stats.deposits;
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session);
   out["state_hash"] = session.state_hash();

@@ -232,6 +232,14 @@ std::string Session::state_hash() const {
   return sum.hex();
 }
 
+std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
+  std::vector<std::pair<std::string, std::string>> out = state_->world.hash_parts();
+  StateHash operators;
+  for (const State::Crew& crew : state_->crews) crew.op.hash(operators);
+  out.emplace_back("operators", operators.hex());
+  return out;
+}
+
 void Session::save(StateWriter& writer) const {
   static_assert(std::is_trivially_copyable_v<Cycle> && std::is_trivially_copyable_v<BedTip>);
   state_->world.save(writer);

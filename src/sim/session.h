@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/operator.h"
@@ -60,6 +61,8 @@ class Session {
   double control_time() const;  ///< wall time [s]
 
   std::string state_hash() const;
+  /// World::hash_parts, then the operators.
+  std::vector<std::pair<std::string, std::string>> hash_parts() const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
   /// Snapshot to and from a file; atomic. @throws FileError, InputError.

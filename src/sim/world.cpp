@@ -149,6 +149,21 @@ std::string World::state_hash() const {
   return sum.hex();
 }
 
+std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  const auto add = [&out](const char* name, const auto& part) {
+    StateHash sum;
+    part.hash(sum);
+    out.emplace_back(name, sum.hex());
+  };
+  add("ground", state_->ground);
+  add("soil", state_->soil);
+  add("dynamic_machines", *state_->dynamic);
+  add("kinematic_machines", *state_->kinematic);
+  add("coupling", state_->coupling);
+  return out;
+}
+
 void World::save(StateWriter& writer) const {
   writer.begin("world", 1);
   writer.text(state_->description.name);

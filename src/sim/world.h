@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/hash.h"
@@ -68,6 +69,8 @@ class World {
 
   void hash(StateHash& hash) const;
   std::string state_hash() const;  ///< hex
+  /// Name and hash [hex] of every part by itself, to tell which of them differs.
+  std::vector<std::pair<std::string, std::string>> hash_parts() const;
   void save(StateWriter& writer) const;
   /// Into a world built from the same scene. @throws InputError when the snapshot does not fit.
   void load(StateReader& reader);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/hash_log.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/file.h"
+
+namespace navvy::record {
+namespace {
+
+/// time = steps x dt is rounded: a distance counts as reached this much early.
+constexpr double kHair = 1e-9;
+
+}  // namespace
+
+HashLog::HashLog(const sim::Session& session, std::string path, double every)
+    : session_(session), path_(std::move(path)), every_(every), text_("step,time_s,state") {
+  for (const auto& [part, hash] : session_.hash_parts()) text_ += "," + part;
+  text_ += '\n';
+  const sim::World& world = session_.world();
+  if (world.steps() > 0) next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
+  observe();
+}
+
+void HashLog::row() {
+  const sim::World& world = session_.world();
+  char start[64];
+  std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()), world.time());
+  text_ += start + session_.state_hash();
+  for (const auto& [part, hash] : session_.hash_parts()) text_ += "," + hash;
+  text_ += '\n';
+  empty_ = false;
+  last_step_ = world.steps();
+  write_file_atomically(path_, text_);
+}
+
+void HashLog::observe() {
+  const double count = session_.world().time() / every_ + kHair;
+  if (count < static_cast<double>(next_)) return;
+  row();
+  next_ = static_cast<std::uint64_t>(std::floor(count)) + 1;
+}
+
+void HashLog::finish() {
+  if (empty_ || last_step_ != session_.world().steps()) row();
+}
+
+}  // namespace navvy::record

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navvy run --hash-every` in a process of its own, with an environment of its own, and two such runs side by side.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "process.h"
+
+namespace navvy::determinism {
+
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
+/// PoCL's workers: the older name of the variable (to 3.x) and the newer one (from 4.0).
+inline Environment threads(int count) {
+  const std::string n = std::to_string(count);
+  return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}};
+}
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+/// What a run left.
+struct HashedRun {
+  int status = -1;
+  std::string device;                       ///< the line in which navvy names it
+  std::string header;                       ///< of hashes.csv
+  std::map<std::uint64_t, std::string> at;  ///< row by step
+  nlohmann::json summary;
+};
+
+/// Runs `scene` with `options` on the CPU; files go below the build tree, into `name`.
+inline HashedRun hashed_run(const std::string& name, const std::string& scene, std::vector<std::string> options,
+                            const Environment& environment) {
+  const std::filesystem::path directory = std::filesystem::path(NAVVY_BINARY_DIR) / "test-determinism" /
+                                          testing::UnitTest::GetInstance()->current_test_info()->name() / name;
+  std::filesystem::remove_all(directory);
+  std::filesystem::create_directories(directory);
+  const std::string out = (directory / "out").string();
+  std::vector<std::string> arguments{"run",
+                                     std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + scene,
+                                     "--no-render",
+                                     "--hash-every",
+                                     "1",
+                                     "--device",
+                                     "cpu",
+                                     "--out",
+                                     out};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  HashedRun run;
+  const std::string err = (directory / "stderr").string();
+  run.status = test::wait_for(test::start({NAVVY_PROGRAM, arguments, environment, "/dev/null", "/dev/null", err}));
+  const std::string said = text_of(err);
+  EXPECT_EQ(run.status, 0) << said;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("compute unit") != std::string::npos) run.device = line.substr(line.find("device"));
+  std::istringstream rows(text_of(out + "/hashes.csv"));
+  std::getline(rows, run.header);
+  for (std::string row; std::getline(rows, row);) run.at[std::stoull(row)] = row;
+  run.summary = nlohmann::json::parse(text_of(out + "/summary.json"), nullptr, false);
+  return run;
+}
+
+inline std::vector<std::string> cells_of(const std::string& row) {
+  std::vector<std::string> out;
+  std::istringstream in(row);
+  for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+  return out;
+}
+
+/// "" when all rows from `from` on are equal; else the first that is not, with the parts that differ in it.
+inline std::string first_difference(const HashedRun& a, const HashedRun& b, std::uint64_t from = 0) {
+  const std::vector<std::string> names = cells_of(a.header);
+  for (auto row = a.at.lower_bound(from); row != a.at.end(); ++row) {
+    const auto other = b.at.find(row->first);
+    if (other == b.at.end()) return "step " + std::to_string(row->first) + " is missing in the second run";
+    if (row->second == other->second) continue;
+    const std::vector<std::string> one = cells_of(row->second), two = cells_of(other->second);
+    std::string out = "first different at step " + one[0] + ", t = " + one[1] + " s, in";
+    for (std::size_t i = 2; i < std::min(one.size(), two.size()); ++i)
+      if (one[i] != two[i]) out += " " + names[i];
+    return out;
+  }
+  if (a.at.empty()) return "no rows at all";
+  return a.header == b.header ? "" : "the columns differ";
+}
+
+}  // namespace navvy::determinism

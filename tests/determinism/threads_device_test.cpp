@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The small sibling of the minute of digging: one scoop, 1 and 2 threads, snapshot and resume.
+#include "determinism/hashed_run.h"
+
+namespace navvy::determinism {
+namespace {
+
+constexpr const char* kScene = "bucket_path.sdf";
+
+TEST(Threads, OneAndTwoThreadsScoopTheSameBits) {
+  const HashedRun one = hashed_run("one", kScene, {"--duration", "5"}, threads(1));
+  const HashedRun two = hashed_run("two", kScene, {"--duration", "5"}, threads(2));
+  // The setting acts: the device says how many workers it has.
+  EXPECT_NE(one.device.find(" 1 compute unit"), std::string::npos) << one.device;
+  EXPECT_NE(two.device.find(" 2 compute unit"), std::string::npos) << two.device;
+  EXPECT_EQ(first_difference(one, two), "");
+  EXPECT_EQ(one.at.size(), 6u + 1u) << "t = 0 .. 5 s and the end";
+  // What could have reordered sums was in play.
+  for (const char* key : {"rebins", "woken_columns", "deposited_blocks"})
+    EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
+}
+
+TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
+  const std::string snapshot = std::string(NAVVY_BINARY_DIR) + "/test-determinism/resume.snapshot";
+  const HashedRun whole =
+      hashed_run("whole", kScene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.5"}, {});
+  const HashedRun resumed = hashed_run("resumed", kScene, {"--duration", "4", "--resume", snapshot}, {});
+  ASSERT_FALSE(resumed.at.empty());
+  const std::uint64_t from = resumed.at.begin()->first;
+  EXPECT_LT(from, whole.at.rbegin()->first);
+  EXPECT_EQ(first_difference(whole, resumed, from), "");
+}
+
+}  // namespace
+}  // namespace navvy::determinism
