@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of the two node fields with tools: fractional, unilateral, Coulomb; and the sums of the two-way solve.
+// Contact of the two node fields with tools: fractional, unilateral, Coulomb and adhesion; and the sums of
+// the two-way solve.
 //
-// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; tools: TOOL_WORDS floats each.
+// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per near node (tan
+//      delta, adhesion [Pa], 1 / bank density, 0); tools: TOOL_WORDS floats each.
 // One work-item per near block. Host: src/soil/contact.cpp.
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "soil/contact_node.h"

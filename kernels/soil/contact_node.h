@@ -7,43 +7,44 @@
 #include "soil/layout.h"
 #include "soil/room.h"
 
-typedef struct Reach {
-  float h, ramp, edge, edge_ramp, rate;  // [cells]; rate = dt / reference step
-} Reach;
-
-// Weight of the contact at a node, 0..1, made independent of the step.
-// b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
-static inline float weight(float clearance, float inset, Reach r) {
-  const float along = clamp((inset - r.edge + 0.5f * r.edge_ramp) / r.edge_ramp, 0.0f, 1.0f);
-  const float b = clamp((r.h + 0.5f * r.ramp - clearance) / r.ramp, 0.0f, 1.0f) * along;
-  return b * r.rate / (1.0f + (r.rate - 1.0f) * b);
-}
+#define CONTACT_T float
+#define CONTACT_LIT(x) ((float)(x))
+#define CONTACT_MIN(a, b) fmin(a, b)
+#define CONTACT_MAX(a, b) fmax(a, b)
+#define CONTACT_ABS(a) fabs(a)
+#define CONTACT_FN static inline
+#include "soil/contact_law.h"
 
 typedef struct Node {
   float3 v, r, n;  // velocity, lever arm from the tool's origin [m], normal away from the plate on this field's side
-  float m, b, mu;
+  float m, b, mu, stick;  // mass, weight, tan of the friction angle, most shear without any push [N s]
 } Node;
 
-// Impulse on the node [N s] for the tool's twist; *pushing and *sticking tell the branch.
-static inline float3 impulse(const Node* node, float3 spin, float3 speed, bool* pushing, bool* sticking) {
+typedef struct Branch {
+  bool acts, pushing, sticking;  // at all; in the normal direction; slip is stopped whole
+} Branch;
+
+// Impulse on the node [N s] for the tool's twist, and how it came about. Twin: soil/reference/double_contact.h.
+static inline float3 impulse(const Node* node, float3 spin, float3 speed, float opening, Branch* branch) {
   const float3 rel = node->v - (speed + cross(spin, node->r));
   const float rn = dot(rel, node->n);
-  *pushing = rn < 0.0f;
-  *sticking = false;
-  if (!*pushing) return (float3)(0.0f);
-  const float jn = -node->m * rn;
+  branch->pushing = rn < 0.0f;
+  branch->acts = branch->pushing || (node->stick > 0.0f && rn < opening);
+  branch->sticking = false;
+  if (!branch->acts) return (float3)(0.0f);
+  const float jn = branch->pushing ? -node->m * rn : 0.0f;
   const float3 t = rel - rn * node->n;
   const float speed_t = sqrt(dot(t, t));
-  const float most = node->mu * jn;
-  *sticking = node->m * speed_t <= most;
-  const float3 jt = *sticking ? node->m * t : t * (most / fmax(speed_t, 1e-12f));
+  const float most = node->mu * jn + node->stick;
+  branch->sticking = node->m * speed_t <= most;
+  const float3 jt = branch->sticking ? node->m * t : t * (most / fmax(speed_t, 1e-12f));
   return node->b * (jn * node->n - jt);
 }
 
 // Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
 static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float dx, Reach reach,
                              global const float4* field, global const int* split, global const int* node_tool,
-                             global const float8* shell, global const float* friction, global const float* tools,
+                             global const float8* shell, global const float4* surface, global const float* tools,
                              int only) {
   const int i = slot * BLOCK_NODES + n;
   if (split[i] == 0) return false;
@@ -54,12 +55,21 @@ static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float
   if (at[TOOL_ACTIVE] == 0.0f || (only >= 0 && only != tool)) return false;
   const float sign = s == 0 ? 1.0f : -1.0f;
   const float8 q = shell[i];
-  node->b = weight(sign * q.s3 - at[TOOL_HALF], q.s4, reach);
+  const float clearance = sign * q.s3 - at[TOOL_HALF];
+  node->b = contact_weight(clearance, q.s4, &reach);
   if (!(node->b > 0.0f)) return false;
   node->v = v.xyz;
   node->m = v.w;
   node->n = sign * q.s012;
-  node->mu = friction[i];
+  const float4 soil = surface[i];  // tan of the tool friction angle, adhesion [Pa], 1 / bank density
+  node->mu = soil.x * at[TOOL_FRICTION];
+  node->stick = 0.0f;
+  if (soil.y > 0.0f) {
+    const float room = fmax(kernel_share((float4)(clearance)).x, LEAST_ROOM);
+    const float touch = contact_touch(v.w * soil.z / (dx * dx * dx * room));
+    const float adhesion = soil.y * at[TOOL_ADHESION] * touch;
+    node->stick = contact_stick(adhesion, contact_area(clearance, q.s4, &reach), node->b, &reach);
+  }
   const int3 p = 4 * (key - as_int3(vload3(0, at + TOOL_WINDOW))) + (int3)(n & 3, (n >> 2) & 3, n >> 4);
   node->r = dx * (convert_float3(p) - vload3(0, at + TOOL_ORIGIN));
   return true;
@@ -69,21 +79,21 @@ static inline bool load_node(Node* node, int s, int slot, int n, int3 key, float
 #define NODE_ARGS                                                                                                 \
   global const float4 *restrict before0, global const float4 *restrict before1, global const int *restrict split, \
       global const int *restrict node_tool, global const float8 *restrict shell,                                  \
-      global const float *restrict friction, global const float4 *restrict frame, const int first_tool,           \
+      global const float4 *restrict surface, global const float4 *restrict frame, const int first_tool,           \
       const int only, const Reach reach, const float dx
-#define NODE_SAME before0, before1, split, node_tool, shell, friction, frame, first_tool, only, reach, dx
-#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, friction, tools, only
+#define NODE_SAME before0, before1, split, node_tool, shell, surface, frame, first_tool, only, reach, dx
+#define NODE_PASS key, dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, surface, tools, only
 
 // Adds field s of near node n of a block to the sums: the wrench of J (angular about the tool's origin, linear) and
-// G^T b m P G, where P is what of the node's velocity the contact holds: the normal, or everything when it sticks.
+// G^T b m P G, where P is what of the node's velocity the contact holds: the normal, the slip, or both.
 static inline void add_sums(float* out, int s, int slot, int n, int3 key, NODE_ARGS) {
   global const float* tools = (global const float*)(frame + first_tool);
   Node node;
   if (!load_node(&node, s, slot, n, NODE_PASS)) return;
   global const float* at = tools + TOOL_WORDS * node_tool[slot * BLOCK_NODES + n];
-  bool pushing, sticking;
-  const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
-  if (!pushing) return;
+  Branch branch;
+  const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), reach.opening, &branch);
+  if (!branch.acts) return;
   const float3 l = cross(node.r, j);
   out[0] += l.x;
   out[1] += l.y;
@@ -91,14 +101,17 @@ static inline void add_sums(float* out, int s, int slot, int n, int3 key, NODE_A
   out[3] += j.x;
   out[4] += j.y;
   out[5] += j.z;
-  // Directions held: the normal, or three axes. Each adds b m g g^T with g = (r x d, d).
-  for (int a = 0; a < (sticking ? 3 : 1); ++a) {
-    const float3 d = !sticking ? node.n : (float3)(a == 0, a == 1, a == 2);
+  // Directions held: three axes when it sticks, the normal when it pushes; what sticks without push leaves the normal
+  // out. Each adds b m g g^T with g = (r x d, d).
+  for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
+    if (a == 3 && branch.pushing == branch.sticking) continue;
+    const float3 d = a == 3 ? node.n : (float3)(a == 0, a == 1, a == 2);
+    const float bm = a == 3 && !branch.pushing ? -node.b * node.m : node.b * node.m;
     const float3 moment = cross(node.r, d);
     const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
     int k = 6;
     for (int row = 0; row < 6; ++row)
-      for (int col = row; col < 6; ++col) out[k++] += node.b * node.m * g[row] * g[col];
+      for (int col = row; col < 6; ++col) out[k++] += bm * g[row] * g[col];
   }
 }
 
@@ -162,9 +175,9 @@ static inline Result apply_contact(int slot, int n, int3 key, global const float
     Node node;
     if (load_node(&node, s, slot, n, NODE_PASS)) {
       global const float* at = tools + TOOL_WORDS * node_tool[i];
-      bool pushing, sticking;
-      const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), &pushing, &sticking);
-      if (pushing) {
+      Branch branch;
+      const float3 j = impulse(&node, vload3(0, at + TOOL_SPIN), vload3(0, at + TOOL_SPEED), reach.opening, &branch);
+      if (branch.acts) {
         after = (float4)(v.xyz + j / node.m, dot(j, node.n));
         out.changed = 1;
       }

@@ -83,19 +83,30 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 }
 
 // Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity, neither held yet.
-// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. friction = tan of the tool friction
-// angle per home block; node_friction = its mean at the node by mass.
+// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = (tan of the
+// tool friction angle, adhesion, 1 / bank density, 0) per home block; node_surface = its mean at the node by mass.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float* restrict tiles, global const int* restrict used, global const float* restrict home_friction,
+    global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
-    global float* restrict node_friction, const float4 dv) {
+    global float4* restrict node_surface, const float4 dv) {
   const int slot = get_global_id(0);
   const int block = list[slot];
   float16 rows[3][16], total[16];
-  float weight[64];
+  float4 weight[64];
   for (int i = 0; i < 16; ++i) rows[0][i] = rows[1][i] = rows[2][i] = total[i] = 0.0f;
-  for (int i = 0; i < 64; ++i) weight[i] = 0.0f;
+  // Where all homes around have one surface, as nearly everywhere, there is nothing to weigh.
+  float4 first = (float4)(0.0f);
+  bool mixed = false, any_home = false;
+  for (int n = 0; n < 27; ++n) {
+    const int home = around[27 * block + n];
+    if (home < 0) continue;
+    if (!any_home) first = home_surface[home];
+    any_home = true;
+    mixed = mixed || any(home_surface[home] != first);
+  }
+  if (mixed)
+    for (int i = 0; i < 64; ++i) weight[i] = (float4)(0.0f);
   for (int n = 0; n < 27; ++n) {
     const int home = around[27 * block + n];
     if (home < 0) continue;
@@ -106,8 +117,15 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }
-    const float mu = home_friction[home];
-    for (int i = 0; i < 16; ++i) vstore4(vload4(i, weight) + mu * total[i].s37bf, i, weight);
+    if (!mixed) continue;
+    const float4 here = home_surface[home];
+    for (int i = 0; i < 16; ++i) {
+      const float4 m = total[i].s37bf;
+      weight[4 * i] += here * m.x;
+      weight[4 * i + 1] += here * m.y;
+      weight[4 * i + 2] += here * m.z;
+      weight[4 * i + 3] += here * m.w;
+    }
   }
   global float* out0 = field0 + (size_t)slot * (4 * BLOCK_NODES);
   global float* out1 = field1 + (size_t)slot * (4 * BLOCK_NODES);
@@ -121,7 +139,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     const float16 back = rows[2][i] + select(none, rows[0][i], s == 2);
     vstore16(velocity_of(select(sum, front, s > 0), dv), i, out0);
     vstore16(velocity_of(select(none, back, s > 0), dv), i, out1);
-    const float4 m = sum.s37bf;
-    vstore4(vload4(i, weight) / fmax(m, MASS_QUANTUM), i, node_friction + slot * BLOCK_NODES);
+    const float4 m = fmax(sum.s37bf, MASS_QUANTUM);
+    global float4* out = node_surface + slot * BLOCK_NODES + 4 * i;
+    out[0] = mixed ? weight[4 * i] / m.x : first;
+    out[1] = mixed ? weight[4 * i + 1] / m.y : first;
+    out[2] = mixed ? weight[4 * i + 2] / m.z : first;
+    out[3] = mixed ? weight[4 * i + 3] / m.w : first;
   }
 }

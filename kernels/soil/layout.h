@@ -46,6 +46,7 @@
 #define SOIL_INV_DENSITY 10
 #define SOIL_LAW_WORDS 11  // those above are what the law needs
 #define SOIL_TOOL_FRICTION 11
+#define SOIL_ADHESION 12  // [Pa]
 #define SOIL_WORDS 16
 
 // The frame: what changes every step about the tools, one buffer of float4. Triangles first, SHELL_WORDS each (see
@@ -58,6 +59,8 @@
 #define TOOL_SPEED 12   // 3: velocity of the origin [m/s]; the two-way solve changes it
 #define TOOL_START 16   // 6: twist before soil acts
 #define TOOL_YIELD 22   // 36: inverse mass, row major, angular first
+#define TOOL_FRICTION 58  // share of the soil's tool friction (its tangent) that this tool has
+#define TOOL_ADHESION 59  // share of the soil's adhesion, times plate area / sum of the areas its nodes stand for
 #define TOOL_WORDS 60
 
 // Report of one home block after a step: 1 when a value was not finite, fastest velocity component [m/s], farthest push

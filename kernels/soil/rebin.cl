@@ -60,11 +60,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean tool friction of each home, and the lanes past its count, which get mass 0.
+// Also the mean surface of each home (tan of the tool friction angle, adhesion [Pa], 1 / bank density [m3/kg], 0), and
+// the lanes past its count, which get mass 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const int4* restrict homes, global float* restrict state, const int capacity,
-    constant float* soils, global float* restrict home_friction) {
+    constant float* soils, global float4* restrict home_surface) {
   const int home = get_global_id(0);
   const int start = homes[home].x, end = start + homes[home].y;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
@@ -75,14 +76,18 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     const float rest = f < FIELD_X + 3 ? 2.0f : (f == FIELD_J || f == FIELD_J0) ? 1.0f : 0.0f;
     for (int at = end; at < padded; ++at) out[at] = rest;
   }
-  float friction = 0.0f;
+  // Differences from the first: a home of one soil has its values to the last bit.
+  float4 first = (float4)(0.0f), more = (float4)(0.0f);
   for (int at = start; at < end; ++at) {
     const int3 d = neighbour_offset(codes[from[at]]);
     state[at] -= 4.0f * d.x;
     state[(size_t)capacity + at] -= 4.0f * d.y;
     state[2 * (size_t)capacity + at] -= 4.0f * d.z;
     const int tag = as_int(state[(size_t)FIELD_TAG * capacity + at]);
-    friction += soils[(tag & 0xffff) * SOIL_WORDS + SOIL_TOOL_FRICTION];
+    constant float* soil = soils + (tag & 0xffff) * SOIL_WORDS;
+    const float4 here = (float4)(soil[SOIL_TOOL_FRICTION], soil[SOIL_ADHESION], soil[SOIL_INV_DENSITY], 0.0f);
+    if (at == start) first = here;
+    more += here - first;
   }
-  home_friction[home] = friction / (float)max(end - start, 1);
+  home_surface[home] = first + more / (float)max(end - start, 1);
 }

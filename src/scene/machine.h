@@ -117,6 +117,8 @@ struct Shell {
   std::vector<Vec3> vertices;  ///< in the link frame [m]
   std::vector<std::array<int, 3>> triangles;
   double half_thickness = 0.015;  ///< [m]
+  // What of a soil's tool friction (its tangent) and adhesion this surface has; 0 = smooth, no shear at all.
+  double friction_share = 1, adhesion_share = 1;
 };
 
 /// What makes a link a digging bucket.

@@ -243,6 +243,8 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
       .list("vertices_m", vertices, {-1000, 1000})
       .list("triangles", corners, {0, 1e6})
       .number("half_thickness_m", shell.half_thickness, {1e-4, 1})
+      .number("friction_share", shell.friction_share, {0, 2})
+      .number("adhesion_share", shell.adhesion_share, {0, 2})
       .finish();
   require_name(element, "link", "link", names.links, faults);
   const bool inline_given = fields.has("vertices_m") && fields.has("triangles");

@@ -32,6 +32,7 @@ int Contact::add_tool(const scene::Shell& shell) {
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
   if (!tools_.empty())
     tool.first_triangle = tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
+  tool.area_factor = plate_area_factor(*tool.geometry, settings_, cell_);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
 }
@@ -40,14 +41,19 @@ template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
       .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, node_tool_, shell_,
-            nodes_.friction, frame_, first_tool_, only, reach_, static_cast<float>(cell_), tail...)
+            nodes_.surface, frame_, first_tool_, only, reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
 void Contact::solve(Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
-  reach_ = {static_cast<float>(settings_.reach), static_cast<float>(settings_.ramp), static_cast<float>(settings_.edge),
-            static_cast<float>(settings_.edge_ramp), static_cast<float>(dt / reference_step_)};
+  reach_ = {static_cast<float>(settings_.reach),
+            static_cast<float>(settings_.ramp),
+            static_cast<float>(settings_.edge),
+            static_cast<float>(settings_.edge_ramp),
+            static_cast<float>(dt / reference_step_),
+            static_cast<float>(dt * cell_ * cell_),
+            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_))};
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;
     for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {

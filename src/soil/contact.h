@@ -29,7 +29,12 @@ struct ContactSettings {
   double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
   double longest_push = 0.2;  ///< position correction per step
   int sweeps = 3;             ///< of the two-way solve
+  double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
 };
+
+/// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
+/// plates with corners, at most 2.
+double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
 
 /// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
 class Contact {
@@ -70,6 +75,7 @@ class Contact {
   struct Tool {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
+    double area_factor = 1;            ///< plate area / what nodes stand for
     bool present = false;              ///< has a motion this step
     bool listed = false;               ///< near lists hold it
     Pose X_listed = Pose::Identity();  ///< where it was then
@@ -98,7 +104,7 @@ class Contact {
   std::vector<int> near_slot_, near_home_list_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;
-  std::array<float, 5> reach_{};
+  std::array<float, 7> reach_{};
   device::Buffer<float> frame_, sums_, shell_, books_;
   device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
       touched_;

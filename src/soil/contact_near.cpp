@@ -152,7 +152,7 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, nodes_.before0, 4 * nodes);
   ensure(device_, nodes_.before1, 4 * nodes);
   ensure(device_, nodes_.velocity1, 4 * nodes);
-  ensure(device_, nodes_.friction, nodes);
+  ensure(device_, nodes_.surface, 4 * nodes);
   ensure(device_, node_tool_, nodes);
   ensure(device_, shell_, 8 * nodes);
   ensure(device_, books_, 16 * nodes);
@@ -168,6 +168,8 @@ void Contact::append_tool(std::size_t index, std::vector<float>& words) const {
   const Vec3 origin = snapped(to_grid(tool.X.translation()) - corner);
   const std::int32_t window[3] = {tool.window.x, tool.window.y, tool.window.z};
   words[at + TOOL_HALF] = static_cast<float>(tool.geometry->shell().half_thickness / cell_);
+  words[at + TOOL_FRICTION] = static_cast<float>(tool.geometry->shell().friction_share);
+  words[at + TOOL_ADHESION] = static_cast<float>(tool.geometry->shell().adhesion_share * tool.area_factor);
   words[at + TOOL_ACTIVE] = tool.present ? 1.0f : 0.0f;
   for (std::size_t a = 0; a < 3; ++a) {
     words[at + TOOL_WINDOW + a] = std::bit_cast<float>(window[a]);

@@ -69,6 +69,7 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
     at[SOIL_SWELL] = static_cast<float>(k.swell);
     at[SOIL_LOOSENING] = static_cast<float>(k.loosening);
     at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
+    at[SOIL_ADHESION] = static_cast<float>(soils[i].adhesion);
     at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));
   }
   return table;

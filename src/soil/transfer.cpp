@@ -54,8 +54,8 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   grid_.args(far_list_, around_, store.homes_buffer(), tiles_, used_, floor_, velocity_, dv_f).enqueue_groups(far_);
   if (near.count == 0) return;
   grid_near_
-      .args(near.list, around_, store.homes_buffer(), tiles_, used_, store.home_friction(), near.split, near.before0,
-            near.before1, near.friction, dv_f)
+      .args(near.list, around_, store.homes_buffer(), tiles_, used_, store.home_surface(), near.split, near.before0,
+            near.before1, near.surface, dv_f)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 

@@ -20,7 +20,7 @@ struct NearNodes {
   device::Buffer<std::int32_t> split;      ///< per near node: 0, 1 in front, 2 behind
   device::Buffer<float> before0, before1;  ///< float4 per near node: v after gravity, m
   device::Buffer<float> velocity1;         ///< float4 per near node: what particles behind a shell feel
-  device::Buffer<float> friction;          ///< tan of the tool friction angle per near node
+  device::Buffer<float> surface;           ///< float4 per near node, see ParticleStore::surfaces
 };
 
 class Transfer {

@@ -47,13 +47,15 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
 // Blocks near shells, see soil/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float4* restrict tiles, global const int* restrict used, global const float* restrict home_friction,
+    global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float4* restrict field0, global float4* restrict field1,
-    global float* restrict node_friction, const float4 dv) {
+    global float4* restrict node_surface, const float4 dv) {
   const int slot = get_group_id(0), me = get_local_id(0);
   const int block = list[slot];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
-  float friction = 0.0f;
+  // Where all homes around have one surface, as nearly everywhere, the node has it to the last bit.
+  float4 surface = 0.0f, first = 0.0f;
+  bool mixed = false, found = false;
   for (int n = 0; n < 27; ++n) {
     const int home = around[27 * block + n], node = tile_node(n);
     if (home < 0 || node < 0) continue;
@@ -66,12 +68,16 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
       if (t == 2) back += part;
       mass += part.w;
     }
-    friction += home_friction[home] * mass;
+    const float4 here = home_surface[home];
+    if (!found) first = here;
+    found = true;
+    mixed = mixed || any(here != first);
+    surface += here * mass;
   }
   // Neutral soil joins the side its node lies on; an unsplit node joins everything.
   const int at = slot * BLOCK_NODES + me, split = node_split[at];
   const float4 sum = neutral + front + back, none = 0.0f;
   field0[at] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv);
   field1[at] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv);
-  node_friction[at] = friction / fmax(sum.w, MASS_QUANTUM);
+  node_surface[at] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
 }

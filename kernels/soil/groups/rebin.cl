@@ -69,16 +69,24 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean tool friction of each home, and the lanes past its count, which get mass 0.
+static inline float4 surface_of(constant float* soils, int tag) {
+  constant float* soil = soils + (tag & 0xffff) * SOIL_WORDS;
+  return (float4)(soil[SOIL_TOOL_FRICTION], soil[SOIL_ADHESION], soil[SOIL_INV_DENSITY], 0.0f);
+}
+
+// Also the mean surface of each home (soil/rebin.cl), and the lanes past its count, which get mass 0.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const int4* restrict homes, global float* restrict state,
-    const int capacity, constant float* soils, global float* restrict home_friction) {
-  local float friction[MEMBERS];
+    const int capacity, constant float* soils, global float4* restrict home_surface) {
+  local float4 surface[MEMBERS];
   const int home = get_group_id(0), me = get_local_id(0);
   const int start = homes[home].x, end = start + homes[home].y;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
-  float sum = 0.0f;
+  // Differences from the first particle's: a home of one soil has its values to the last bit.
+  float4 first = 0.0f, sum = 0.0f;
+  if (end > start)
+    first = surface_of(soils, as_int(old_state[(size_t)FIELD_TAG * old_capacity + from[start]]));
   for (int at = start + me; at < padded; at += MEMBERS) {
     const bool empty = at >= end;
     const int old = empty ? 0 : from[at];
@@ -91,13 +99,13 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     LOAD(FIELD_X) -= 4.0f * d.x;
     LOAD(FIELD_X + 1) -= 4.0f * d.y;
     LOAD(FIELD_X + 2) -= 4.0f * d.z;
-    sum += soils[(as_int(LOAD(FIELD_TAG)) & 0xffff) * SOIL_WORDS + SOIL_TOOL_FRICTION];
+    sum += surface_of(soils, as_int(LOAD(FIELD_TAG))) - first;
   }
-  friction[me] = sum;
+  surface[me] = sum;
   barrier(CLK_LOCAL_MEM_FENCE);
   for (int members = MEMBERS / 2; members > 0; members /= 2) {
-    if (me < members) friction[me] += friction[me + members];
+    if (me < members) surface[me] += surface[me + members];
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  if (me == 0) home_friction[home] = friction[0] / (float)max(end - start, 1);
+  if (me == 0) home_surface[home] = first + surface[0] / (float)max(end - start, 1);
 }

@@ -40,14 +40,13 @@ void for_nodes(const Weights& at, const Visit& visit) {
       }
 }
 
-/// See kernels/soil/room.h.
+}  // namespace
+
 double kernel_share(double t) {
   const double a = std::clamp(t, -0.5, 0.5), low = std::clamp(1.5 + t, 0.0, 1.0), high = std::clamp(1.5 - t, 0.0, 1.0);
   const double share = 0.5 + a * (0.75 - a * a / 3) + (low * low * low - high * high * high) / 6;
   return std::max(share, 0.25);
 }
-
-}  // namespace
 
 Point from_particle(const Particle& particle) {
   Point p;
@@ -121,6 +120,7 @@ void ReferenceSolver::step(double dt) {
     const double above = at[2] - ground_(at[0], at[1]);
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
     node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum / node.mass + gravity_ * dt);
+    if (contact && !empty && !fixed) node.momentum += contact(at, node.mass, node.momentum) / node.mass;
     node.mass /= kernel_share(above);
   }
   // Back to the particles; `momentum` of a node is its velocity now.

@@ -26,8 +26,11 @@ struct Point {
 
 Point from_particle(const Particle& particle);
 
+/// Share of a node's kernel on its side of a plane `t` cells away, not less than LEAST_ROOM; see kernels/soil/room.h.
+double kernel_share(double t);
+
 /// MLS-MPM with quadratic B-splines [Hu et al. 2018, "A moving least squares material point method ..."], APIC
-/// transfer, the law of kernels/soil/law.h. No tools. Slow: a map from node to momentum.
+/// transfer, the law of kernels/soil/law.h. No tools of its own. Slow: a map from node to momentum.
 class ReferenceSolver {
  public:
   /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to soil::kHeldMargin
@@ -36,6 +39,9 @@ class ReferenceSolver {
                   std::function<double(int, int)> ground);
 
   std::vector<Point> points;
+  /// Impulse of a tool on the node `at` [N s], from its mass [kg] and velocity after gravity [m/s]; may be empty. All
+  /// soil must lie on one side of the tool.
+  std::function<Vec3(const std::array<int, 3>& at, double mass, const Vec3& v)> contact;
 
   void step(double dt);
 
