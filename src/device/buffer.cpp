@@ -8,21 +8,30 @@ namespace navvy::device {
 struct RawBuffer::Memory {
   std::shared_ptr<Device::State> device;
   cl_mem memory = nullptr;
+  std::size_t size = 0;
 
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
     // Memory that host and device share is allocated where both reach it, so that mapping moves no bytes.
     const cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
-    cl_int code = CL_SUCCESS;
-    memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
+    cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+    // A CPU's driver would take more than there is and be killed for it later: the sum is bounded here.
+    if (bytes <= device->info.memory && device->memory_used <= device->info.memory - bytes)
+      memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
     if (code != CL_SUCCESS) {
       throw DeviceError("clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
-                            ", on device " + device->info.text(),
+                            ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
+                            " bytes are in use; use a larger soil cell or a device with more memory",
                         code);
     }
+    size = bytes;
+    device->memory_used += bytes;
   }
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
-  ~Memory() { clReleaseMemObject(memory); }
+  ~Memory() {
+    clReleaseMemObject(memory);
+    device->memory_used -= size;
+  }
 };
 
 namespace {

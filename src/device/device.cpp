@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "device/opencl_private.h"
 
@@ -183,6 +185,22 @@ void Device::State::collect() {
   events.clear();
 }
 
+namespace {
+
+/// What the environment allows of a device's memory [bytes].
+std::uint64_t allowed_memory(std::uint64_t memory) {
+  const char* variable = std::getenv("NAVVY_DEVICE_MEMORY_MIB");
+  if (variable == nullptr || *variable == '\0') return memory;
+  std::uint64_t mebibytes = 0;
+  const std::string_view text(variable);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
+  if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 || mebibytes > (1ULL << 40))
+    throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) + "': it must be a whole number of MiB");
+  return std::min(memory, mebibytes << 20);
+}
+
+}  // namespace
+
 Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   const char* variable = std::getenv("NAVVY_DEVICE");
   const bool from_environment = choice.empty() && variable != nullptr && *variable != '\0';
@@ -192,6 +210,7 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   if (index < 0) fail_to_match(found, wanted, from_environment);
   const Found& pick = found[static_cast<std::size_t>(index)];
   state_->info = pick.info;
+  state_->info.memory = allowed_memory(pick.info.memory);
   state_->device = pick.device;
   const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                               reinterpret_cast<cl_context_properties>(pick.platform), 0};
@@ -206,6 +225,7 @@ Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 
 const DeviceInfo& Device::info() const { return state_->info; }
+std::uint64_t Device::memory_used() const { return state_->memory_used; }
 void Device::finish() { state_->finish(); }
 void Device::flush() { check(clFlush(state_->queue), "clFlush", *state_); }
 

@@ -20,7 +20,7 @@ struct DeviceInfo {
   Kind kind = Kind::kOther;
   std::string name, vendor, platform, version, driver;
   int compute_units = 0;
-  std::uint64_t memory = 0;          ///< global memory [bytes]
+  std::uint64_t memory = 0;          ///< global memory [bytes]; what NAVVY_DEVICE_MEMORY_MIB allows when that is less
   std::uint64_t local_memory = 0;    ///< of one work-group [bytes]
   std::size_t max_work_group = 0;    ///< work-items
   bool shares_memory = false;        ///< with the host: mapped buffers cost no copy
@@ -48,6 +48,7 @@ class Device {
  public:
   /// Picks a device: "cpu", "gpu", an index of `list_devices`, or a part of a name or platform (case does not matter).
   /// Empty: what the environment variable NAVVY_DEVICE says, else the first CPU, else the first GPU, else the first.
+  /// NAVVY_DEVICE_MEMORY_MIB bounds the memory its buffers may take together [MiB].
   /// @throws DeviceError listing what exists and what to do when nothing matches.
   explicit Device(const std::string& choice = "");
   ~Device();
@@ -55,6 +56,8 @@ class Device {
   Device& operator=(Device&&) noexcept;
 
   const DeviceInfo& info() const;
+  /// Memory that buffers of this device hold now [bytes].
+  std::uint64_t memory_used() const;
 
   /// Waits until everything queued is done. @throws DeviceError when something queued failed.
   void finish();

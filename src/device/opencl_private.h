@@ -20,6 +20,7 @@ struct Device::State {
   cl_context context = nullptr;
   cl_command_queue queue = nullptr;
   bool profiling = false;
+  std::uint64_t memory_used = 0;                         ///< by buffers [bytes]
   std::vector<std::pair<std::string, cl_event>> events;  ///< launches not yet added to `times`
   std::map<std::string, KernelTime> times;
 

@@ -66,6 +66,10 @@ Particle get_record(const float* state, std::size_t capacity, std::size_t slot) 
   return p;
 }
 
+int slots_of(const std::vector<int>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
+}
+
 /// What a lane without a particle holds: inside its tile, no mass, no stress.
 Particle empty_lane() {
   Particle p;
@@ -117,7 +121,7 @@ void ParticleStore::upload_homes() {
   for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z, 0};
   fit(device_, home_keys_, keys.size());
   home_keys_.write(keys);
-  fit(device_, home_friction_, homes_.size());
+  fit(device_, home_surface_, 4 * homes_.size());
 }
 
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
@@ -131,15 +135,26 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   return tile;
 }
 
-void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_given) {
-  std::vector<Particle> sorted = particles;
+std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, bool homes_given) {
   if (!homes_given)
-    for (Particle& p : sorted) find_home(p);
+    for (Particle& p : particles) find_home(p);
   // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in.
-  std::stable_sort(sorted.begin(), sorted.end(), [homes_given](const Particle& a, const Particle& b) {
+  std::stable_sort(particles.begin(), particles.end(), [homes_given](const Particle& a, const Particle& b) {
     if (!(key_of(a) == key_of(b))) return key_of(a) < key_of(b);
     return !homes_given && cell_of(a) < cell_of(b);
   });
+  return particles;
+}
+
+void ParticleStore::make_room(int side, int slots, int wanted) {
+  if (slots <= capacity_[side] && !state_[side].empty()) return;
+  const int capacity = padded(std::max(wanted, 1024));
+  state_[side] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity) * FIELD_COUNT);
+  capacity_[side] = capacity;
+}
+
+void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_given) {
+  const std::vector<Particle> sorted = ParticleStore::sorted(particles, homes_given);
   std::vector<BlockKey> keys;
   std::vector<int> counts;
   for (const Particle& p : sorted) {
@@ -151,10 +166,7 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
   }
   table_.build(std::move(keys));
   const int slots = lay_out(counts);
-  if (slots > capacity_[at_] || state_[at_].empty()) {
-    capacity_[at_] = padded(std::max(slots + slots / 2, 1024));
-    state_[at_] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity_[at_]) * FIELD_COUNT);
-  }
+  make_room(at_, slots, slots + slots / 2);
   {
     const auto view = state_[at_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[at_]);
@@ -167,14 +179,27 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
     }
   }
   upload_homes();
-  std::vector<float> friction(homes_.size(), 0.0f);
+  home_surface_.write(surfaces(sorted));
+}
+
+std::vector<float> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
+  // The same sums in the same order as in rebin_move.
+  constexpr std::array<std::size_t, 3> kWords{SOIL_TOOL_FRICTION, SOIL_ADHESION, SOIL_INV_DENSITY};
+  std::vector<float> out(4 * homes_.size(), 0.0f);
   std::size_t next = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
-    for (int i = 0; i < homes_[h].count; ++i)
-      friction[h] += soils_host_[sorted[next++].soil * static_cast<std::size_t>(SOIL_WORDS) + SOIL_TOOL_FRICTION];
-    friction[h] /= static_cast<float>(homes_[h].count);
+    const auto count = static_cast<std::size_t>(homes_[h].count);
+    for (std::size_t w = 0; w < kWords.size(); ++w) {
+      const auto value = [&](std::size_t i) {
+        return soils_host_[sorted[i].soil * std::size_t{SOIL_WORDS} + kWords[w]];
+      };
+      float more = 0;
+      for (std::size_t i = next; i < next + count; ++i) more += value(i) - value(next);
+      out[4 * h + w] = value(next) + more / static_cast<float>(count);
+    }
+    next += count;
   }
-  home_friction_.write(friction);
+  return out;
 }
 
 std::vector<Particle> ParticleStore::records() const {
@@ -268,24 +293,25 @@ std::vector<Particle> ParticleStore::rebin() {
       sources[27 * k + n] = old;
       new_counts[k] += flow;
     }
+  // Room first: without it the old order still stands.
+  const int other = 1 - at_;
+  const int slots = slots_of(new_counts);
+  make_room(other, slots, std::max(slots + slots / 4, capacity_[at_]));
+  fit(device_, old_homes_buffer_, keys.size());
+  fit(device_, home_keys_, keys.size());
+  fit(device_, home_surface_, 4 * keys.size());
+  fit(device_, sources_, sources.size());
+  fit(device_, from_, static_cast<std::size_t>(slots));
   std::swap(homes_buffer_, old_homes_buffer_);
   if (!(keys == table_.homes)) table_.build(std::move(keys));
-  const int slots = lay_out(new_counts);
+  lay_out(new_counts);
   upload_homes();
-
-  const int other = 1 - at_;
-  if (slots > capacity_[other] || state_[other].empty()) {
-    capacity_[other] = padded(std::max({slots + slots / 4, capacity_[at_], 1024}));
-    state_[other] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity_[other]) * FIELD_COUNT);
-  }
-  fit(device_, sources_, sources.size());
   sources_.write(sources);
-  fit(device_, from_, static_cast<std::size_t>(slots));
   gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
       .enqueue_groups(homes_.size());
   move_kernel_
       .args(state_[at_], capacity_[at_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
-            home_friction_)
+            home_surface_)
       .enqueue_groups(homes_.size());
   at_ = other;
   return {};

@@ -35,6 +35,8 @@ class ParticleStore {
 
   /// Replaces everything. `homes_given`: Particle::block is the home to keep (a snapshot), else homes are found.
   void assign(const std::vector<Particle>& particles, bool homes_given = false);
+  /// The order in which `assign` stores.
+  static std::vector<Particle> sorted(std::vector<Particle> particles, bool homes_given = false);
   /// All particles in stored order; Particle::block is the home.
   std::vector<Particle> records() const;
   /// Mass per soil, counted from the device's arrays; a particle with a value that is not finite is not counted.
@@ -55,21 +57,26 @@ class ParticleStore {
   double densest() const;
   device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
   device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
-  device::Buffer<float>& home_friction() { return home_friction_; }
+  device::Buffer<float>& home_surface() { return home_surface_; }
 
   /// Feeds block keys and every word of every particle.
   void hash(StateHash& hash) const;
 
  private:
   int lay_out(const std::vector<int>& counts);
+  /// The state arrays of a side hold at least `slots`, made for `wanted` when they must be made. Changes nothing when
+  /// the device has no room.
+  void make_room(int side, int slots, int wanted);
   void upload_homes();
+  /// Four floats a home: mean tan of the tool friction angle, adhesion, 1 / bank density, 0.
+  std::vector<float> surfaces(const std::vector<Particle>& sorted) const;
   std::vector<Particle> drop_outside(const std::vector<int>& counts);
 
   device::Device& device_;
   std::array<std::int32_t, 4> site_;
   device::Program program_;
   device::Kernel count_kernel_, gather_kernel_, move_kernel_;
-  device::Buffer<float> soils_, state_[2], home_friction_;
+  device::Buffer<float> soils_, state_[2], home_surface_;
   std::vector<float> soils_host_;
   int capacity_[2] = {0, 0};
   int at_ = 0;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "device/error.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
@@ -103,18 +104,30 @@ double Solver::State::tool_speed(const ToolMotion& motion) const {
 
 void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
   double fastest = 0;
-  for (const ToolMotion& motion : motions) fastest = std::max(fastest, state_->tool_speed(motion));
+  for (const ToolMotion& motion : motions) {
+    state_->check_motion(motion);
+    fastest = std::max(fastest, state_->tool_speed(motion));
+  }
   // A step well beyond the limit is split; the tools move and yield in between.
   const int parts = std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
-  const double part = dt / parts;
-  std::vector<ToolMotion> now(motions.begin(), motions.end());
-  std::vector<ToolImpulse> got(motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
     impulses[m].p_W = motions[m].X_WT.translation();
   }
+  try {
+    state_->advance_in_parts(dt, parts, motions, impulses);
+  } catch (const device::DeviceError& error) {
+    throw device::DeviceError(state_->here() + error.what(), error.code());
+  }
+}
+
+void Solver::State::advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions,
+                                     std::span<ToolImpulse> impulses) {
+  const double part = dt / parts;
+  std::vector<ToolMotion> now(motions.begin(), motions.end());
+  std::vector<ToolImpulse> got(motions.size());
   for (int i = 0; i < parts; ++i) {
-    state_->advance(part, now, got);
+    advance(part, now, got);
     for (std::size_t m = 0; m < motions.size(); ++m) {
       add_impulse(impulses[m], got[m]);
       if (i + 1 == parts) continue;
@@ -218,8 +231,7 @@ void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> m
   }
   const std::int64_t error = ledger().error();
   if (error != 0) {
-    throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) +
-                          " s: the mass ledger is open by " + std::to_string(error) + " units of 2^-24 kg");
+    throw SimulationError(here() + "the mass ledger is open by " + std::to_string(error) + " units of 2^-24 kg");
   }
 }
 
@@ -229,7 +241,13 @@ void Solver::State::assign(const std::vector<Particle>& particles) {
     log_warning("soil: " + std::to_string(particles.size()) + " particles are awake, more than the budget of " +
                 std::to_string(world.solver.max_particles));
   over_budget = over;
-  store.assign(particles);
+  try {
+    store.assign(particles);
+  } catch (const device::DeviceError&) {
+    unplaced = ParticleStore::sorted(particles);  // so that books and snapshot stay whole
+    throw;
+  }
+  unplaced.clear();
   in_particles.assign(world.soils.size(), 0);
   for (const Particle& p : particles) in_particles[p.soil] += p.mass;
   blocks_changed = true;
@@ -271,28 +289,6 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
   }
   if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.heights());
   blocks_changed = false;
-}
-
-void Solver::State::fail(double speed) const {
-  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / cell) +
-                      " cells in one step (" + std::to_string(speed) + " m/s)";
-  for (const Particle& p : store.records()) {
-    double sum = 0, fastest = 0;
-    for (const float v : p.v) fastest = std::max(fastest, static_cast<double>(std::abs(v)));
-    for (const float v : p.x) sum += v;
-    for (const float v : p.v) sum += v;
-    for (const float v : p.c) sum += v;
-    for (const float v : p.s) sum += v;
-    sum += static_cast<double>(p.j) + p.j0 + p.shear;
-    if (std::isfinite(sum) && (!std::isfinite(speed) || fastest < 0.999 * speed)) continue;
-    cause += std::string("; particle ") + std::to_string(p.id) +
-             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") + ", block (" +
-             std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " + std::to_string(p.block[2]) +
-             "), offset (" + std::to_string(p.x[0]) + ", " + std::to_string(p.x[1]) + ", " + std::to_string(p.x[2]) +
-             ") cells, volume ratio " + std::to_string(p.j);
-    break;
-  }
-  throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) + " s: " + cause);
 }
 
 void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {

@@ -21,6 +21,10 @@ Ledger Solver::State::ledger() const {
   out.columns = ground.mass_change();
   out.columns.resize(world.soils.size(), 0);
   out.particles = store.masses(world.soils.size());
+  if (!unplaced.empty()) {
+    out.particles.assign(world.soils.size(), 0);
+    for (const Particle& p : unplaced) out.particles[p.soil] += p.mass;
+  }
   out.left_site = left_site;
   out.inserted = inserted;
   return out;
@@ -30,8 +34,7 @@ void Solver::State::check_masses() {
   const std::vector<std::int64_t> counted = mass_count.take();
   for (std::size_t soil = 0; soil < counted.size(); ++soil) {
     if (counted[soil] == in_particles[soil]) continue;
-    throw SimulationError("soil step " + std::to_string(stats.steps) + ", t = " + std::to_string(time) +
-                          " s: the particles of '" + world.soils[soil].name + "' weigh " +
+    throw SimulationError(here() + "the particles of '" + world.soils[soil].name + "' weigh " +
                           std::to_string(counted[soil] - in_particles[soil]) + " units of 2^-24 kg more than booked");
   }
 }
@@ -39,7 +42,7 @@ void Solver::State::check_masses() {
 Ledger Solver::ledger() const { return state_->ledger(); }
 
 std::vector<Particle> Solver::particles() const {
-  std::vector<Particle> out = state_->store.records();
+  std::vector<Particle> out = state_->records();
   for (Particle& p : out) p = in_cell_block(p);
   std::sort(out.begin(), out.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
   return out;
@@ -49,7 +52,7 @@ double Solver::payload(int tool, const Pose& X_WT) const {
   const ShellGeometry& geometry = state_->contact.geometry(tool);
   const Pose X_TW = X_WT.inverse();
   std::int64_t sum = 0;
-  for (const Particle& p : state_->store.records()) {
+  for (const Particle& p : state_->records()) {
     Vec3 grid;
     for (int a = 0; a < 3; ++a) grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
     if (geometry.holds(X_TW * (state_->origin + grid * state_->cell))) sum += p.mass;
@@ -81,7 +84,7 @@ void Solver::hash(StateHash& hash) const {
 void Solver::save(StateWriter& writer) const {
   const State& s = *state_;
   writer.begin("soil", 1);
-  writer.vector(s.store.records());
+  writer.vector(s.records());
   writer.value(s.blocks_changed);
   writer.value(s.drift);
   writer.value(s.time);
@@ -102,6 +105,7 @@ void Solver::load(StateReader& reader) {
   State& s = *state_;
   reader.begin("soil", 1);
   s.store.assign(reader.vector<Particle>(), true);
+  s.unplaced.clear();
   s.blocks_changed = reader.value<bool>();
   s.drift = reader.value<double>();
   s.time = reader.value<double>();

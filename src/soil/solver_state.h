@@ -20,6 +20,7 @@ namespace navvy::soil {
 struct Solver::State {
   State(device::Device& device_in, const scene::World& world_in, heightfield::Ground& ground_in);
 
+  void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void exchange_if_due(double dt, std::span<const ToolMotion> motions);
   void check_exchange(double elapsed, std::span<const ToolMotion> motions);
@@ -27,10 +28,16 @@ struct Solver::State {
   void lay_out(std::span<const ToolMotion> motions);
   void add(std::vector<Particle> particles);
   void assign(const std::vector<Particle>& particles);
+  /// What there is, on the device or because the device had no room on the host.
+  std::vector<Particle> records() const { return unplaced.empty() ? store.records() : unplaced; }
   void book_left(const std::vector<Particle>& left);
   double tool_speed(const ToolMotion& motion) const;
   Ledger ledger() const;
   void check_masses();
+  /// Throws when no step can carry this motion.
+  void check_motion(const ToolMotion& motion) const;
+  /// "soil step 12, t = 0.02 s: ", the start of every fault.
+  std::string here() const;
   [[noreturn]] void fail(double speed) const;
 
   device::Device& device;
@@ -47,6 +54,7 @@ struct Solver::State {
   Exchange exchange;
   MassCount mass_count;
 
+  std::vector<Particle> unplaced;  ///< all particles, once the device could not take them: the run is over
   bool blocks_changed = true;
   bool over_budget = false;  ///< said so already
   double drift = 0;          ///< cells particles may have moved since the last re-bin

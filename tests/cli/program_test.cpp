@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +14,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "process.h"
 
 namespace navvy {
 namespace {
@@ -45,25 +43,10 @@ class Program : public testing::Test {
   pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
     const std::string in = (directory_ / "stdin").string();
     std::ofstream(in) << input;
-    const pid_t child = fork();
-    if (child != 0) return child;
-    const int in_fd = ::open(in.c_str(), O_RDONLY);
-    const int out_fd = ::open((directory_ / "stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    const int err_fd = ::open((directory_ / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    dup2(in_fd, 0);
-    dup2(out_fd, 1);
-    dup2(err_fd, 2);
-    std::vector<char*> argv{const_cast<char*>(NAVVY_PROGRAM)};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    execv(NAVVY_PROGRAM, argv.data());
-    _exit(127);
+    return test::start({NAVVY_PROGRAM, arguments, environment_, in, (directory_ / "stdout").string(),
+                        (directory_ / "stderr").string()});
   }
-  static int wait(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
+  static int wait(pid_t child) { return test::wait_for(child); }
   int run(const std::vector<std::string>& arguments, const std::string& input = "") {
     return wait(start(arguments, input));
   }
@@ -71,6 +54,7 @@ class Program : public testing::Test {
   std::string complained() const { return text_of(directory_ / "stderr"); }
 
   fs::path directory_;
+  std::vector<std::pair<std::string, std::string>> environment_;
 };
 
 /// Every file of a run, if it is there at all, is whole.
@@ -125,6 +109,8 @@ TEST_F(Program, TellsBadInputByStatusAndMessage) {
   EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "soil.cohesion_pa=nan"}), 2);
   EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "soil.kohesion_pa=1"}), 2);
   EXPECT_NE(complained().find("cohesion_pa"), std::string::npos) << complained();
+  EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "soil.bank_density_kg_per_m3=0"}), 2);
+  EXPECT_NE(complained().find("bank_density"), std::string::npos) << complained();
   EXPECT_EQ(run({"run", scene("trench.sdf"), "--at", "here"}), 2);
   EXPECT_EQ(run({"run"}), 2);
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--device", "no such device", "--out", out()}), 3);
@@ -264,6 +250,27 @@ TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   const auto resumed = nlohmann::json::parse(text_of(out() + "2/summary.json"));
   EXPECT_EQ(resumed.at("steps"), whole.at("steps"));
   EXPECT_EQ(resumed.at("state_hash"), whole.at("state_hash"));
+}
+
+TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatGoesOn) {
+  environment_ = {{"NAVVY_DEVICE_MEMORY_MIB", "20"}};
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "4", "--out", out()}), 3)
+      << complained();
+  EXPECT_NE(complained().find("soil step"), std::string::npos) << complained();
+  EXPECT_NE(complained().find("bytes are in use"), std::string::npos) << complained();
+  const auto failed = nlohmann::json::parse(text_of(out() + "/summary.json"));
+  EXPECT_EQ(failed.at("status"), "failed");
+  EXPECT_GT(failed.at("simulated_time_s").get<double>(), 0.5) << "it dug before the memory ended";
+  EXPECT_EQ(failed.at("mass_ledger").at("error_units"), 0);
+  environment_.clear();
+  const double time = failed.at("simulated_time_s").get<double>() + 0.1;
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", std::to_string(time), "--out",
+                 out() + "2", "--resume", out() + "/failed.snapshot"}),
+            0)
+      << complained();
+  const auto resumed = nlohmann::json::parse(text_of(out() + "2/summary.json"));
+  EXPECT_EQ(resumed.at("mass_ledger").at("error_units"), 0);
+  EXPECT_GT(resumed.at("steps").get<int>(), failed.at("steps").get<int>());
 }
 
 TEST_F(Program, ListsDevicesSoilsAndChannels) {
