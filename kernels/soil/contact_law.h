@@ -40,8 +40,8 @@ CONTACT_FN CONTACT_T contact_inner(CONTACT_T inset, const Reach* r) {
 }
 
 // Area of plate a node stands for [cell faces]. A hat across the plate, whose sum over a row of nodes is 1 wherever the
-// plate lies between them; its middle half a cell nearer than the reach, where soil that touches always has mass. The sum
-// over a plate is its area but for corners, for which the host scales the tool (TOOL_ADHESION).
+// plate lies between them; its middle half a cell nearer than the reach, where soil that touches always has mass. The
+// sum over a plate is its area but for corners, for which the host scales the tool (TOOL_ADHESION).
 CONTACT_FN CONTACT_T contact_area(CONTACT_T clearance, CONTACT_T inset, const Reach* r) {
   const CONTACT_T off = clearance - (r->h - CONTACT_LIT(0.5));
   return CONTACT_MAX(CONTACT_LIT(0.0), CONTACT_LIT(1.0) - CONTACT_ABS(off)) * contact_inner(inset, r);

@@ -64,8 +64,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
 // the lanes past its count, which get mass 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
-    global const int* restrict from, global const int4* restrict homes, global float* restrict state, const int capacity,
-    constant float* soils, global float4* restrict home_surface) {
+    global const int* restrict from, global const int4* restrict homes, global float* restrict state,
+    const int capacity, constant float* soils, global float4* restrict home_surface) {
   const int home = get_global_id(0);
   const int start = homes[home].x, end = start + homes[home].y;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;

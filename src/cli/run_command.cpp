@@ -148,8 +148,9 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");
   command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
-  command->add_option("--hash-every", options->hash_every,
-                      "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
+  command
+      ->add_option("--hash-every", options->hash_every,
+                   "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
       ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
