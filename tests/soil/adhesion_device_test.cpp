@@ -83,7 +83,7 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   twin.step(kDt);
   ToolImpulse impulse;
   rig.solver().step(kDt, std::span(&motion, 1), std::span(&impulse, 1));
-  rig::report("impulse along the plate, kernel / twin", impulse.J_W.x() / -on_soil.x(), "1 +-1e-4", "double twin");
+  print_value("impulse along the plate, kernel / twin", impulse.J_W.x() / -on_soil.x(), "1 +-1e-4", "double twin");
   // Float sums of some hundred nodes; a node at the branch between sticking and sliding changes nothing of the force.
   EXPECT_NEAR(impulse.J_W.x(), -on_soil.x(), 1e-4 * on_soil.norm());
   EXPECT_NEAR(impulse.J_W.z(), -on_soil.z(), 1e-4 * on_soil.norm());
@@ -137,7 +137,7 @@ TEST(Adhesion, APlateSlidOnSoilFeelsAdhesionTimesAreaPlusCoulomb) {
   for (const Case& c : {Case{1000, 0, 2000}, Case{1000, 20, 2000}, Case{3000, 20, 2000}, Case{1000, 20, 500}}) {
     const Slid slid = slide(sticky(c.adhesion, c.delta), c.pressure);
     const double expected = c.adhesion * 0.48 + std::tan(radians(c.delta)) * slid.push;
-    rig::report("plate on soil, a " + std::to_string(c.adhesion) + " Pa, delta " + std::to_string(c.delta) +
+    print_value("plate on soil, a " + std::to_string(c.adhesion) + " Pa, delta " + std::to_string(c.delta) +
                     ", pressure " + std::to_string(c.pressure) + ", shear",
                 slid.shear, std::to_string(expected) + " N +-5 %", "a A + N tan delta");
     // 5 %: the last rows of nodes at the plate's edges come and go as it slides.
