@@ -33,8 +33,10 @@ bool ControlStdio::exchange() {
   };
   const json in = json::parse(line, nullptr, false);
   if (!in.is_object()) throw fault("line", line.substr(0, 80), "must be one JSON object");
+  for (const auto& [key, value] : in.items())
+    if (key != "inputs" && key != "end") throw fault(key, value.dump().substr(0, 80), "must be 'inputs' or 'end'");
   if (in.contains("end")) {
-    if (!in["end"].is_boolean()) throw fault("end", in["end"].dump(), "must be true or false");
+    if (!in["end"].is_boolean()) throw fault("end", in["end"].dump().substr(0, 80), "must be true or false");
     if (in["end"].get<bool>()) return false;
   }
   if (!in.contains("inputs")) return true;

@@ -15,8 +15,8 @@ namespace {
 // the EW180 kept 520 kg of 720 through the curl, filled to 0.55 400 of 510.
 constexpr double kFill = 0.55;
 constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
-constexpr double kEmptyPayload = 10;  // [kg] the bucket counts as empty
-constexpr double kWorthPayload = 40;  // [kg] less makes an empty scoop
+constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
+constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
 constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
 // so long after the lift [s]. Then a well filled bucket [share of a full one] swings more gently [share of the usual
@@ -159,13 +159,13 @@ void Operator::State::start_dump(const Observation& seen) {
 }
 
 bool Operator::State::dumped(const Observation& seen) const {
-  return seen.payload < kEmptyPayload || m.phase_time > move_time() + kDumpPatience;
+  return seen.payload < kEmpty * m.full_mass || m.phase_time > move_time() + kDumpPatience;
 }
 
 void Operator::State::shake(const Observation& seen) {
   // Sticky soil: a few strokes of the bucket cylinder, as every operator does.
   const double since = m.phase_time - move_time();
-  if (since <= 0 || seen.payload < kEmptyPayload) return;
+  if (since <= 0 || seen.payload < kEmpty * m.full_mass) return;
   const double stroke = kShake * std::sin(kShakeRate * since);
   m.q[3] = std::clamp(m.to[3] - std::abs(stroke), arm->lower(2), arm->upper(2));
 }
@@ -232,7 +232,7 @@ bool Operator::State::run(const scene::Dig& step, const Observation& seen, doubl
       break;
     case Phase::kSwing:
       if (!move(seen)) break;
-      m.empty_scoops = seen.payload < kWorthPayload ? m.empty_scoops + 1 : 0;
+      m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       if (m.empty_scoops > 0 && m.cleaning == 0)
         with_surface(seen, [&](const SurfaceView& surface) { plan.refuse(surface, m.scoop_start); });
       event = CycleEvent::kDumpStart;
@@ -241,7 +241,7 @@ bool Operator::State::run(const scene::Dig& step, const Observation& seen, doubl
     case Phase::kDump: {
       // The bucket need not open all the way when it is empty before.
       const bool open = m.phase_time > move_time() || move(seen);
-      const bool early = m.phase_time > kEarly * move_time() && seen.payload < kEmptyPayload;
+      const bool early = m.phase_time > kEarly * move_time() && seen.payload < kEmpty * m.full_mass;
       shake(seen);
       if (!early && (!open || !dumped(seen))) break;
       ++m.cycles;

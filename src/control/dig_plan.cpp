@@ -89,10 +89,14 @@ void DigPlan::refuse(const SurfaceView& surface, double s) {
   }
 }
 
+double DigPlan::piece_above(const SurfaceView& surface, int i, double level) const {
+  return std::max(0.0, remaining(surface, i, level)) * dig_.width * length_ / (samples() - 1);
+}
+
 double DigPlan::volume_above(const SurfaceView& surface, double level) const {
   double sum = 0;
-  for (int i = 0; i < samples(); ++i) sum += std::max(0.0, remaining(surface, i, level));
-  return sum * dig_.width * length_ / samples();
+  for (int i = 1; i < samples(); ++i) sum += piece_above(surface, i, level);
+  return sum;
 }
 
 double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
@@ -101,7 +105,7 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
   const double load = rest / std::max(1.0, std::ceil(rest / scoop_volume_ - kOverload));
   double volume = 0;
   for (int i = start; i > 0; --i) {
-    volume += std::max(0.0, remaining(surface, i, level)) * dig_.width * length_ / (samples() - 1);
+    volume += piece_above(surface, i, level);
     if (volume >= load) return at(i);
   }
   return 0;

@@ -62,6 +62,8 @@ class DigPlan {
   double height(const SurfaceView& surface, double s) const;
   /// Height of soil above depth `level` at sample i that can be dug, negative where it is dug deeper [m].
   double remaining(const SurfaceView& surface, int i, double level) const;
+  /// Soil above depth `level` between samples i - 1 and i [m3].
+  double piece_above(const SurfaceView& surface, int i, double level) const;
   double at(int i) const { return length_ * i / (samples() - 1); }
   int samples() const { return static_cast<int>(start_.size()); }
   void derive();

@@ -217,14 +217,14 @@ void Operator::hash(StateHash& hash) const {
 }
 
 void Operator::save(StateWriter& writer) const {
-  writer.begin("operator", 1);
+  writer.begin("operator", 2);
   writer.value(state_->m);
   state_->plan.save(writer);
   writer.end();
 }
 
 void Operator::load(StateReader& reader) {
-  reader.begin("operator", 1);
+  reader.begin("operator", 2);
   // The scene may have changed since.
   state_->m = reader.value<Memory>();
   state_->plan.load(reader);

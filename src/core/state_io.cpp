@@ -35,7 +35,7 @@ void StateReader::fail(const std::string& rule) const {
                          "it was written by another version of Navvy or damaged; record it again"});
 }
 
-std::uint32_t StateReader::begin(const std::string& tag, std::uint32_t newest) {
+void StateReader::begin(const std::string& tag, std::uint32_t known) {
   if (open_) fail("section entered before the last was left");
   tag_ = tag;
   need(kTagSize);
@@ -43,12 +43,12 @@ std::uint32_t StateReader::begin(const std::string& tag, std::uint32_t newest) {
   at_ += kTagSize;
   if (found != tag) fail("expected this section, found '" + found + "'");
   const auto version = value<std::uint32_t>();
-  if (version == 0 || version > newest) fail("version " + std::to_string(version) + " is not known");
+  if (version != known)
+    fail("version " + std::to_string(version) + " of this section, this program reads " + std::to_string(known));
   const auto size = value<std::uint64_t>();
   if (size > bytes_.size() - at_) fail("the section is cut short");
   section_end_ = at_ + size;
   open_ = true;
-  return version;
 }
 
 void StateReader::end() {

@@ -58,7 +58,7 @@ class StateReader {
   explicit StateReader(std::vector<char> bytes) : bytes_(std::move(bytes)) {}
 
   /// Enters the next section, which must carry this tag; returns its version, which must be <= newest.
-  std::uint32_t begin(const std::string& tag, std::uint32_t newest);
+  void begin(const std::string& tag, std::uint32_t known);
   /// Leaves the section; throws if bytes of it were left unread.
   void end();
 

@@ -128,7 +128,7 @@ void Recorder::State::checkpoint(bool force) {
   const Lap lap(status.record_time);
   telemetry.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
-  if (force) write_file_atomically(path("summary.json"), summary_json(session, status));
+  write_file_atomically(path("summary.json"), summary_json(session, status, force));
   since_checkpoint.restart();
 }
 

@@ -2,6 +2,7 @@
 #include "record/summary.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace navvy::record {
@@ -91,7 +92,11 @@ double bank_volume(const std::vector<heightfield::Layer>& column, const std::vec
 
 }  // namespace
 
-Earthwork measure_earthwork(const heightfield::Ground& ground) {
+Earthwork measure_earthwork(const heightfield::Ground& ground, const soil::Solver* particles) {
+  std::map<std::pair<int, int>, double> awake;  // bank volume over columns [m3]
+  if (particles != nullptr)
+    for (const soil::Particle& p : particles->particles())
+      awake[particles->grid().column_of(p)] += kilograms(p.mass) / ground.setup().soils[p.soil].bank_density;
   Earthwork sum;
   const heightfield::CellRect rect = ground.touched_rect();
   const double area = ground.cell() * ground.cell();
@@ -102,16 +107,18 @@ Earthwork measure_earthwork(const heightfield::Ground& ground) {
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
       ground.column(ix, iy, now);
       ground.start_column(ix, iy, start);
-      const double gain = bank_volume(now, ground.setup().soils) - bank_volume(start, ground.setup().soils);
+      const auto above = awake.find({ix, iy});
+      const double gain = bank_volume(now, ground.setup().soils) + (above == awake.end() ? 0.0 : above->second) -
+                          bank_volume(start, ground.setup().soils);
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least) sum.loose_volume += area * (ground.height(ix, iy) - ground.start_height(ix, iy));
     }
   return sum;
 }
 
-std::string summary_json(const sim::Session& session, const RunStatus& status) {
+std::string summary_json(const sim::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
-  const Earthwork earth = measure_earthwork(world.ground());
+  const Earthwork earth = measure_earthwork(world.ground(), &world.soil());
   const soil::SolverStats& stats = world.soil().stats();
   json out;
   out["schema_version"] = kSummarySchemaVersion;
@@ -147,7 +154,7 @@ std::string summary_json(const sim::Session& session, const RunStatus& status) {
   out["deposited_blocks"] = stats.deposits;
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session);
-  out["state_hash"] = session.state_hash();
+  out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
   return out.dump(2) + "\n";
 }
 

@@ -22,13 +22,15 @@ struct RunStatus {
 };
 
 /// The file's text: JSON, keys sorted, SI units in the names.
-std::string summary_json(const sim::Session& session, const RunStatus& status);
+/// The hash costs a pass over the whole state; without it `state_hash` is null.
+std::string summary_json(const sim::Session& session, const RunStatus& status, bool with_hash = true);
 
 /// Earth moved by digging and dumping, wheel ruts apart: columns whose mass changed.
 struct Earthwork {
   double bank_volume = 0;   ///< mass taken out of columns / bank density [m3]
   double loose_volume = 0;  ///< rise of the columns that gained mass [m3]
 };
-Earthwork measure_earthwork(const heightfield::Ground& ground);
+/// Soil that is awake over the column it came from does not count as dug when its `particles` are given.
+Earthwork measure_earthwork(const heightfield::Ground& ground, const soil::Solver* particles = nullptr);
 
 }  // namespace navvy::record

@@ -57,6 +57,7 @@ struct Session::State {
   void note_tip(Crew& crew);
   void note_progress();
   int tool_of(int machine, const std::string& shell) const;
+  bool is_bed(const coupling::ToolLoad& tool) const;
   void note_forces();
 };
 
@@ -68,6 +69,13 @@ int Session::State::tool_of(int machine, const std::string& shell) const {
     if (tools[t].machine == machine && placed.shells[static_cast<std::size_t>(tools[t].shell)].name == shell)
       return static_cast<int>(t);
   return -1;
+}
+
+/// Whether the tool only carries: its load is no digging force.
+bool Session::State::is_bed(const coupling::ToolLoad& tool) const {
+  const scene::Machine& machine = world.description().machines[static_cast<std::size_t>(tool.machine)].machine;
+  const std::string& shell = machine.shells[static_cast<std::size_t>(tool.shell)].name;
+  return std::any_of(machine.beds.begin(), machine.beds.end(), [&](const auto& bed) { return bed.shell == shell; });
 }
 
 void Session::State::enlist(int machine) {
@@ -151,9 +159,11 @@ void Session::State::note_forces() {
   for (const coupling::ToolLoad& tool : world.coupling().tools()) {
     const soil::ToolImpulse& impulse = tool.impulse;
     if (!(impulse.scale > 0)) continue;
-    force.peak = std::max(force.peak, tool.smooth_W.norm());
-    force.sum += tool.force_W.norm();
-    ++force.steps;
+    if (!is_bed(tool)) {
+      force.peak = std::max(force.peak, tool.smooth_W.norm());
+      force.sum += tool.force_W.norm();
+      ++force.steps;
+    }
     force.residual_max = std::max(force.residual_max, impulse.residual.cwiseAbs().maxCoeff() / impulse.scale);
     if (impulse.scale_moment > 0)
       force.residual_max =
