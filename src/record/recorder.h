@@ -29,8 +29,8 @@ struct Progress {
 };
 
 /// Writes summary.json (at the start and at the end), telemetry.csv, hashes.csv when asked, terrain_start.tif,
-/// terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe; draws on the calling
-/// thread.
+/// terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe; draws on the
+/// calling thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start. @throws FileError.

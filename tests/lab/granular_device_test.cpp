@@ -49,7 +49,8 @@ TEST(LabSlide, BlocksObeyCoulomb) {
   const Report report = run_rig("slide", {{"time", 0.6}});
   EXPECT_EQ(misses(report), "");
   // The force the plate feels is Coulomb's to the rounding of floats.
-  EXPECT_NEAR(measured(report, "soil block, friction over normal force"), std::tan(radians(20)), 1e-3);
+  EXPECT_NEAR(measured(report, "soil block, shear without adhesion x area over normal force"), std::tan(radians(20)),
+              1e-3);
 }
 
 TEST(LabThrow, SoilOpensFliesAndLands) {
