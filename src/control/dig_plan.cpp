@@ -12,7 +12,8 @@ constexpr double kSample = 0.1;      // along the line [m]
 constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
 constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;   // a load may be larger than a full bucket by this share of it
-constexpr double kWorth = 0.3;       // a slice's rest below this share of a bucket waits for the next slice
+constexpr double kWorth = 0.5;       // a slice's rest below this share of a bucket waits for the next slice
+constexpr double kWorthLast = 0.15;  // that of the last slice stays
 
 }  // namespace
 
@@ -115,7 +116,7 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
   const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
   for (int k = 1; k <= slices; ++k) {
     const double level = dig_.depth * k / slices;
-    if (k < slices && volume_above(surface, level) < kWorth * scoop_volume_) continue;
+    if (volume_above(surface, level) < (k < slices ? kWorth : kWorthLast) * scoop_volume_) continue;
     for (int i = samples() - 1; i >= 1; --i)
       // Two neighbours must agree, a single crumb is not worth a cycle.
       if (remaining(surface, i, level) > kTolerance && remaining(surface, i - 1, level) > kTolerance)
