@@ -185,8 +185,7 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
   for (const int block : blocks) {
     const PlanKey& key = index_.blocks()[static_cast<std::size_t>(block)];
     const BlockShape shape = finder.find(key);
-    const auto stood = rest.find(key);
-    if (shape.hollow && (stood == rest.end() || stood->second < kHollowRest)) continue;
+    if (shape.hollow && rest.at(key) < kHollowRest) continue;
     taken.push_back(block);
     plans.push_back({shape, cliffs(block)});
   }

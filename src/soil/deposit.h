@@ -37,7 +37,7 @@ class Depositor {
   Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
 
   /// Deposits those of `blocks`, entries of the index, that are not hollow, and returns them. A hollow one waits until
-  /// it has stood for kHollowRest; then its overhang or void, which columns cannot show, is booked as fallen in. All
+  /// it has stood for 5 s; then its overhang or void, which columns cannot show, is booked as fallen in. All
   /// shapes are found before anything changes, so the order of the blocks does not matter.
   std::vector<int> deposit(std::span<const int> blocks, const RestTimes& rest);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace navvy::soil {
 namespace {
@@ -63,11 +65,18 @@ void ColumnIndex::group() {
 void ColumnIndex::sort_columns() {
   const auto rank = [&](std::uint32_t i) {
     const Particle& p = particles_[i];
-    return std::tuple(height_in_cells(p), p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
+    return std::tuple(p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
   };
-  for (std::size_t c = 0; c + 1 < begin_.size(); ++c)
-    std::sort(order_.begin() + begin_[c], order_.begin() + begin_[c + 1],
-              [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+  std::vector<std::pair<double, std::uint32_t>> heights;  // of one column, so that most comparisons stay in the cache
+  for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
+    heights.clear();
+    for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o)
+      heights.emplace_back(height_in_cells(particles_[order_[o]]), order_[o]);
+    std::sort(heights.begin(), heights.end(), [&](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first < b.first : rank(a.second) < rank(b.second);
+    });
+    for (std::size_t i = 0; i < heights.size(); ++i) order_[begin_[c] + i] = heights[i].second;
+  }
 }
 
 void ColumnIndex::build_piles() {

@@ -138,12 +138,24 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
 std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, bool homes_given) {
   if (!homes_given)
     for (Particle& p : particles) find_home(p);
-  // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in.
-  std::stable_sort(particles.begin(), particles.end(), [homes_given](const Particle& a, const Particle& b) {
-    if (!(key_of(a) == key_of(b))) return key_of(a) < key_of(b);
-    return !homes_given && cell_of(a) < cell_of(b);
+  // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in. Sorted are small keys: moving
+  // whole particles about takes three times as long.
+  struct Place {
+    BlockKey home;
+    int cell;
+    std::uint32_t from;
+  };
+  std::vector<Place> places(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    places[i] = {key_of(particles[i]), homes_given ? 0 : cell_of(particles[i]), static_cast<std::uint32_t>(i)};
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    if (!(a.home == b.home)) return a.home < b.home;
+    return a.cell != b.cell ? a.cell < b.cell : a.from < b.from;
   });
-  return particles;
+  std::vector<Particle> out;
+  out.reserve(particles.size());
+  for (const Place& place : places) out.push_back(particles[place.from]);
+  return out;
 }
 
 void ParticleStore::make_room(int side, int slots, int wanted) {
@@ -216,6 +228,30 @@ std::vector<Particle> ParticleStore::records() const {
       p.block[2] = table_.homes[h].z;
       out.push_back(p);
     }
+  return out;
+}
+
+std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
+  // From half a cell above its key on a home holds what re-bins found there; between them it drifts by less than a
+  // cell.
+  constexpr double kFrom = -1, kTo = kBlockCells + 2;
+  std::vector<PointMass> out;
+  if (count_ == 0) return out;
+  const auto view = state_[at_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    const Vec3 corner = kBlockCells * Vec3(table_.homes[h].x, table_.homes[h].y, table_.homes[h].z);
+    if (((corner.array() + kFrom) > high.array()).any() || ((corner.array() + kTo) < low.array()).any()) continue;
+    for (int i = 0; i < homes_[h].count; ++i) {
+      const float* at = view.data() + homes_[h].start + i;
+      PointMass point;
+      for (std::size_t a = 0; a < 3; ++a)
+        point.grid[static_cast<int>(a)] =
+            corner[static_cast<int>(a)] + static_cast<double>(at[(FIELD_X + a) * capacity]);
+      point.mass = std::bit_cast<std::int32_t>(at[FIELD_MASS * capacity]);
+      out.push_back(point);
+    }
+  }
   return out;
 }
 

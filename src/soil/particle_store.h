@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "core/math.h"
 #include "core/state_io.h"
 #include "device/buffer.h"
 #include "device/program.h"
@@ -21,6 +22,12 @@ struct Home {
   std::int32_t count = 0;
   std::int32_t tile = 0;  ///< first tile
   std::int32_t near = 0;  ///< 1: near a shell, three tiles
+};
+
+/// What weighing needs of a particle.
+struct PointMass {
+  Vec3 grid = Vec3::Zero();  ///< in G [cells]
+  std::int32_t mass = 0;     ///< [kMassQuantum]
 };
 
 /// Holds all particle fields (kernels/soil/layout.h) and the block table; sorts, adds, removes, reads back.
@@ -39,6 +46,8 @@ class ParticleStore {
   static std::vector<Particle> sorted(std::vector<Particle> particles, bool homes_given = false);
   /// All particles in stored order; Particle::block is the home.
   std::vector<Particle> records() const;
+  /// The homes that reach into a box of G [cells]: all particles in it, and neighbours.
+  std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
   /// Mass per soil, counted from the device's arrays; a particle with a value that is not finite is not counted.
   std::vector<std::int64_t> masses(std::size_t soils) const;
   /// Sorts into new homes and drops particles beyond the site's edge, which are returned.

@@ -60,8 +60,8 @@ void ShellGeometry::find_normals() {
     if (!(area.norm() > 1e-10)) refuse(shell_, "a triangle without area", "an area above 1e-10 m2");
     t.normal = area.normalized();
     t.radius = 0;
-    const Vec3 centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
-    for (const Vec3& corner : t.corner) t.radius = std::max(t.radius, (corner - centre).norm());
+    t.centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    for (const Vec3& corner : t.corner) t.radius = std::max(t.radius, (corner - t.centre).norm());
     for (std::size_t i = 0; i < 3; ++i) {
       EdgeUse& use = edges[edge_key(index[i], index[(i + 1) % 3])];
       ++use.count;
@@ -162,38 +162,56 @@ void ShellGeometry::build_hull() {
         });
         if (!known) hull_.push_back({n, offset});
       }
+  hull_points_ = std::move(points);
 }
 
 double ShellGeometry::distance(const Vec3& p) const {
+  int closest = 0;
+  return distance(p, closest);
+}
+
+double ShellGeometry::distance(const Vec3& p, int& closest) const {
   double best = 1e300, sign = 1;
-  const auto offer = [&](const Vec3& c, const Vec3& normal) {
+  const auto offer = [&](const Vec3& c, const Vec3& normal, int triangle) {
     const double d2 = (p - c).squaredNorm();
     if (d2 >= best) return;
     best = d2;
     sign = (p - c).dot(normal) >= 0 ? 1 : -1;
+    closest = triangle;
   };
-  for (const Triangle& t : triangles_) {
-    // A triangle whose sphere is farther than what was found has nothing to offer; the margin covers rounding.
-    const Vec3 centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+  const auto look = [&](int n) {
+    const Triangle& t = triangles_[static_cast<std::size_t>(n)];
+    // A triangle whose plane or sphere is farther than what was found has nothing to offer; the margin covers rounding.
+    const double height = t.normal.dot(p - t.corner[0]);
+    if (height * height > best * (1 + 1e-9)) return;
     const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);
-    if ((p - centre).squaredNorm() > reach * reach) continue;
+    if ((p - t.centre).squaredNorm() > reach * reach) return;
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 along = t.corner[(i + 1) % 3] - t.corner[i];
       inside = inside && t.normal.cross(along).dot(p - t.corner[i]) >= 0;
       double share = 0;
       const Vec3 c = closest_on_segment(p, t.corner[i], t.corner[(i + 1) % 3], share);
-      offer(c, share <= 0 ? t.corner_normal[i] : share >= 1 ? t.corner_normal[(i + 1) % 3] : t.edge_normal[i]);
+      offer(c, share <= 0 ? t.corner_normal[i] : share >= 1 ? t.corner_normal[(i + 1) % 3] : t.edge_normal[i], n);
     }
-    if (inside) offer(p - t.normal.dot(p - t.corner[0]) * t.normal, t.normal);
-  }
+    if (inside) offer(p - height * t.normal, t.normal, n);
+  };
+  const int guess = closest;
+  look(guess);
+  for (int n = 0; n < static_cast<int>(triangles_.size()); ++n)
+    if (n != guess) look(n);
   return sign * std::sqrt(best);
 }
 
 bool ShellGeometry::holds(const Vec3& p) const {
+  int closest = 0;
+  return holds(p, closest);
+}
+
+bool ShellGeometry::holds(const Vec3& p, int& closest) const {
   for (const Plane& plane : hull_)
     if (plane.normal.dot(p) > plane.offset) return false;
-  return distance(p) > 0;
+  return distance(p, closest) > 0;
 }
 
 }  // namespace navvy::soil

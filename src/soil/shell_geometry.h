@@ -22,6 +22,7 @@ class ShellGeometry {
   struct Triangle {
     std::array<Vec3, 3> corner;
     Vec3 normal;
+    Vec3 centre;
     double radius;                                   ///< of the farthest corner from the centre [m]
     std::array<Vec3, 3> edge_normal, corner_normal;  ///< pseudo-normals of edges ab bc ca and of corners
     std::array<bool, 3> edge_free, corner_free;
@@ -39,8 +40,13 @@ class ShellGeometry {
   /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference of the kernels'
   /// query.
   double distance(const Vec3& p) const;
+  /// The same, faster when `closest` names a triangle that is likely the closest; becomes the one that is.
+  double distance(const Vec3& p, int& closest) const;
   /// Inside the hull (raised over the mouth to hold a heap) and in front.
   bool holds(const Vec3& p) const;
+  bool holds(const Vec3& p, int& closest) const;
+  /// The hull's corners, and points inside it.
+  const std::vector<Vec3>& hull_points() const { return hull_points_; }
 
  private:
   void find_normals();
@@ -56,6 +62,7 @@ class ShellGeometry {
     double offset;
   };
   std::vector<Plane> hull_;
+  std::vector<Vec3> hull_points_;
 };
 
 }  // namespace navvy::soil

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "core/error.h"
 #include "soil/solver.h"
@@ -16,17 +17,22 @@ std::int64_t Ledger::error() const {
   return sum;
 }
 
-Ledger Solver::State::ledger() const {
+Ledger Solver::State::ledger_with(std::vector<std::int64_t> particles) const {
   Ledger out;
   out.columns = ground.mass_change();
   out.columns.resize(world.soils.size(), 0);
-  out.particles = store.masses(world.soils.size());
+  out.particles = std::move(particles);
+  out.left_site = left_site;
+  out.inserted = inserted;
+  return out;
+}
+
+Ledger Solver::State::ledger() const {
+  Ledger out = ledger_with(store.masses(world.soils.size()));
   if (!unplaced.empty()) {
     out.particles.assign(world.soils.size(), 0);
     for (const Particle& p : unplaced) out.particles[p.soil] += p.mass;
   }
-  out.left_site = left_site;
-  out.inserted = inserted;
   return out;
 }
 
@@ -48,15 +54,31 @@ std::vector<Particle> Solver::particles() const {
   return out;
 }
 
+std::vector<PointMass> Solver::State::masses_near(const Vec3& low, const Vec3& high) const {
+  if (unplaced.empty()) return store.masses_near(low, high);
+  std::vector<PointMass> out;
+  for (const Particle& p : unplaced) {
+    PointMass point;
+    for (int a = 0; a < 3; ++a) point.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
+    point.mass = p.mass;
+    out.push_back(point);
+  }
+  return out;
+}
+
 double Solver::payload(int tool, const Pose& X_WT) const {
   const ShellGeometry& geometry = state_->contact.geometry(tool);
   const Pose X_TW = X_WT.inverse();
-  std::int64_t sum = 0;
-  for (const Particle& p : state_->records()) {
-    Vec3 grid;
-    for (int a = 0; a < 3; ++a) grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
-    if (geometry.holds(X_TW * (state_->origin + grid * state_->cell))) sum += p.mass;
+  Vec3 low = Vec3::Constant(1e300), high = -low;  // of what it can hold, in the grid [cells]
+  for (const Vec3& corner : geometry.hull_points()) {
+    const Vec3 grid = (X_WT * corner - state_->origin) / state_->cell;
+    low = low.cwiseMin(grid);
+    high = high.cwiseMax(grid);
   }
+  std::int64_t sum = 0;
+  int closest = 0;  // triangle of the particle before: neighbours in memory are neighbours in space
+  for (const PointMass& p : state_->masses_near(low, high))
+    if (geometry.holds(X_TW * (state_->origin + p.grid * state_->cell), closest)) sum += p.mass;
   return kilograms(sum);
 }
 

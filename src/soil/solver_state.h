@@ -30,9 +30,12 @@ struct Solver::State {
   void assign(const std::vector<Particle>& particles);
   /// What there is, on the device or because the device had no room on the host.
   std::vector<Particle> records() const { return unplaced.empty() ? store.records() : unplaced; }
+  std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
   void book_left(const std::vector<Particle>& left);
   double tool_speed(const ToolMotion& motion) const;
   Ledger ledger() const;
+  /// With these masses of particles instead of a count on the device.
+  Ledger ledger_with(std::vector<std::int64_t> particles) const;
   void check_masses();
   /// Throws when no step can carry this motion.
   void check_motion(const ToolMotion& motion) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "soil/rig.h"
 #include "soil/shell_geometry.h"
@@ -16,6 +18,22 @@ TEST(ShellGeometry, KnowsInsideAndOutsideOfAnOpenBoxAlsoAtItsEdges) {
   // Outside a corner the closest face alone may say "inside": the pseudo-normal does not.
   EXPECT_NEAR(box.distance(Vec3(0.6, 0.5, -0.1)), -std::sqrt(0.03), 1e-12);
   EXPECT_NEAR(box.distance(Vec3(0.55, 0, -0.2)), -std::hypot(0.05, 0.2), 1e-12);
+}
+
+TEST(ShellGeometry, FindsTheSameDistanceFromEveryGuess) {
+  const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
+  const int n = static_cast<int>(box.triangles().size());
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p(0.7 * std::sin(1.3 * i), 0.6 * std::sin(2.1 * i), 0.3 + 0.5 * std::sin(0.7 * i));
+    int first = 0;
+    const double wanted = box.distance(p, first);
+    for (int guess = 0; guess < n; ++guess) {
+      int closest = guess;
+      EXPECT_NEAR(box.distance(p, closest), wanted, 1e-12);
+      EXPECT_GE(closest, 0);
+      EXPECT_LT(closest, n);
+    }
+  }
 }
 
 TEST(ShellGeometry, FindsTheRimAndOnlyTheRim) {
