@@ -64,6 +64,7 @@ class Operator {
   /// "wait_for", "trajectory" or "idle".
   const std::string& phase() const;
   int cycles() const;
+  /// Steps of the program that are done, and how many it has.
   Progress progress() const;
   /// The event of the last update.
   CycleEvent event() const;
@@ -81,5 +82,9 @@ class Operator {
 /// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
                                const SurfaceView& surface, const std::string& file);
+
+/// Poses of the base link where a program makes the machine stand: `X_WB` at the start, then the end of every drive.
+std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
+                           const SurfaceView& surface);
 
 }  // namespace navvy::control

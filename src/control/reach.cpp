@@ -23,6 +23,16 @@ std::string number(double value, const char* unit) {
 std::string metres(double value) { return number(value, "m"); }
 std::string place(const Vec2& p) { return "(" + number(p.x(), "") + ", " + number(p.y(), "") + ")"; }
 
+/// Where the machine will stand: upright on the present ground.
+Pose pose_after(const scene::DriveTo& drive, const scene::Machine& machine, const Pose& X_WB,
+                const SurfaceView& surface) {
+  const Vec3 from = X_WB.translation();
+  const double rise = from.z() - surface.height(from.x(), from.y());
+  const double heading = Pursuit::of(drive, machine.drive, plane_pose(X_WB)).heading;
+  return make_pose(drive.target.x(), drive.target.y(), surface.height(drive.target.x(), drive.target.y()) + rise, 0, 0,
+                   heading);
+}
+
 class ReachCheck {
  public:
   ReachCheck(const scene::Machine& machine, const scene::Program& program, const SurfaceView& surface, std::string file)
@@ -56,11 +66,7 @@ class ReachCheck {
             "steering as far as it can the machine ends at " + place(end.p) + ", " + metres(miss) +
                 " from the target; allowed are " + metres(drive.tolerance),
             "give it a longer way to turn in, or approach in two drives");
-    // Where the machine will stand, upright on the present ground.
-    const Vec3 from = X_WB.translation();
-    const double rise = from.z() - surface_.height(from.x(), from.y());
-    X_WB = make_pose(drive.target.x(), drive.target.y(), surface_.height(drive.target.x(), drive.target.y()) + rise, 0,
-                     0, pursuit.heading);
+    X_WB = pose_after(drive, machine_, X_WB, surface_);
   }
 
   void look(const scene::Swing& swing) {
@@ -176,6 +182,15 @@ std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Progr
   Pose X = X_WB;
   for (std::size_t i = 0; i < program.steps.size(); ++i) check.look(i, X);
   return check.faults;
+}
+
+std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
+                           const SurfaceView& surface) {
+  std::vector<Pose> out{X_WB};
+  for (const scene::ProgramStep& step : program.steps)
+    if (const auto* drive = std::get_if<scene::DriveTo>(&step))
+      out.push_back(pose_after(*drive, machine, out.back(), surface));
+  return out;
 }
 
 }  // namespace navvy::control

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
@@ -109,6 +110,15 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::W
   }
   if (!instance.machine.links.empty() && instance.machine.beds.empty())
     faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load");
+  const int soil = world.soil_index(instance.load.soil);
+  if (soil < 0 || instance.machine.beds.empty()) return;
+  const scene::Soil& kind = world.soils[static_cast<std::size_t>(soil)];
+  const double struck = instance.machine.beds[0].capacity * kind.bank_density / kind.swell;
+  if (instance.load.mass > struck)
+    faults.warning(
+        element, child_text(element, "mass_kg"),
+        "more than the bed holds struck, " + std::to_string(std::lround(struck)) + " kg of loose '" + kind.name + "'",
+        "what is heaped may fall off");
 }
 
 // What <include> and an inline <model> share: place, joints, program.

@@ -1,13 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/program_check.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <utility>
+#include <variant>
 
 #include "control/operator.h"
 #include "coupling/placing.h"
 #include "heightfield/site.h"
 
 namespace navvy::sim {
+namespace {
+
+constexpr double kUnderTip = 0.05;  // room that a bed's rim needs below the opening bucket [m]
+
+/// The box round a bed, untipped, in its machine's base frame.
+struct BedBox {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+};
+BedBox bed_box(const scene::Machine& machine, const scene::Bed& bed) {
+  BedBox out;
+  const Pose X_BM = machine.links.at(0).X_ML.inverse();
+  for (const scene::Shell& shell : machine.shells) {
+    const int link = machine.link_index(shell.link);
+    if (shell.name != bed.shell || link < 0) continue;
+    for (const Vec3& v : shell.vertices) {
+      const Vec3 p_B = X_BM * (machine.links[static_cast<std::size_t>(link)].X_ML * v);
+      out.low = out.low.cwiseMin(p_B);
+      out.high = out.high.cwiseMax(p_B);
+    }
+  }
+  return out;
+}
+
+/// Looks for beds that stand too high below the point where a dig dumps. A warning: which of its stations a truck
+/// stands at when the bucket comes is known only in the run.
+class BedCheck {
+ public:
+  BedCheck(const scene::World& world, const control::SurfaceView& surface, const std::vector<Pose>& X_WB)
+      : world_(world), surface_(surface), X_WB_(X_WB) {}
+
+  std::vector<Fault> faults;
+
+  void look(std::size_t digger) {
+    const scene::MachineInWorld& placed = world_.machines[digger];
+    for (std::size_t i = 0; i < placed.program.steps.size(); ++i)
+      if (const auto* dig = std::get_if<scene::Dig>(&placed.program.steps[i]))
+        for (std::size_t other = 0; other < world_.machines.size(); ++other)
+          if (other != digger) look(placed, i, *dig, other);
+  }
+
+ private:
+  void look(const scene::MachineInWorld& digger, std::size_t step, const scene::Dig& dig, std::size_t other) {
+    const scene::MachineInWorld& truck = world_.machines[other];
+    const double ground = surface_.height(dig.dump_at.x(), dig.dump_at.y());
+    double rim = 0;  // highest over the ground at the dump point, of all stations
+    for (const scene::Bed& bed : truck.machine.beds) {
+      const BedBox box = bed_box(truck.machine, bed);
+      for (const Pose& X_WB : control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
+        const Vec3 p_B = X_WB.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WB.translation().z());
+        const bool below =
+            p_B.x() > box.low.x() && p_B.x() < box.high.x() && p_B.y() > box.low.y() && p_B.y() < box.high.y();
+        if (below) rim = std::max(rim, X_WB.translation().z() + box.high.z() - ground);
+      }
+    }
+    if (rim + kUnderTip <= dig.dump_height) return;
+    const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
+    faults.push_back({Fault::Severity::kWarning, world_.file, line,
+                      digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/dig/dump_height",
+                      metres(dig.dump_height), "the bed of '" + truck.name + "' is " + metres(rim) + " high there",
+                      "dump from " + metres(rim + kUnderTip) + " or higher, or the bucket strikes the bed"});
+  }
+  static std::string metres(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2f m", value);
+    return text.data();
+  }
+
+  const scene::World& world_;
+  const control::SurfaceView& surface_;
+  const std::vector<Pose>& X_WB_;
+};
+
+}  // namespace
 
 std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB) {
@@ -17,6 +94,9 @@ std::vector<Fault> check_programs(const scene::World& world, const control::Surf
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file))
       faults.push_back(std::move(fault));
   }
+  BedCheck beds(world, surface, X_WB);
+  for (std::size_t m = 0; m < world.machines.size(); ++m) beds.look(m);
+  for (Fault& fault : beds.faults) faults.push_back(std::move(fault));
   return faults;
 }
 

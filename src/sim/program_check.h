@@ -11,7 +11,8 @@
 
 namespace navvy::sim {
 
-/// Every target of every program that is out of reach, with file and line. `X_WB` holds where the machines stand, one
+/// Every target of every program that is out of reach (errors) and every dig that dumps too low over another machine's
+/// bed (warnings), with file and line. `X_WB` holds where the machines stand, one
 /// pose a machine; `surface` is what digs and drives look at.
 std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB);

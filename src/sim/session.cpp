@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "core/stopwatch.h"
 #include "sim/program_check.h"
 #include "sim/soil_surface.h"
@@ -57,7 +58,6 @@ struct Session::State {
   void note_tip(Crew& crew);
   void note_progress();
   int tool_of(int machine, const std::string& shell) const;
-  bool is_bed(const coupling::ToolLoad& tool) const;
   void note_forces();
 };
 
@@ -69,13 +69,6 @@ int Session::State::tool_of(int machine, const std::string& shell) const {
     if (tools[t].machine == machine && placed.shells[static_cast<std::size_t>(tools[t].shell)].name == shell)
       return static_cast<int>(t);
   return -1;
-}
-
-/// Whether the tool only carries: its load is no digging force.
-bool Session::State::is_bed(const coupling::ToolLoad& tool) const {
-  const scene::Machine& machine = world.description().machines[static_cast<std::size_t>(tool.machine)].machine;
-  const std::string& shell = machine.shells[static_cast<std::size_t>(tool.shell)].name;
-  return std::any_of(machine.beds.begin(), machine.beds.end(), [&](const auto& bed) { return bed.shell == shell; });
 }
 
 void Session::State::enlist(int machine) {
@@ -159,7 +152,8 @@ void Session::State::note_forces() {
   for (const coupling::ToolLoad& tool : world.coupling().tools()) {
     const soil::ToolImpulse& impulse = tool.impulse;
     if (!(impulse.scale > 0)) continue;
-    if (!is_bed(tool)) {
+    // What lies in a bed is a load, no digging force.
+    if (!world.description().machines[static_cast<std::size_t>(tool.machine)].machine.is_bed(tool.shell)) {
       force.peak = std::max(force.peak, tool.smooth_W.norm());
       force.sum += tool.force_W.norm();
       ++force.steps;
@@ -181,7 +175,9 @@ Session::Session(scene::World description, device::Device& device)
     X_WB.push_back(s.world.link(static_cast<int>(m), 0).X_WL);
   }
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
-  if (!faults.empty()) throw InputError(std::move(faults));
+  const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
+  if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
+  for (const Fault& fault : faults) log_warning(fault.text());
 }
 
 Session::~Session() = default;

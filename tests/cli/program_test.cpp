@@ -75,6 +75,15 @@ void expect_readable(const std::string& out) {
     const fs::path path = fs::path(out) / name;
     if (fs::exists(path)) EXPECT_EQ(text_of(path).substr(0, 2), "II") << path;  // little-endian TIFF
   }
+  const fs::path frames = fs::path(out) / "frames";
+  if (!fs::exists(frames)) return;
+  for (const auto& frame : fs::directory_iterator(frames)) {
+    if (frame.path().extension() != ".png") continue;
+    const std::string bytes = text_of(frame.path());
+    const std::string end("IEND\xAE\x42\x60\x82", 8);  // every PNG's last chunk
+    EXPECT_TRUE(bytes.size() > end.size() && bytes.compare(bytes.size() - end.size(), end.size(), end) == 0)
+        << frame.path();
+  }
 }
 
 TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
@@ -191,18 +200,26 @@ TEST_F(Program, StopsCleanlyAtCtrlC) {
 
 TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
   Random random(7);
-  int with_results = 0;
+  int with_results = 0, with_pictures = 0;
   for (int i = 0; i < 20; ++i) {
     fs::remove_all(out());
     fs::remove_all(out() + ".previous");
-    const pid_t child = start({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "2", "--out", out()});
+    // Every other run draws, all the time.
+    std::vector<std::string> arguments{"run", scene("bucket_path.sdf"), "--duration", "2", "--out", out()};
+    if (i % 2 == 0)
+      arguments.push_back("--no-render");
+    else
+      arguments.insert(arguments.end(), {"--set", "camera.rate_hz=50"});
+    const pid_t child = start(arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(200, 2500))));
     kill(child, SIGKILL);
     wait(child);
     expect_readable(out());
     with_results += fs::exists(out() + "/summary.json") ? 1 : 0;
+    with_pictures += fs::exists(out() + "/frames") && !fs::is_empty(out() + "/frames") ? 1 : 0;
   }
   EXPECT_GT(with_results, 0) << "every kill came before the first file";
+  EXPECT_GT(with_pictures, 0) << "every kill came before the first picture";
 }
 
 TEST_F(Program, IsDrivenOverStandardInputInLockStep) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/dig_pose.h"
 
@@ -113,6 +114,7 @@ void DigRig::step() {
   const Pose X_WB = engine->link(0, machine_.link_index("bucket")).X_WL;
   sweep(X_WB);
   pour(X_WB);
+  leak(X_WB);
   if (carrying_) worst_tilt = std::max(worst_tilt, std::abs(tip_angle(X_WB) - kCarry));
 }
 
@@ -169,6 +171,17 @@ void DigRig::sweep(const Pose& X_WB) {
   const Vec3 tip = X_WB * v[0];
   const Vec3 towards = engine->link(0, machine_.link_index("upper")).X_WL.translation() - tip;
   drop(tip.head<2>() + kSpillAhead * Vec2(towards.x(), towards.y()).normalized(), 0.25, surplus);
+}
+
+void DigRig::leak(const Pose& X_WB) {
+  const bool before = std::exchange(lifting_, op.phase() == "lift");
+  if (!lifting_) return;
+  if (!before) lift_since = time;
+  const double mass = std::min(payload_, leak_rate * kStep);
+  if (time - lift_since > leak_time || mass <= 0) return;
+  dry_since = time;
+  payload_ -= mass;
+  drop((X_WB * machine_.buckets[0].p_tip).head<2>(), 0.3, mass);
 }
 
 void DigRig::pour(const Pose& X_WB) {

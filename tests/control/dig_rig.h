@@ -42,6 +42,9 @@ class DigRig {
   /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
   double rock_from = 0, rock_to = 0, rock_top = -100;
   bool hit_rock = false;
+  /// What the bucket loses while it is lifted, and how long after the start of the lift.
+  double leak_rate = 0, leak_time = 0;    // [kg/s], [s]
+  double lift_since = -1, dry_since = 0;  ///< when the last lift and its leak began and ended [s]
 
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
@@ -53,6 +56,7 @@ class DigRig {
   bool against_rock(const Command& command) const;
   void sweep(const Pose& X_WB);
   void pour(const Pose& X_WB);
+  void leak(const Pose& X_WB);
   void drop(const Vec2& around, double radius, double mass);
 
   scene::Machine machine_;
@@ -62,6 +66,7 @@ class DigRig {
   double lifted_ = 0;
   bool stalled_ = false;
   bool carrying_ = false;
+  bool lifting_ = false;
 };
 
 /// Ground now minus ground at the start, against the design.

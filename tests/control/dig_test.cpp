@@ -191,5 +191,34 @@ TEST(Program, RefusesATrajectoryOfAnUnknownJoint) {
   EXPECT_THROW(Operator(ew180_like(), program({path})), InputError);
 }
 
+struct Lift {
+  double start = 0, end = 0, dry = 0;  ///< begins, swings away, last lost soil [s]
+};
+/// The first lift of the shipped trench with a bucket that loses `rate` [kg/s] for `seconds`.
+Lift leaking_lift(double rate, double seconds) {
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  rig.leak_rate = rate;
+  rig.leak_time = seconds;
+  while (rig.time < 60 && (rig.cycles.empty() || rig.cycles[0].lift_out == 0)) rig.step();
+  return {rig.lift_since, rig.cycles.empty() ? -1 : rig.cycles[0].lift_out, rig.dry_since};
+}
+
+TEST(Dig, SwingsWhenTheBucketDripsNoMore) {
+  const Lift dry = leaking_lift(0, 0);
+  ASSERT_GT(dry.end, dry.start);
+  const double longer = 0.8;  // than the arm takes to lift [s]
+  const Lift wet = leaking_lift(20, dry.end - dry.start + longer);
+  EXPECT_NEAR(wet.start, dry.start, 1e-9);
+  EXPECT_NEAR(wet.dry, dry.end + longer, 0.02);
+  EXPECT_GT(wet.end, wet.dry);
+  EXPECT_LT(wet.end, wet.dry + 0.6);
+}
+
+TEST(Dig, DoesNotWaitForABucketThatDripsForEver) {
+  const Lift dry = leaking_lift(0, 0), wet = leaking_lift(20, 100);
+  EXPECT_GT(wet.end, dry.end + 0.5);
+  EXPECT_LT(wet.end, dry.end + 2.5);
+}
+
 }  // namespace
 }  // namespace navvy::control::testing
