@@ -151,7 +151,7 @@ void add_run(CLI::App& app, Action& action) {
   command
       ->add_option("--hash-every", options->hash_every,
                    "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

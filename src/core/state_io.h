@@ -57,7 +57,7 @@ class StateReader {
  public:
   explicit StateReader(std::vector<char> bytes) : bytes_(std::move(bytes)) {}
 
-  /// Enters the next section, which must carry this tag; returns its version, which must be <= newest.
+  /// Enters the next section, which must carry this tag and this version.
   void begin(const std::string& tag, std::uint32_t known);
   /// Leaves the section; throws if bytes of it were left unread.
   void end();

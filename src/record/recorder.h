@@ -16,7 +16,7 @@ struct Options {
   std::string directory;  ///< results go here; one that holds an earlier run is kept as "<directory>.previous"
   bool render = true;
   double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
-  double checkpoint = 2;  ///< wall time between looks whether telemetry is to be rewritten [s]
+  double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
 };
 
 /// What a progress line shows.
@@ -28,9 +28,9 @@ struct Progress {
   std::string phase;
 };
 
-/// Writes summary.json (at the start and at the end), telemetry.csv, hashes.csv when asked, terrain_start.tif,
-/// terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe; draws on the
-/// calling thread.
+/// Writes summary.json (with the state's hash at the start and at the end only), telemetry.csv, hashes.csv when asked,
+/// terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe;
+/// draws on the calling thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start. @throws FileError.

@@ -58,11 +58,9 @@ json carried(const sim::Session& session) {
   for (const coupling::ToolLoad& tool : session.world().coupling().tools()) {
     const scene::MachineInWorld& placed =
         session.world().description().machines[static_cast<std::size_t>(tool.machine)];
-    const std::string& shell = placed.machine.shells[static_cast<std::size_t>(tool.shell)].name;
-    const auto holds = [&](const auto& container) { return container.shell == shell; };
-    if (std::any_of(placed.machine.buckets.begin(), placed.machine.buckets.end(), holds) ||
-        std::any_of(placed.machine.beds.begin(), placed.machine.beds.end(), holds))
-      out[placed.name + "/" + shell] = session.world().coupling().payload(tool);
+    if (placed.machine.is_bucket(tool.shell) || placed.machine.is_bed(tool.shell))
+      out[placed.name + "/" + placed.machine.shells[static_cast<std::size_t>(tool.shell)].name] =
+          session.world().coupling().payload(tool);
   }
   return out;
 }
@@ -92,11 +90,11 @@ double bank_volume(const std::vector<heightfield::Layer>& column, const std::vec
 
 }  // namespace
 
-Earthwork measure_earthwork(const heightfield::Ground& ground, const soil::Solver* particles) {
+Earthwork measure_earthwork(const sim::World& world) {
+  const heightfield::Ground& ground = world.ground();
   std::map<std::pair<int, int>, double> awake;  // bank volume over columns [m3]
-  if (particles != nullptr)
-    for (const soil::Particle& p : particles->particles())
-      awake[particles->grid().column_of(p)] += kilograms(p.mass) / ground.setup().soils[p.soil].bank_density;
+  for (const soil::Particle& p : world.soil().particles())
+    awake[world.soil().grid().column_of(p)] += kilograms(p.mass) / ground.setup().soils[p.soil].bank_density;
   Earthwork sum;
   const heightfield::CellRect rect = ground.touched_rect();
   const double area = ground.cell() * ground.cell();
@@ -118,7 +116,7 @@ Earthwork measure_earthwork(const heightfield::Ground& ground, const soil::Solve
 
 std::string summary_json(const sim::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
-  const Earthwork earth = measure_earthwork(world.ground(), &world.soil());
+  const Earthwork earth = measure_earthwork(world);
   const soil::SolverStats& stats = world.soil().stats();
   json out;
   out["schema_version"] = kSummarySchemaVersion;

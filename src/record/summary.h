@@ -30,7 +30,7 @@ struct Earthwork {
   double bank_volume = 0;   ///< mass taken out of columns / bank density [m3]
   double loose_volume = 0;  ///< rise of the columns that gained mass [m3]
 };
-/// Soil that is awake over the column it came from does not count as dug when its `particles` are given.
-Earthwork measure_earthwork(const heightfield::Ground& ground, const soil::Solver* particles = nullptr);
+/// Soil that is awake over the column it came from does not count as dug.
+Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

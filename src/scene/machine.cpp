@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/machine.h"
 
+#include <algorithm>
+
 namespace navvy::scene {
+namespace {
+
+template <class Container>
+bool names_shell(const std::vector<Container>& containers, const Shell& shell) {
+  return std::any_of(containers.begin(), containers.end(), [&](const Container& c) { return c.shell == shell.name; });
+}
+
+}  // namespace
 
 int Machine::link_index(const std::string& name_of_link) const {
   for (std::size_t i = 0; i < links.size(); ++i)
     if (links[i].name == name_of_link) return static_cast<int>(i);
   return -1;
 }
+
+bool Machine::is_bucket(int shell) const { return names_shell(buckets, shells.at(static_cast<std::size_t>(shell))); }
+bool Machine::is_bed(int shell) const { return names_shell(beds, shells.at(static_cast<std::size_t>(shell))); }
 
 int Machine::joint_index(const std::string& name_of_joint) const {
   for (std::size_t i = 0; i < joints.size(); ++i)

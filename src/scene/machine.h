@@ -159,6 +159,9 @@ struct Machine {
   /// Index by name, -1 when there is none.
   int link_index(const std::string& name_of_link) const;
   int joint_index(const std::string& name_of_joint) const;
+  /// What a shell is for, by its index: the first holds soil that is dug, the second soil that is carried.
+  bool is_bucket(int shell) const;
+  bool is_bed(int shell) const;
 };
 
 }  // namespace navvy::scene

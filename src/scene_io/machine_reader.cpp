@@ -310,6 +310,23 @@ scene::Bed read_bed(Element& element, const Names& names, Faults& faults) {
   return bed;
 }
 
+/// A bed is a shell on its link, and its joint tips that link; unknown names have been told by read_bed.
+void check_bed(Element& element, const scene::Machine& machine, std::size_t index, Faults& faults) {
+  const scene::Bed& bed = machine.beds[index];
+  if (index > 0) faults.error(element, "", "a machine has one bed", "make the second one a machine of its own");
+  for (const scene::Shell& shell : machine.shells)
+    if (shell.name == bed.shell && shell.link != bed.link)
+      faults.error(element, bed.link, "its shell '" + bed.shell + "' is on link '" + shell.link + "'",
+                   "name the link of the shell");
+  const int joint = machine.joint_index(bed.joint);
+  if (joint < 0) return;
+  const int child = machine.joints[static_cast<std::size_t>(joint)].child;
+  const std::string tipped = child < 0 ? "" : machine.links[static_cast<std::size_t>(child)].name;
+  if (tipped != bed.link)
+    faults.error(element, bed.joint, "the joint moves link '" + tipped + "', not the bed's",
+                 "name the joint that tips it");
+}
+
 void read_arm(Element& element, const Names& names, scene::Machine& machine, Faults& faults) {
   Fields(element, faults)
       .text("swing_joint", machine.swing_joint)
@@ -373,6 +390,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
   const bool has_joints = !machine.links.empty();
   machine.kinematic = kinematic;
+  std::vector<Element*> beds;
 
   for (Element* e = model.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
@@ -380,7 +398,10 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     if (kind == "navvy:wheel") machine.wheels.push_back(read_wheel(*e, names, faults));
     if (kind == "navvy:shell") machine.shells.push_back(read_shell(*e, names, faults));
     if (kind == "navvy:bucket") machine.buckets.push_back(read_bucket(*e, names, faults));
-    if (kind == "navvy:bed") machine.beds.push_back(read_bed(*e, names, faults));
+    if (kind == "navvy:bed") {
+      machine.beds.push_back(read_bed(*e, names, faults));
+      beds.push_back(e);
+    }
     if (kind == "navvy:arm") read_arm(*e, names, machine, faults);
     if (kind == "navvy:joint" && has_joints) read_initial_position(*e, machine, faults);
     if (kind == "navvy:drive") {
@@ -390,6 +411,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
         faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>");
     }
   }
+  for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
   return machine;
 }
 

@@ -89,7 +89,8 @@ void check_program_order(Element& world_element, const scene::World& world, Faul
       before += std::holds_alternative<scene::WaitFor>(world.machines[m].program.steps[static_cast<std::size_t>(s)]);
     if (done[m] < step_count(world.machines[m]))
       faults.error(*waits[m][before], child_text(*waits[m][before], "machine"),
-                   "the machines would wait for each other for ever", "let one of them go first");
+                   "the machines wait for each other: none goes on before its longest_s has run out",
+                   "let one of them go first");
   }
 }
 

@@ -47,11 +47,16 @@ struct World::State {
   }
   void load_bed(const coupling::ToolLoad& tool) {
     const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
-    if (!(placed.load.mass > 0) || placed.machine.beds.empty() ||
-        placed.machine.beds[0].shell != placed.machine.shells[static_cast<std::size_t>(tool.shell)].name)
-      return;
+    if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
     const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
-    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
+    try {
+      soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
+    } catch (const InputError& error) {
+      Fault fault = error.faults().front();
+      fault.file = description.file;
+      fault.element = "include[" + placed.name + "]/" + fault.element;
+      throw InputError(fault);
+    }
   }
   void wake(const scene::AwakeSoil& awake) {
     const auto cell = [&](double metres, double from, int cells) {

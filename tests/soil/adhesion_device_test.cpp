@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/shapes.h"
 #include "soil/contact.h"
 #include "soil/reference/double_contact.h"
 #include "soil/reference/reference_solver.h"
@@ -26,14 +27,7 @@ scene::Soil sticky(double adhesion, double delta_degrees) {
   return soil;
 }
 
-scene::Shell plate(double length, double width) {
-  scene::Shell s;
-  s.name = "plate";
-  const double x = length / 2, y = width / 2;
-  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
-  s.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return s;
-}
+using lab::plate;
 
 TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   // A block flies onto a wide plate, slides and sticks; all soil is in front, no free edge is near.

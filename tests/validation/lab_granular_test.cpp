@@ -13,6 +13,7 @@ struct Case {
   std::map<std::string, double> geometry;
   double cell = 0;  ///< 0: the rig's default
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.rig; }
 
 class GranularLab : public testing::TestWithParam<Case> {};
 

@@ -65,6 +65,7 @@ struct Case {
   double cell = 0;                                     ///< 0: the rig's default
   double phi_degrees = -1, cohesion = -1, young = -1;  ///< -1: the rig's default
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.rig; }
 
 const std::map<std::string, double> kSurcharge = {{"surcharge-pa", 2000}, {"settlement", 0.08}, {"speed", 0.02}};
 

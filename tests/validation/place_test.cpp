@@ -41,7 +41,7 @@ Dug dig_at(double x, double y, double until = 20) {
   }
   out.wall = watch.seconds();
   out.force = session.force().mean();
-  out.earth = record::measure_earthwork(session.world().ground());
+  out.earth = record::measure_earthwork(session.world());
   out.work = static_cast<double>(session.world().soil().stats().particle_steps);
   EXPECT_EQ(session.world().soil().ledger().error(), 0);
   std::printf(

@@ -20,6 +20,7 @@ struct Spot {
   const char* file;
   Vec2 at;  ///< middle of the site from the file's lower-left corner [m]
 };
+void PrintTo(const Spot& spot, std::ostream* out) { *out << spot.file; }
 const Spot kSpots[] = {{"Hummocks", "lidar_hummocky_1m.tif", Vec2(200, 200)},
                        {"RiverBank", "kootenai_channel_1m.asc", Vec2(32, 14)}};
 
@@ -55,7 +56,7 @@ TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
     const Vec2i column = ground.column_at(3.25 + s, 0);
     deepest = std::max(deepest, ground.start_height(column.x(), column.y()) - ground.height(column.x(), column.y()));
   }
-  const record::Earthwork earth = record::measure_earthwork(ground);
+  const record::Earthwork earth = record::measure_earthwork(session.world());
   const char* source = "issue 2, real terrain";
   std::printf("%s: %zu cycles in %.0f s, bank %.2f m3, loose %.2f m3, most %d particles\n", spot.file,
               session.cycles().size(), session.world().time(), earth.bank_volume, earth.loose_volume,

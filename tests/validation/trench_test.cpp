@@ -43,7 +43,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   const double real_time_factor = session.world().time() / watch.seconds();
   const heightfield::Ground& ground = session.world().ground();
   const TrenchMeasure trench = measure(ground, dig);
-  const record::Earthwork earth = record::measure_earthwork(ground);
+  const record::Earthwork earth = record::measure_earthwork(session.world());
   const char* source = "issue 2, The trench";
   expect_between("design length [m]", (dig.to - dig.from).norm(), 3.0, 20, source);
   expect_between("design depth [m]", dig.depth, 0.8, 5, source);
