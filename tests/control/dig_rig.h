@@ -63,7 +63,6 @@ class DigRig {
   std::vector<double> target_;
   double payload_ = 0;
   double capacity_ = 0;
-  double lifted_ = 0;
   bool stalled_ = false;
   bool carrying_ = false;
   bool lifting_ = false;
