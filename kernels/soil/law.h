@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The soil law: one source for the kernels (lanes of float16) and for the double-precision reference.
 //
-// Rate-form Drucker-Prager, plane-strain matched, zero dilatancy, with
+// Rate-form Drucker-Prager, plane-strain matched, with
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
 //   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
-//   - viscosity on soil that does not yield, so that intact ground does not ring.
+//   - viscosity on soil that does not yield, so that intact ground does not ring;
+// and, where LAW_EXTENDED is defined (a scene whose soils have them; the rest need not pay),
+//   - dilatancy: shear widens J0 also against pressure, less and less until it is loose;
+//   - mu(I): friction grows with the inertial number of the flow.
 // Only + - * / sqrt min max, so that contraction-free builds agree bit for bit.
 //
 // The includer defines before inclusion: LAW_T (scalar or lanes), LAW_LIT(x) (a literal of its scalar type), LAW_MIN,
@@ -25,7 +28,15 @@ typedef struct LawSoil {
   LAW_T inv_opening; // 1 / opening strain
   LAW_T viscosity;   // [Pa s], where it does not yield
   LAW_T swell;       // largest J0
-  LAW_T loosening;   // growth of J0 per plastic shear
+  LAW_T loosening;   // growth of J0 per plastic shear, as far as J allows
+#ifdef LAW_EXTENDED
+  LAW_T dilatancy;   // b: plastic volume strain per plastic shear in bank state
+  LAW_T inv_range;   // 1 / (swell - 1), 0 without swell
+  LAW_T matched;     // yield stress that plane strain needs at b / that without dilatancy - 1
+  LAW_T alpha_fast;  // growth of alpha from slow to fast flow
+  LAW_T grain;       // diameter x sqrt(density) of the grains
+  LAW_T inertial;    // inertial number at half that growth
+#endif
 } LawSoil;
 
 // Advances stress and state by dt [s] under the velocity gradient c (row major, c[3*i+j] = dv_i/dx_j [1/s]).
@@ -57,29 +68,51 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
   // Yield stress, radial return.
   const LAW_T soft = LAW_LIT(1.0) + *shear * soil->inv_remould;
   const LAW_T fade = LAW_MIN(LAW_MAX(LAW_LIT(1.0) - open * soil->inv_opening, LAW_LIT(0.0)), LAW_LIT(1.0));
-  const LAW_T q_yield = soil->alpha * p + (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+#ifdef LAW_EXTENDED
+  const LAW_T dense = LAW_MIN(LAW_MAX((soil->swell - *j0) * soil->inv_range, LAW_LIT(0.0)), LAW_LIT(1.0));
+  const LAW_T rate = LAW_SQRT(LAW_LIT(2.0) * (dxx * dxx + dyy * dyy + dzz * dzz) +
+                              LAW_LIT(4.0) * (dxy * dxy + dyz * dyz + dxz * dxz));
+  const LAW_T flow = soil->grain * rate;
+  const LAW_T fast = flow / (flow + soil->inertial * LAW_SQRT(p) + LAW_LIT(1e-9));
+  const LAW_T scale = LAW_LIT(1.0) + soil->matched * dense;
+  const LAW_T alpha = scale * (soil->alpha + soil->alpha_fast * fast);
+#else
+  const LAW_T scale = LAW_LIT(1.0), alpha = soil->alpha;
+#endif
+  const LAW_T q_yield = alpha * p + scale * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
   const LAW_T q =
       LAW_SQRT(LAW_LIT(0.5) * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
   const LAW_T keep = LAW_MIN(q_yield / LAW_MAX(q, LAW_LIT(1e-9)), LAW_LIT(1.0));
-  s[0] = xx * keep;
-  s[1] = yy * keep;
-  s[2] = zz * keep;
-  s[3] = xy * keep;
-  s[4] = yz * keep;
-  s[5] = xz * keep;
+#ifdef LAW_EXTENDED
+  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up.
+  const LAW_T b = soil->dilatancy * dense;
+  const LAW_T harder = alpha * soil->bulk * b * LAW_STEP(LAW_LIT(0.0), -open);
+  const LAW_T slip = q * (LAW_LIT(1.0) - keep) / (soil->shear + harder);
+  const LAW_T stay = keep + (LAW_LIT(1.0) - keep) * (harder / (soil->shear + harder));
+  *j0 = LAW_MIN(*j0 * (LAW_LIT(1.0) + b * slip), LAW_MAX(soil->swell, *j0));
+  const LAW_T pressure = soil->bulk * LAW_MAX(LAW_LIT(1.0) - *j / *j0, LAW_LIT(0.0));
+#else
+  const LAW_T slip = q * (LAW_LIT(1.0) - keep) / soil->shear;
+  const LAW_T stay = keep, pressure = p;
+#endif
+  s[0] = xx * stay;
+  s[1] = yy * stay;
+  s[2] = zz * stay;
+  s[3] = xy * stay;
+  s[4] = yz * stay;
+  s[5] = xz * stay;
 
   // Viscosity where the step was elastic.
   const LAW_T eta2 = LAW_LIT(2.0) * soil->viscosity * LAW_STEP(LAW_LIT(1.0), keep);
-  sigma[0] = s[0] + eta2 * dxx - p;
-  sigma[1] = s[1] + eta2 * dyy - p;
-  sigma[2] = s[2] + eta2 * dzz - p;
+  sigma[0] = s[0] + eta2 * dxx - pressure;
+  sigma[1] = s[1] + eta2 * dyy - pressure;
+  sigma[2] = s[2] + eta2 * dzz - pressure;
   sigma[3] = s[3] + eta2 * dxy;
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
   // Plastic shear, and the density state it loosens: never further than J allows, so that
   // loosening makes no pressure out of nothing.
-  const LAW_T slip = q * (LAW_LIT(1.0) - keep) / soil->shear;
   *shear = *shear + slip;
   const LAW_T grown = LAW_MIN(*j0 + soil->loosening * slip, *j);
   *j0 = LAW_MAX(*j0, LAW_MIN(grown, soil->swell));

@@ -44,10 +44,17 @@
 #define SOIL_SWELL 8
 #define SOIL_LOOSENING 9
 #define SOIL_INV_DENSITY 10
-#define SOIL_LAW_WORDS 11  // those above are what the law needs
-#define SOIL_TOOL_FRICTION 11
-#define SOIL_ADHESION 12  // [Pa]
-#define SOIL_WORDS 16
+#define SOIL_LAW_WORDS 11  // those above are what the law needs, with LAW_EXTENDED those up to the next such line
+#define SOIL_DILATANCY 11
+#define SOIL_INV_RANGE 12
+#define SOIL_MATCHED 13
+#define SOIL_ALPHA_FAST 14
+#define SOIL_GRAIN 15
+#define SOIL_INERTIAL 16
+#define SOIL_EXTENDED_WORDS 17
+#define SOIL_TOOL_FRICTION 17
+#define SOIL_ADHESION 18  // [Pa]
+#define SOIL_WORDS 20
 
 // The frame: what changes every step about the tools, one buffer of float4. Triangles first, SHELL_WORDS each (see
 // shell_query.h), then the free edges, two each, then the tools from float4 number `first_tool` on, TOOL_WORDS floats:

@@ -11,20 +11,26 @@
 #include "soil/law.h"
 #include "soil/opening.h"
 
+#ifdef LAW_EXTENDED
+#define LAW_WORDS SOIL_EXTENDED_WORDS
+#else
+#define LAW_WORDS SOIL_LAW_WORDS
+#endif
+
 static inline void load_soil(constant float* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
-  float lanes[SOIL_LAW_WORDS][16];
+  float lanes[LAW_WORDS][16];
   const int first = tag.s0 & 0xffff;
   int kinds[16];
   vstore16(tag & 0xffff, 0, kinds);
   int mixed = 0;
   for (int l = 1; l < count; ++l) mixed |= kinds[l] ^ first;
-  real value[SOIL_LAW_WORDS];
+  real value[LAW_WORDS];
   if (mixed == 0) {
-    for (int k = 0; k < SOIL_LAW_WORDS; ++k) value[k] = soils[first * SOIL_WORDS + k];
+    for (int k = 0; k < LAW_WORDS; ++k) value[k] = soils[first * SOIL_WORDS + k];
   } else {
     for (int l = 0; l < 16; ++l)
-      for (int k = 0; k < SOIL_LAW_WORDS; ++k) lanes[k][l] = soils[kinds[l] * SOIL_WORDS + k];
-    for (int k = 0; k < SOIL_LAW_WORDS; ++k) value[k] = vload16(0, lanes[k]);
+      for (int k = 0; k < LAW_WORDS; ++k) lanes[k][l] = soils[kinds[l] * SOIL_WORDS + k];
+    for (int k = 0; k < LAW_WORDS; ++k) value[k] = vload16(0, lanes[k]);
   }
   soil->bulk = value[SOIL_BULK];
   soil->shear = value[SOIL_SHEAR];
@@ -36,6 +42,14 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   soil->viscosity = value[SOIL_VISCOSITY];
   soil->swell = value[SOIL_SWELL];
   soil->loosening = value[SOIL_LOOSENING];
+#ifdef LAW_EXTENDED
+  soil->dilatancy = value[SOIL_DILATANCY];
+  soil->inv_range = value[SOIL_INV_RANGE];
+  soil->matched = value[SOIL_MATCHED];
+  soil->alpha_fast = value[SOIL_ALPHA_FAST];
+  soil->grain = value[SOIL_GRAIN];
+  soil->inertial = value[SOIL_INERTIAL];
+#endif
   *inv_density = value[SOIL_INV_DENSITY];
 }
 

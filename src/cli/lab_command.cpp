@@ -46,6 +46,10 @@ struct LabOptions {
       {"--young-pa", "Young's modulus, softened for speed [Pa]", {}},
       {"--poisson", "Poisson's ratio [-]", {}},
       {"--swell", "loose volume / bank volume [-]", {}},
+      {"--dilatancy-deg", "dilatancy angle psi in bank state [deg]; needs a swell", {}},
+      {"--fast-phi-deg", "mu(I): friction angle of fast flow [deg]", {}},
+      {"--grain-m", "mu(I): grain diameter [m]", {}},
+      {"--inertial-number", "mu(I): inertial number at half the growth [-]", {}},
       {"--delta-deg", "friction angle of soil on tool [deg]", {}},
       {"--adhesion-pa", "adhesion of soil on tool [Pa]", {}},
   };
@@ -111,6 +115,10 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   set("--young-pa", soil.young_modulus);
   set("--poisson", soil.poisson);
   set("--swell", soil.swell);
+  set("--dilatancy-deg", soil.dilatancy_angle, kPi / 180);
+  set("--fast-phi-deg", soil.fast_friction_angle, kPi / 180);
+  set("--grain-m", soil.grain_diameter);
+  set("--inertial-number", soil.inertial_number);
   set("--delta-deg", soil.tool_friction_angle, kPi / 180);
   set("--adhesion-pa", soil.adhesion);
   return soil;

@@ -43,6 +43,10 @@ const std::vector<SoilValue>& soil_values() {
       {"opening_strain", &Soil::opening_strain, 1e-4, 1},
       {"young_modulus_pa", &Soil::young_modulus, 1e4, 1e9},
       {"poisson", &Soil::poisson, 0, 0.49},
+      {"dilatancy_angle_deg", &Soil::dilatancy_angle, 0, 30, kDegree},
+      {"fast_friction_angle_deg", &Soil::fast_friction_angle, 0, 60, kDegree},
+      {"grain_diameter_m", &Soil::grain_diameter, 1e-6, 0.5},
+      {"inertial_number", &Soil::inertial_number, 1e-3, 10},
       {"tool_friction_angle_deg", &Soil::tool_friction_angle, 0, 60, kDegree},
       {"adhesion_pa", &Soil::adhesion, 0, 1e5},
       {"bekker_kc_n_per_m_n1", &Soil::bekker_kc, -1e9, 1e9},
@@ -65,6 +69,14 @@ std::vector<Fault> check_soil(const Soil& soil) {
   if (soil.residual_cohesion > soil.cohesion)
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
                         "must not exceed cohesion_pa, " + text_of(soil.cohesion), "remoulding only weakens soil"));
+  if (soil.dilatancy_angle > 0 && !(soil.swell > 1))
+    out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
+                        "needs a swell above 1: soil dilates from its bank to its loose density",
+                        "give the soil a swell, or no dilatancy"));
+  if (soil.dilatancy_angle > soil.friction_angle)
+    out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
+                        "must not exceed friction_angle_deg, " + text_of(soil.friction_angle / kDegree),
+                        "soil that dilates more than it rubs makes energy"));
   return out;
 }
 

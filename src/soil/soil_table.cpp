@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soil/soil_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,7 @@ constexpr double kMixingTime = 0.02;
 /// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by
 /// that. tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
 constexpr double kPacked = 1.05, kClosingTime = 0.1;
+constexpr double kGrainDensity = 2650;  ///< of quartz, for the inertial number [kg/m3]
 
 }  // namespace
 
@@ -40,6 +42,15 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.viscosity = kViscosityShare * soil.bank_density * sound_speed(soil) * cell;
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
+  // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and Mohr-Coulomb's radius
+  // for phi [SOIL_SOLVER section 3].
+  const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
+  k.dilatancy = soil.swell > 1 ? b : 0;
+  k.inv_range = soil.swell > 1 ? 1 / (soil.swell - 1) : 0;
+  k.matched = 1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3) - 1;
+  k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);
+  k.grain = soil.grain_diameter * std::sqrt(kGrainDensity);
+  k.inertial = soil.inertial_number;
   return k;
 }
 
@@ -47,6 +58,12 @@ double sound_speed(const scene::Soil& soil) {
   const double bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
   const double shear = soil.young_modulus / (2 * (1 + soil.poisson));
   return std::sqrt((bulk + 4 * shear / 3) / soil.bank_density);
+}
+
+bool needs_extended_law(const std::vector<scene::Soil>& soils) {
+  return std::any_of(soils.begin(), soils.end(), [](const scene::Soil& soil) {
+    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle;
+  });
 }
 
 std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell) {
@@ -68,6 +85,12 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
     at[SOIL_VISCOSITY] = static_cast<float>(k.viscosity);
     at[SOIL_SWELL] = static_cast<float>(k.swell);
     at[SOIL_LOOSENING] = static_cast<float>(k.loosening);
+    at[SOIL_DILATANCY] = static_cast<float>(k.dilatancy);
+    at[SOIL_INV_RANGE] = static_cast<float>(k.inv_range);
+    at[SOIL_MATCHED] = static_cast<float>(k.matched);
+    at[SOIL_ALPHA_FAST] = static_cast<float>(k.alpha_fast);
+    at[SOIL_GRAIN] = static_cast<float>(k.grain);
+    at[SOIL_INERTIAL] = static_cast<float>(k.inertial);
     at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
     at[SOIL_ADHESION] = static_cast<float>(soils[i].adhesion);
     at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));

@@ -75,7 +75,7 @@ Solver::State::State(device::Device& device_in, const scene::World& world_in, he
       fastest_sound(extreme_sound(world_in.soils, true)),
       store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
             soil_table(world_in.soils, ground_in.cell())),
-      transfer(device_in),
+      transfer(device_in, needs_extended_law(world_in.soils)),
       contact(device_in, cell, origin, extreme_sound(world_in.soils, true)),
       floor(ground_in, grid),
       exchange(world_in, ground_in),

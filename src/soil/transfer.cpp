@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "soil/layout.h"
 #include "soil/schedule.h"
@@ -10,9 +11,10 @@
 
 namespace navvy::soil {
 
-Transfer::Transfer(device::Device& device)
+Transfer::Transfer(device::Device& device, bool extended_law)
     : device_(device),
-      scatter_program_(device, kernel_path(device, "particle_to_grid")),
+      scatter_program_(device, kernel_path(device, "particle_to_grid"),
+                       extended_law ? std::vector{device::define("LAW_EXTENDED", 1)} : std::vector<std::string>{}),
       grid_program_(device, kernel_path(device, "grid_update")),
       gather_program_(device, kernel_path(device, "grid_to_particle")),
       scatter_(scatter_program_, "particle_to_grid"),

@@ -25,7 +25,8 @@ struct NearNodes {
 
 class Transfer {
  public:
-  explicit Transfer(device::Device& device);
+  /// `extended_law`: see needs_extended_law.
+  Transfer(device::Device& device, bool extended_law);
 
   /// Takes over the block lists after a re-bin or a change of the near blocks. `near_slot` has one entry per active
   /// block; `tiles` is what ParticleStore::set_near returned.

@@ -99,6 +99,95 @@ TEST(SoilLaw, DensityStateGrowsOnlyToTheSwellAndOnlyAsFarAsTheVolumeAllows) {
   EXPECT_NEAR(open.j0, soil.swell, 1e-12);
 }
 
+/// Sheared in plane strain at a fixed normal stress on the plane of shear, as in a shear box: the height follows.
+struct ShearBox {
+  explicit ShearBox(const scene::Soil& soil, double normal) : e{law_soil(soil, 0.1)}, target(normal) {
+    e.soil.viscosity = 0;
+    e.j = 1 - normal / e.soil.bulk;
+  }
+  /// Shears by `strain`; returns how much the volume grew.
+  double shear(double strain) {
+    const double dt = 1e-3, before = volume;
+    e.c[1] = 0.05;
+    for (double done = 0; done < strain; done += e.c[1] * dt) {
+      e.c[4] = 50 * (e.sigma[1] + target) / e.soil.bulk * -1;
+      e.step(dt);
+      volume += e.c[4] * dt;
+    }
+    return volume - before;
+  }
+  /// sin of the mobilised friction angle: radius / centre of Mohr's circle in the plane.
+  double mobilised() const {
+    return std::hypot(0.5 * (e.sigma[0] - e.sigma[1]), e.sigma[3]) / (-0.5 * (e.sigma[0] + e.sigma[1]));
+  }
+  Element e;
+  double target = 0, volume = 0;
+};
+
+TEST(SoilLaw, DenseSoilDilatesByItsAngleAtItsFrictionAngleUntilItIsLoose) {
+  for (const double psi : {5.0, 12.0}) {
+    scene::Soil soil = rig::sand(35);
+    soil.swell = 2;  // far away: what is measured is nearly bank soil
+    soil.dilatancy_angle = radians(psi);
+    soil.loosening_strain = 100;
+    ShearBox box(soil, 20e3);
+    box.shear(0.3);  // until the elastic strains stand
+    const double growth = box.shear(0.02) / 0.02, left = (soil.swell - box.e.j0) / (soil.swell - 1);
+    const double sin_now = left * std::sin(radians(psi));
+    print_value("volume / shear strain at psi " + std::to_string(psi), growth,
+                std::to_string(std::tan(std::asin(sin_now))) + " +-3 %", "tan psi, plane strain");
+    EXPECT_NEAR(growth, std::tan(std::asin(sin_now)), 0.03 * growth);
+    print_value("sin of the mobilised angle", box.mobilised(), std::to_string(std::sin(radians(35))) + " +-1 %",
+                "plane-strain match with dilatancy");
+    EXPECT_NEAR(box.mobilised(), std::sin(radians(35)), 0.01 * std::sin(radians(35)));
+  }
+  scene::Soil soil = rig::sand(35);
+  soil.swell = 1.1;
+  soil.dilatancy_angle = radians(12);
+  soil.loosening_strain = 100;
+  ShearBox box(soil, 20e3);
+  box.shear(4);
+  EXPECT_GT(box.e.j0, 1.098);
+  EXPECT_LE(box.e.j0, 1.1);
+  EXPECT_LT(box.shear(0.1), 1e-3);
+  EXPECT_NEAR(box.mobilised(), std::sin(radians(35)), 0.01 * std::sin(radians(35)));
+}
+
+TEST(SoilLaw, DilatingSoilThatIsConfinedPressesItself) {
+  scene::Soil soil = rig::sand(35);
+  soil.swell = 1.2;
+  soil.dilatancy_angle = radians(10);
+  Element e{law_soil(soil, 0.1)};
+  e.soil.viscosity = 0;
+  e.j = 1 - 20e3 / e.soil.bulk;
+  e.c[1] = 0.5;
+  for (int i = 0; i < 1000; ++i) e.step(1e-3);
+  EXPECT_GT(e.pressure(), 40e3);
+  // On its way up it stays on the yield surface.
+  const double dense = (soil.swell - e.j0) / (soil.swell - 1);
+  EXPECT_NEAR(e.q() / e.pressure(), e.soil.alpha * (1 + e.soil.matched * dense), 1e-3);
+}
+
+TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
+  scene::Soil soil = rig::sand(30);
+  soil.fast_friction_angle = radians(40);
+  soil.grain_diameter = 0.002;
+  for (const double rate : {0.01, 5.0, 50.0, 5000.0}) {
+    Element e{law_soil(soil, 0.1)};
+    e.soil.viscosity = 0;
+    const double p = 1000;
+    e.j = 1 - p / e.soil.bulk;
+    e.c[1] = rate;
+    for (int i = 0; i < 2000; ++i) e.step(1e-3 / std::max(1.0, rate));
+    const double inertial = rate * soil.grain_diameter * std::sqrt(2650 / p);
+    const double wanted = std::sin(radians(30)) + (std::sin(radians(40)) - std::sin(radians(30))) * inertial /
+                                                      (inertial + soil.inertial_number);
+    print_value("q / p at I = " + std::to_string(inertial), e.q() / e.pressure(), std::to_string(wanted) + " +-0.1 %",
+                "mu(I), Jop et al. 2006, on sin phi");
+    EXPECT_NEAR(e.q() / e.pressure(), wanted, 1e-3 * wanted);
+  }
+}
+
 TEST(SoilLaw, TurningWithoutStrainTurnsTheStress) {
   Element e{law_soil(rig::sand(), 0.1)};
   e.j = 1 - 20e3 / e.soil.bulk;

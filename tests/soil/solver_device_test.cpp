@@ -33,14 +33,18 @@ std::vector<Particle> strewn(const Rig& rig, int count, std::uint64_t seed, cons
 
 class TwinTest : public testing::TestWithParam<int> {};
 
-TEST_P(TwinTest, AgreesWithTheDoubleTwin) {
-  scene::Soil loam = rig::sand(28);
-  loam.name = "loam";
-  loam.cohesion = 5000;
-  loam.residual_cohesion = 1000;
-  loam.swell = 1.2;
-  Rig rig({rig::sand(), loam});
-  const auto start = strewn(rig, GetParam(), 7, Vec3(10.03, 10.05, 0.07));
+scene::Soil loam() {
+  scene::Soil out = rig::sand(28);
+  out.name = "loam";
+  out.cohesion = 5000;
+  out.residual_cohesion = 1000;
+  out.swell = 1.2;
+  return out;
+}
+
+void expect_agreement(const std::vector<scene::Soil>& soils, int count) {
+  Rig rig(soils);
+  const auto start = strewn(rig, count, 7, Vec3(10.03, 10.05, 0.07));
   rig.solver().insert(start);
   reference::ReferenceSolver twin(rig.world().soils, rig.cell(), rig.world().gravity, [](int, int) { return 40.0; });
   for (const Particle& p : start) twin.points.push_back(reference::from_particle(p));
@@ -64,6 +68,16 @@ TEST_P(TwinTest, AgreesWithTheDoubleTwin) {
   EXPECT_LT(worst_x, 2e-5);
   EXPECT_LT(worst_v, 2e-3);
   EXPECT_LT(worst_s, 20);
+}
+
+TEST_P(TwinTest, AgreesWithTheDoubleTwin) { expect_agreement({rig::sand(), loam()}, GetParam()); }
+
+TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsDilateAndFeelRates) {
+  scene::Soil sand = rig::sand(), dense = loam();
+  sand.fast_friction_angle = sand.friction_angle + radians(10);
+  sand.grain_diameter = 0.01;
+  dense.dilatancy_angle = radians(10);
+  expect_agreement({sand, dense}, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, TwinTest, testing::Values(1, 2, 15, 16, 17, 333, 1000));

@@ -11,9 +11,14 @@
 #include "soil/law.h"
 
 static inline LawSoil load_soil(constant float* at) {
-  const LawSoil soil = {at[SOIL_BULK],   at[SOIL_SHEAR],       at[SOIL_ALPHA],       at[SOIL_K_RESIDUAL],
-                        at[SOIL_K_BOND], at[SOIL_INV_REMOULD], at[SOIL_INV_OPENING], at[SOIL_VISCOSITY],
-                        at[SOIL_SWELL],  at[SOIL_LOOSENING]};
+  const LawSoil soil = {
+      at[SOIL_BULK],        at[SOIL_SHEAR],       at[SOIL_ALPHA],     at[SOIL_K_RESIDUAL], at[SOIL_K_BOND],
+      at[SOIL_INV_REMOULD], at[SOIL_INV_OPENING], at[SOIL_VISCOSITY], at[SOIL_SWELL],      at[SOIL_LOOSENING],
+#ifdef LAW_EXTENDED
+      at[SOIL_DILATANCY],   at[SOIL_INV_RANGE],   at[SOIL_MATCHED],   at[SOIL_ALPHA_FAST], at[SOIL_GRAIN],
+      at[SOIL_INERTIAL],
+#endif
+  };
   return soil;
 }
 

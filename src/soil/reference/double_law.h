@@ -11,6 +11,7 @@
 namespace navvy::soil::reference {
 
 #define LAW_T double
+#define LAW_EXTENDED
 #define LAW_LIT(x) (x)
 #define LAW_MIN(a, b) std::fmin(a, b)
 #define LAW_MAX(a, b) std::fmax(a, b)
@@ -19,6 +20,7 @@ namespace navvy::soil::reference {
 #define LAW_FN inline
 #include "soil/law.h"  // NOLINT: on purpose inside the namespace
 #undef LAW_T
+#undef LAW_EXTENDED
 #undef LAW_LIT
 #undef LAW_MIN
 #undef LAW_MAX
@@ -28,8 +30,8 @@ namespace navvy::soil::reference {
 
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants k = law_constants(soil, cell);
-  return {k.bulk,        k.shear,       k.alpha,     k.k_residual, k.k_bond,
-          k.inv_remould, k.inv_opening, k.viscosity, k.swell,      k.loosening};
+  return {k.bulk,  k.shear,     k.alpha,     k.k_residual, k.k_bond,  k.inv_remould, k.inv_opening, k.viscosity,
+          k.swell, k.loosening, k.dilatancy, k.inv_range,  k.matched, k.alpha_fast,  k.grain,       k.inertial};
 }
 
 }  // namespace navvy::soil::reference
