@@ -76,10 +76,10 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
   const LAW_T fast = flow / (flow + soil->inertial * LAW_SQRT(p) + LAW_LIT(1e-9));
   const LAW_T scale = LAW_LIT(1.0) + soil->matched * dense;
   const LAW_T alpha = scale * (soil->alpha + soil->alpha_fast * fast);
-#else
-  const LAW_T scale = LAW_LIT(1.0), alpha = soil->alpha;
-#endif
   const LAW_T q_yield = alpha * p + scale * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+#else
+  const LAW_T q_yield = soil->alpha * p + (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+#endif
   const LAW_T q =
       LAW_SQRT(LAW_LIT(0.5) * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
   const LAW_T keep = LAW_MIN(q_yield / LAW_MAX(q, LAW_LIT(1e-9)), LAW_LIT(1.0));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "core/math.h"
 
@@ -57,15 +58,8 @@ const std::vector<SoilValue>& soil_values() {
   return table;
 }
 
-std::vector<Fault> check_soil(const Soil& soil) {
+std::vector<Fault> check_relations(const Soil& soil) {
   std::vector<Fault> out;
-  for (const SoilValue& v : soil_values()) {
-    const double value = v.written(soil);
-    const bool ok = value >= v.low - kRounding * std::abs(v.low) && value <= v.high + kRounding * std::abs(v.high);
-    if (!ok)
-      out.push_back(fault(soil, v.name, value, "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
-                          "correct the soil"));
-  }
   if (soil.residual_cohesion > soil.cohesion)
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
                         "must not exceed cohesion_pa, " + text_of(soil.cohesion), "remoulding only weakens soil"));
@@ -77,6 +71,19 @@ std::vector<Fault> check_soil(const Soil& soil) {
     out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
                         "must not exceed friction_angle_deg, " + text_of(soil.friction_angle / kDegree),
                         "soil that dilates more than it rubs makes energy"));
+  return out;
+}
+
+std::vector<Fault> check_soil(const Soil& soil) {
+  std::vector<Fault> out;
+  for (const SoilValue& v : soil_values()) {
+    const double value = v.written(soil);
+    const bool ok = value >= v.low - kRounding * std::abs(v.low) && value <= v.high + kRounding * std::abs(v.high);
+    if (!ok)
+      out.push_back(fault(soil, v.name, value, "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
+                          "correct the soil"));
+  }
+  for (Fault& fault : check_relations(soil)) out.push_back(std::move(fault));
   return out;
 }
 

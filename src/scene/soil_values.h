@@ -24,7 +24,10 @@ struct SoilValue {
 /// Every number of a soil but its colour, in the order of scenarios/README.md.
 const std::vector<SoilValue>& soil_values();
 
-/// What is outside the table, or not a number, and a residual cohesion above the cohesion; empty when all is in order.
+/// What a soil's numbers must be to each other; the element of a fault is "soil[name]/" and the number's name.
+std::vector<Fault> check_relations(const Soil& soil);
+
+/// What is outside the table, or not a number, and broken relations; empty when all is in order.
 std::vector<Fault> check_soil(const Soil& soil);
 
 }  // namespace navvy::scene

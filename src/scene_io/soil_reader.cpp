@@ -37,8 +37,13 @@ void read_values(Element& element, scene::Soil& soil, Faults& faults) {
       soil.friction_angle = std::asin(std::min(1.0, std::tan(repose)));
     }
   }
-  if (Element* child = fields.child("residual_cohesion_pa"); child && soil.residual_cohesion > soil.cohesion)
-    faults.error(*child, text_of(*child), "must not exceed cohesion_pa", "remoulding only weakens soil");
+}
+
+void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
+  for (const Fault& fault : scene::check_relations(soil)) {
+    const Element* child = element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
+    faults.error(child != nullptr ? *child : element, fault.value, fault.rule, fault.remedy);
+  }
 }
 
 bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults& faults) {
@@ -84,6 +89,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one line only.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
     soil.residual_cohesion = std::min(residual, soil.cohesion);
+  check_values(element, soil, faults);
   return soil;
 }
 
