@@ -19,11 +19,11 @@
 namespace navvy::cli {
 namespace {
 
-int check(const std::vector<std::string>& files) {
+int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   int errors = 0, warnings = 0;
   for (const std::string& file : files) {
     std::optional<scene::World> world;
-    std::vector<Fault> faults = scene_io::check(file, &world);
+    std::vector<Fault> faults = scene_io::check(file, &world, overrides);
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
       for (Fault& fault : sim::check_programs(*world)) faults.push_back(std::move(fault));
@@ -79,7 +79,10 @@ void add_check(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("check", "validate scene, machine or soil files, the reach of digs too, without running them");
   command->add_option("files", *files, "SDF files")->required();
-  command->callback([files, &action] { action = [files] { return check(*files); }; });
+  auto values = std::make_shared<SceneOptions>();
+  values->add_values_to(*command);
+  command->callback(
+      [files, values, &action] { action = [files, values] { return check(*files, values->overrides()); }; });
 }
 
 void add_devices(CLI::App& app, Action& action) {

@@ -4,7 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
@@ -82,6 +84,14 @@ int main(int argc, char** argv) {
   cli::add_channels(app, action);
   cli::add_lab(app, action);
   cli::add_bench(app, action);
+  const std::vector<CLI::App*> commands = app.get_subcommands({});
+  const auto is_chosen = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_chosen)) {
+    std::cerr << "error: '" << argv[1] << "' is no command; there are:";
+    for (const CLI::App* command : commands) std::cerr << " " << command->get_name();
+    std::cerr << " (navvy --help)\n";
+    return cli::kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -123,8 +123,12 @@ int run(const RunOptions& options) {
   if (!options.resume.empty()) session.load(options.resume);
   record::Recorder recorder(session, record_options);
   if (!options.snapshot.empty()) require_writable(options.snapshot);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  // A read of standard input must end at Ctrl-C, or a silent controller could hold the program for ever.
+  action.sa_flags = options.control.empty() ? SA_RESTART : 0;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   const int code = step_to_the_end(options, session, recorder);
   std::FILE* say = options.control.empty() ? stdout : stderr;

@@ -27,20 +27,25 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
 
 }  // namespace
 
-void SceneOptions::add_to(CLI::App& command) {
-  command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
-      ->required();
-  command.add_option("--device", device, "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`)");
+void SceneOptions::add_values_to(CLI::App& command) {
   command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
       ->allow_extra_args(false);
-  command.add_option("--seed", seed, "seed of everything random");
-  command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
-  command.add_flag("--no-render", no_render, "draw no pictures");
+  command.add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
   command.add_option("--at", at,
                      "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
                      "corner; default its centre");
   command.add_option("--size", size, "X,Y extent of the site [m]");
+}
+
+void SceneOptions::add_to(CLI::App& command) {
+  command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
+      ->required();
+  command.add_option("--device", device, "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`)");
+  add_values_to(command);
+  command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
+  command.add_flag("--no-render", no_render, "draw no pictures");
 }
 
 scene_io::Overrides SceneOptions::overrides() const {

@@ -24,7 +24,9 @@ struct SceneOptions {
   double duration = 0;
   bool no_render = false;
 
-  /// Adds the options to a subcommand; the struct must outlive parsing.
+  /// Adds the options that change values of a scene to a subcommand, as add_to does.
+  void add_values_to(CLI::App& command);
+  /// Adds all options to a subcommand; the struct must outlive parsing.
   void add_to(CLI::App& command);
   /// @throws InputError for a malformed value.
   scene_io::Overrides overrides() const;

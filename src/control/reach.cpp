@@ -14,6 +14,7 @@ namespace {
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
 constexpr double kNearest = 3.0;      // end of the trench to the swing axis: clear of wheels and undercarriage [m]
 constexpr double kWiderCut = 0.1;     // than the bucket [m]
+constexpr double kSpoilClear = 0.5;   // dump point to the trench's edge [m]
 
 std::string number(double value, const char* unit) {
   char text[48];
@@ -105,6 +106,12 @@ class ReachCheck {
       require_tip(arm, X_WS, name, p, surface_.height(p.x(), p.y()) - dig.depth);
     }
     require_dump(arm, X_WS, dig);
+    const Vec2 along = line.near - line.far;
+    const double share = std::clamp((dig.dump_at - line.far).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double away = (dig.dump_at - line.far - share * along).norm();
+    if (away < 0.5 * dig.width + kSpoilClear)
+      fault("dig/dump_at", metres(away) + " from the trench's line",
+            "spoil must fall " + metres(kSpoilClear) + " clear of the trench's edge", "dump farther aside");
   }
 
   /// The tip at W (p, z), digging or plunging.

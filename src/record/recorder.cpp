@@ -61,6 +61,12 @@ bool due(double time, std::uint64_t count, double rate) {
   return rate > 0 && time * rate >= static_cast<double>(count) - 1e-9;
 }
 
+/// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
+std::string clean(const std::string& directory) {
+  const fs::path path = fs::path(directory).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).string();
+}
+
 void make_directory(const std::string& directory) {
   std::error_code code;
   if (fs::exists(directory + "/summary.json", code)) {
@@ -75,6 +81,7 @@ void make_directory(const std::string& directory) {
 }  // namespace
 
 Recorder::Recorder(sim::Session& session, Options options) {
+  options.directory = clean(options.directory);
   make_directory(options.directory);
   state_ = std::make_unique<State>(session, std::move(options));
   State& s = *state_;

@@ -35,10 +35,12 @@ scene::GroundLayer read_layer(Element& element, const std::vector<scene::Soil>& 
   return layer;
 }
 
-scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind kind, Faults& faults) {
+scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind kind, std::uint64_t seed,
+                                  Faults& faults) {
   using Kind = scene::GroundFeature::Kind;
   scene::GroundFeature feature;
   feature.kind = kind;
+  feature.seed = seed;
   const bool turned = kind != Kind::kHills && kind != Kind::kStockpile;
   const bool box = kind == Kind::kTrench || kind == Kind::kBlock;
   Fields fields(element, faults);
@@ -115,7 +117,7 @@ void read_file(Fields& fields, scene::Ground& ground, Faults& faults) {
 
 }  // namespace
 
-scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soils, Faults& faults) {
+scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soils, std::uint64_t seed, Faults& faults) {
   using Kind = scene::GroundFeature::Kind;
   scene::Ground ground;
   Fields fields(element, faults);
@@ -139,7 +141,7 @@ scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soil
   for (const auto& [name, kind] : kinds) fields.each(name.c_str(), [](Element&) {});
   for (Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
     for (const auto& [name, kind] : kinds)
-      if (name == child->Name()) ground.features.push_back(read_feature(*child, kind, faults));
+      if (name == child->Name()) ground.features.push_back(read_feature(*child, kind, seed, faults));
   fields.finish();
 
   if (!ground.file.empty() && !ground.features.empty())

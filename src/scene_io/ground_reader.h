@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scene/ground.h"
@@ -10,6 +11,7 @@
 namespace navvy::scene_io {
 
 /// Reads <navvy:ground>; layers may only name `soils`. Without a layer and with one soil, that soil fills the ground.
-scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soils, Faults& faults);
+/// Hills without a seed take `seed`.
+scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soils, std::uint64_t seed, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -62,7 +62,7 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world) {
+std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world, const Overrides& overrides) {
   Faults faults;
   if (world != nullptr) world->reset();
   const auto document = Document::open(file, faults);
@@ -73,6 +73,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     read_machine_file(file, faults);
   } else {
+    apply_overrides(*document, overrides, faults);
     scene::World read = read_world(*document, faults);
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }

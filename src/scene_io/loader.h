@@ -48,7 +48,9 @@ std::vector<scene::Soil> load_soils(const std::string& directory);
 
 /// All faults of a world, machine or soil file; empty when it is in order. `world` receives the scene when the file is
 /// one without errors, else it is left empty. Throws nothing but std::bad_alloc.
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world = nullptr);
+/// `overrides` change a scene's values before they are read.
+std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world = nullptr,
+                         const Overrides& overrides = {});
 
 /// Where shipped data (vehicles/, terrain/, scenarios/) is looked for, first match wins: $NAVVY_DATA_DIR, the
 /// installation, the source tree.

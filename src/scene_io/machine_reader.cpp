@@ -229,6 +229,31 @@ void read_triangles(Element& element, const std::vector<double>& vertices, const
         {static_cast<int>(corners[i]), static_cast<int>(corners[i + 1]), static_cast<int>(corners[i + 2])});
 }
 
+/// The solver needs areas, and one side that is the inside: two triangles run along a shared edge in opposite
+/// directions.
+void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
+  const auto named = [](const std::array<int, 3>& t) {
+    return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
+  };
+  std::map<std::pair<int, int>, std::size_t> used;
+  for (std::size_t n = 0; n < shell.triangles.size(); ++n) {
+    const std::array<int, 3>& t = shell.triangles[n];
+    const auto corner = [&](std::size_t i) { return shell.vertices[static_cast<std::size_t>(t[i])]; };
+    if (!((corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 1e-10))
+      faults.error(element, named(t), "triangle " + std::to_string(n) + " has no area",
+                   "remove it or mend its corners");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [at, is_new] = used.insert({{t[i], t[(i + 1) % 3]}, n});
+      if (is_new) continue;
+      faults.error(element, named(t),
+                   "triangles " + std::to_string(at->second) + " and " + std::to_string(n) +
+                       " are wound against each other along their edge",
+                   "wind the whole shell alike: counter-clockwise as seen from the inside");
+      return;
+    }
+  }
+}
+
 scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
   scene::Shell shell;
   shell.name = attribute(element, "name");
@@ -265,6 +290,7 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
     }
   }
   if (shell.triangles.empty() && (inline_given || !path.empty())) faults.error(element, "", "holds no triangle");
+  check_surface(element, shell, faults);
   return shell;
 }
 

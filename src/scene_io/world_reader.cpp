@@ -36,6 +36,14 @@ void read_recording(Element& element, scene::Recording& recording, Faults& fault
       .finish();
 }
 
+/// Names of scenes and cameras become names of files.
+void require_file_name(const Element& element, const std::string& name, Faults& faults) {
+  const bool plain = name != "." && name != ".." && name.find('/') == std::string::npos &&
+                     std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
+  if (!plain)
+    faults.error(element, name, "results are named after it: no '/', no '..'", "use letters, digits, _ and -");
+}
+
 scene::Camera read_camera(Element& element, const scene::World& world, Faults& faults) {
   scene::Camera camera;
   camera.name = attribute(element, "name");
@@ -51,6 +59,7 @@ scene::Camera read_camera(Element& element, const scene::World& world, Faults& f
       .number("rate_hz", camera.rate, {0.001, 1000})
       .finish();
   if (camera.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
+  require_file_name(element, camera.name, faults);
   if (!camera.machine.empty())
     camera.kind = camera.link.empty() ? scene::Camera::Kind::kChase : scene::Camera::Kind::kOnLink;
   if (camera.machine.empty() && !camera.link.empty())
@@ -236,6 +245,7 @@ scene::World read_world(Document& document, Faults& faults) {
     return world;
   }
   world.name = attribute(*element, "name");
+  require_file_name(*element, world.name, faults);
   std::vector<double> v;
   Faults seen;  // check_sdf has reported these
   if (Element* e = element->FirstChildElement("gravity"); e && read_numbers(*e, 3, {-100, 100}, v, seen))
@@ -251,7 +261,7 @@ scene::World read_world(Document& document, Faults& faults) {
   const std::size_t before_ground = faults.error_count();
   Element* ground = element->FirstChildElement("navvy:ground");
   if (ground) {
-    world.ground = read_ground(*ground, world.soils, faults);
+    world.ground = read_ground(*ground, world.soils, world.seed, faults);
     check_grid(*element, world, faults);
   } else {
     faults.error(*element, "", "a world needs <navvy:ground>",

@@ -298,7 +298,13 @@ void Session::save(const std::string& path) const {
 
 void Session::load(const std::string& path) {
   StateReader reader(read_file(path));
-  load(reader);
+  try {
+    load(reader);
+  } catch (const InputError& error) {
+    Fault fault = error.faults().front();
+    fault.file = path;
+    throw InputError(fault);
+  }
 }
 
 }  // namespace navvy::sim

@@ -20,6 +20,8 @@ void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, 
     const Joint& joint = machine.joints[i];
     if (joint.type == Joint::Type::kFixed || joint.type == Joint::Type::kBall) continue;
     const bool linear = joint.type == Joint::Type::kPrismatic;
+    const bool has_cylinder = std::any_of(machine.cylinders.begin(), machine.cylinders.end(),
+                                          [&](const scene::Cylinder& c) { return c.joint == joint.name; });
     const int j = static_cast<int>(i);
     const std::string base = prefix + joint.name + "/";
     const struct {
@@ -40,8 +42,9 @@ void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, 
                 [&world, m, j] { return world.joint(m, j).velocity; });
     outputs.add({base + "effort", linear ? "N" : "N m", "as applied in the last step"},
                 [&world, m, j] { return world.joint(m, j).effort; });
-    outputs.add({base + "cylinder_force", "N", "of the cylinder on this joint, 0 without one"},
-                [&world, m, j] { return world.joint(m, j).cylinder_force; });
+    if (has_cylinder)
+      outputs.add({base + "cylinder_force", "N", "of the cylinder on this joint"},
+                  [&world, m, j] { return world.joint(m, j).cylinder_force; });
   }
 }
 

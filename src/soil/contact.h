@@ -56,7 +56,8 @@ class Contact {
   /// Queues: signed distances of nodes, sides of particles, particles pushed out of plates (the push and the crossings
   /// go into the transfer's report).
   void classify(ParticleStore& store, Transfer& transfer);
-  /// Queues the two-way solve and the impulses on the nodes.
+  /// Queues the two-way solve and the impulses on the nodes. What the books say of it is an identity up to rounding:
+  /// the tool's impulse is minus the nodes' change. That the machine got it, Momentum.* measures.
   void solve(Transfer& transfer, double dt);
   /// Queues reading what the tools felt.
   void read_later();

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -196,6 +199,44 @@ TEST_F(Program, StopsCleanlyAtCtrlC) {
   EXPECT_EQ(nlohmann::json::parse(text_of(out() + "/summary.json")).at("status"), "interrupted");
   EXPECT_TRUE(fs::exists(out() + "/terrain_end.tif"));
   expect_readable(out());
+}
+
+TEST_F(Program, StopsAtCtrlCWhileItWaitsForALineOfControl) {
+  // A controller that never answers: a pipe that nobody writes into and nobody closes.
+  const std::string pipe = (directory_ / "pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int held = open(pipe.c_str(), O_RDWR);
+  ASSERT_GE(held, 0);
+  const pid_t child =
+      test::start({NAVVY_PROGRAM,
+                   {"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--out", out()},
+                   environment_,
+                   pipe,
+                   (directory_ / "stdout").string(),
+                   (directory_ / "stderr").string()});
+  for (int i = 0; i < 600 && said().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_FALSE(said().empty());
+  kill(child, SIGINT);
+  EXPECT_EQ(wait(child), 130) << complained();
+  close(held);
+  EXPECT_EQ(nlohmann::json::parse(text_of(out() + "/summary.json")).at("status"), "interrupted");
+}
+
+TEST_F(Program, TakesAnOutputFolderWithASlashAtItsEnd) {
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.02", "--out", out() + "/"}), 0)
+        << complained();
+  EXPECT_TRUE(fs::exists(out() + "/summary.json"));
+  EXPECT_TRUE(fs::exists(out() + ".previous/summary.json"));
+}
+
+TEST_F(Program, CheckTakesValuesAsARunDoes) {
+  EXPECT_EQ(run({"check", scene("trench.sdf"), "--set", "soil.cohesion_pa=9000"}), 0) << said();
+  EXPECT_EQ(run({"check", scene("trench.sdf"), "--set", "soil.cohesion_pa=-1"}), 2);
+  EXPECT_NE(said().find("cohesion_pa"), std::string::npos) << said();
+  EXPECT_EQ(run({"check", scene("trench.sdf"), "--seed", "-3"}), 2);
+  EXPECT_EQ(run({"bogus"}), 2);
+  EXPECT_NE(complained().find("'bogus'"), std::string::npos) << complained();
 }
 
 TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {

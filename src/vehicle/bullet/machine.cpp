@@ -304,7 +304,7 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
     const int joint = static_cast<int>(j);
     const double q = tree_.position(joint), qd = tree_.velocity(joint);
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
-    work_ += a.effort * 0.5 * (a.speed_before + qd) * dt;
+    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
     a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
   }
 }
