@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <set>
 
 #include "cli/validators.h"
 #include "core/error.h"
@@ -23,6 +24,19 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
   }
   throw InputError(Fault{Fault::Severity::kError, "", 0, option, text, "two numbers in metres, separated by a comma",
                          "for example " + option + " 120,80"});
+}
+
+/// Names the shipped ones: a name without a path was meant to be one of them, or a file here.
+InputError no_such_scene(const std::string& name) {
+  std::set<std::string> known;
+  std::error_code ignored;
+  for (const std::string& directory : scene_io::data_directories())
+    for (const auto& entry : std::filesystem::directory_iterator(directory + "/scenarios", ignored))
+      if (entry.path().extension() == ".sdf") known.insert(entry.path().stem().string());
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  return InputError(Fault{Fault::Severity::kError, "", 0, "scene", name, "no such file here and no such shipped scene",
+                          list.empty() ? "set NAVVY_DATA_DIR" : "shipped are " + list});
 }
 
 }  // namespace
@@ -75,6 +89,7 @@ scene::World SceneOptions::load() const {
       }
     }
   }
+  if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
   return scene_io::load_world(path, overrides());
 }
 

@@ -30,8 +30,12 @@ scene::GroundLayer read_layer(Element& element, const std::vector<scene::Soil>& 
   fields.text("soil", layer.soil).required("soil").number("thickness_m", layer.thickness, {1e-3, 1e4}).finish();
   if (Element* soil = fields.child("soil"); soil && !layer.soil.empty()) require_soil(*soil, layer.soil, soils, faults);
   // Only the last layer may leave its thickness out: it reaches to the bottom.
-  if (!fields.has("thickness_m") && element.NextSiblingElement("layer"))
+  const bool last = element.NextSiblingElement("layer") == nullptr;
+  if (!fields.has("thickness_m") && !last)
     faults.error(element, layer.soil, "needs <thickness_m>; only the last layer reaches to the bottom by itself");
+  if (Element* thickness = fields.child("thickness_m"); thickness && last)
+    faults.warning(*thickness, text_of(*thickness), "the last layer reaches to the rock whatever its thickness",
+                   "name the soil below in a <layer> of its own, or leave the thickness out");
   return layer;
 }
 
