@@ -44,14 +44,14 @@
 #define SOIL_SWELL 8
 #define SOIL_LOOSENING 9
 #define SOIL_INV_DENSITY 10
-#define SOIL_LAW_WORDS 11  // those above are what the law needs, with LAW_EXTENDED those up to the next such line
+#define SOIL_LAW_WORDS 11  // the law needs those above
 #define SOIL_DILATANCY 11
 #define SOIL_INV_RANGE 12
 #define SOIL_MATCHED 13
 #define SOIL_ALPHA_FAST 14
 #define SOIL_GRAIN 15
 #define SOIL_INERTIAL 16
-#define SOIL_EXTENDED_WORDS 17
+#define SOIL_EXTENDED_WORDS 17  // with LAW_EXTENDED it needs these, too
 #define SOIL_TOOL_FRICTION 17
 #define SOIL_ADHESION 18  // [Pa]
 #define SOIL_WORDS 20

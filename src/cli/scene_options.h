@@ -24,7 +24,7 @@ struct SceneOptions {
   double duration = 0;
   bool no_render = false;
 
-  /// Adds the options that change values of a scene to a subcommand, as add_to does.
+  /// Adds those that change a scene's values (--set, --seed, --terrain, --at, --size); the struct must outlive parsing.
   void add_values_to(CLI::App& command);
   /// Adds all options to a subcommand; the struct must outlive parsing.
   void add_to(CLI::App& command);
