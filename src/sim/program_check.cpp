@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/program_check.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -16,21 +17,14 @@ namespace {
 
 constexpr double kUnderTip = 0.05;  // room that a bed's rim needs below the opening bucket [m]
 
-/// The box round a bed, untipped, in its machine's base frame.
-struct BedBox {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-};
-BedBox bed_box(const scene::Machine& machine, const scene::Bed& bed) {
-  BedBox out;
+/// The box round a bed, untipped, in its machine's base frame [m].
+Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed) {
+  Eigen::AlignedBox3d out;
   const Pose X_BM = machine.links.at(0).X_ML.inverse();
   for (const scene::Shell& shell : machine.shells) {
     const int link = machine.link_index(shell.link);
     if (shell.name != bed.shell || link < 0) continue;
-    for (const Vec3& v : shell.vertices) {
-      const Vec3 p_B = X_BM * (machine.links[static_cast<std::size_t>(link)].X_ML * v);
-      out.low = out.low.cwiseMin(p_B);
-      out.high = out.high.cwiseMax(p_B);
-    }
+    for (const Vec3& v : shell.vertices) out.extend(X_BM * (machine.links[static_cast<std::size_t>(link)].X_ML * v));
   }
   return out;
 }
@@ -58,15 +52,14 @@ class BedCheck {
     const double ground = surface_.height(dig.dump_at.x(), dig.dump_at.y());
     double rim = 0;  // highest over the ground at the dump point, of all stations
     for (const scene::Bed& bed : truck.machine.beds) {
-      const BedBox box = bed_box(truck.machine, bed);
+      const Eigen::AlignedBox3d box = bed_box(truck.machine, bed);
       for (const Pose& X_WB : control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
-        const Vec3 p_B = X_WB.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WB.translation().z());
-        const bool below =
-            p_B.x() > box.low.x() && p_B.x() < box.high.x() && p_B.y() > box.low.y() && p_B.y() < box.high.y();
-        if (below) rim = std::max(rim, X_WB.translation().z() + box.high.z() - ground);
+        Vec3 p_B = X_WB.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WB.translation().z());
+        p_B.z() = box.center().z();  // in plan
+        if (box.contains(p_B)) rim = std::max(rim, X_WB.translation().z() + box.max().z() - ground);
       }
     }
-    if (rim + kUnderTip <= dig.dump_height) return;
+    if (rim <= 0 || rim + kUnderTip <= dig.dump_height) return;
     const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
     faults.push_back({Fault::Severity::kWarning, world_.file, line,
                       digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/dig/dump_height",
