@@ -21,8 +21,8 @@ constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
 // so long after the lift [s]. Then a well filled bucket [share of a full one] swings more gently [share of the usual
 // rate].
-constexpr double kDrip = 0.001, kStill = 0.4, kDripPatience = 1.5;
-constexpr double kHeavy = 0.4, kGently = 0.6;
+constexpr double kDrip = 0.001, kStill = 0.4, kDripPatience = 2.5;
+constexpr double kHeavy = 0.3, kGently = 0.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
