@@ -34,6 +34,12 @@ struct ToolMotion {
   Mat6 inverse_mass = Mat6::Zero();
 };
 
+/// Where a tool is.
+struct PlacedTool {
+  int tool = -1;  ///< from add_tool
+  Pose X_WT = Pose::Identity();
+};
+
 /// What soil did to a tool during one step.
 struct ToolImpulse {
   Vec3 J_W = Vec3::Zero();  ///< impulse on the tool [N s]
@@ -102,8 +108,9 @@ class Solver {
   const Vec3& grid_origin() const;
   /// Columns and blocks.
   const PlanGrid& grid() const;
-  /// Mass [kg] of particles inside the tool's convex hull extended to its mouth: the payload.
-  double payload(int tool, const Pose& X_WT) const;
+  /// Mass [kg] of particles inside the tool's convex hull extended to its mouth, less what the tools of `except` hold
+  /// there: the payload. A bed does not carry the soil in a bucket that reaches into it.
+  double payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except = {}) const;
 
   Ledger ledger() const;
   const SolverStats& stats() const;

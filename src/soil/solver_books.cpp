@@ -66,7 +66,7 @@ std::vector<PointMass> Solver::State::masses_near(const Vec3& low, const Vec3& h
   return out;
 }
 
-double Solver::payload(int tool, const Pose& X_WT) const {
+double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except) const {
   const ShellGeometry& geometry = state_->contact.geometry(tool);
   const Pose X_TW = X_WT.inverse();
   Vec3 low = Vec3::Constant(1e300), high = -low;  // of what it can hold, in the grid [cells]
@@ -77,8 +77,13 @@ double Solver::payload(int tool, const Pose& X_WT) const {
   }
   std::int64_t sum = 0;
   int closest = 0;  // triangle of the particle before: neighbours in memory are neighbours in space
-  for (const PointMass& p : state_->masses_near(low, high))
-    if (geometry.holds(X_TW * (state_->origin + p.grid * state_->cell), closest)) sum += p.mass;
+  for (const PointMass& p : state_->masses_near(low, high)) {
+    const Vec3 p_W = state_->origin + p.grid * state_->cell;
+    const auto holds = [&](const PlacedTool& other) {
+      return state_->contact.geometry(other.tool).holds(other.X_WT.inverse() * p_W);
+    };
+    if (geometry.holds(X_TW * p_W, closest) && std::none_of(except.begin(), except.end(), holds)) sum += p.mass;
+  }
   return kilograms(sum);
 }
 

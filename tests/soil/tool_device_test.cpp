@@ -269,5 +269,18 @@ TEST(SoilTool, TwoBucketsInOneWorldFeelTheirOwnLoads) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(-sum[i].z() / weight[i], 1, 0.01);
 }
 
+TEST(SoilTool, ABedDoesNotCarryWhatABucketInsideItHolds) {
+  Rig rig({rig::sand()});
+  const PlacedTool bed{rig.solver().add_tool(rig::open_box(2.4, 2, 1)), make_pose(10, 10, 1)};
+  const PlacedTool bucket{rig.solver().add_tool(rig::open_box(0.8, 0.8, 0.6)), make_pose(10, 10, 1.3)};
+  rig.solver().insert(rig.fill({Vec3(9.7, 9.7, 1.4), Vec3(10.3, 10.3, 1.7)}));
+  const double held = rig.solver().payload(bucket.tool, bucket.X_WT);
+  ASSERT_GT(held, 100);
+  EXPECT_EQ(rig.solver().payload(bed.tool, bed.X_WT), held) << "by itself the bed counts it too";
+  EXPECT_EQ(rig.solver().payload(bed.tool, bed.X_WT, std::span(&bucket, 1)), 0);
+  rig.solver().insert(rig.fill({Vec3(9, 9.5, 1.1), Vec3(9.4, 10.5, 1.3)}));
+  EXPECT_GT(rig.solver().payload(bed.tool, bed.X_WT, std::span(&bucket, 1)), 100) << "what lies beside it is the bed's";
+}
+
 }  // namespace
 }  // namespace navvy::soil
