@@ -44,11 +44,20 @@ Coupling::Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::
       tools_.push_back(load);
     }
   }
+  engine.set_rock(ground.datum());
   update_ground_patch();
 }
 
 double Coupling::payload(const ToolLoad& tool) const {
-  return solver_.payload(tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
+  const auto pose = [&](const ToolLoad& t) { return engine(t.machine).link(index(t.machine), t.link).X_WL; };
+  const auto machine = [&](const ToolLoad& t) -> const scene::Machine& {
+    return world_.machines[static_cast<std::size_t>(t.machine)].machine;
+  };
+  std::vector<soil::PlacedTool> buckets;  // that may reach into a bed
+  if (machine(tool).is_bed(tool.shell))
+    for (const ToolLoad& other : tools_)
+      if (machine(other).is_bucket(other.shell)) buckets.push_back({other.tool, pose(other)});
+  return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
 void Coupling::step(double dt) {
@@ -95,6 +104,8 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.force_W = impulse.J_W / dt;
     tool.moment_W = impulse.L_W / dt;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
+    const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.link) / dt;
+    tool.rock_W += blend * (rock - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine).apply_impulse(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W);
   }
@@ -159,24 +170,28 @@ void Coupling::upload_ground_patch() {
 void Coupling::hash(StateHash& hash) const {
   hash.value(steps_);
   for (const ToolLoad& tool : tools_)
-    for (int i = 0; i < 3; ++i) hash.value(tool.smooth_W[i]);
+    for (const Vec3* force : {&tool.smooth_W, &tool.rock_W})
+      for (int i = 0; i < 3; ++i) hash.value((*force)[i]);
   ruts_.hash(hash);
 }
 
 void Coupling::save(StateWriter& writer) const {
-  writer.begin("coupling", 1);
+  writer.begin("coupling", 2);
   writer.value(steps_);
   writer.value(patch_);
   writer.value(patch_sequence_);
   writer.vector(patch_height_);
   writer.value(static_cast<std::uint64_t>(tools_.size()));
-  for (const ToolLoad& tool : tools_) writer.vec3(tool.smooth_W);
+  for (const ToolLoad& tool : tools_) {
+    writer.vec3(tool.smooth_W);
+    writer.vec3(tool.rock_W);
+  }
   writer.end();
   ruts_.save(writer);
 }
 
 void Coupling::load(StateReader& reader) {
-  reader.begin("coupling", 1);
+  reader.begin("coupling", 2);
   steps_ = reader.value<std::uint64_t>();
   patch_ = reader.value<heightfield::CellRect>();
   patch_sequence_ = reader.value<std::uint64_t>();
@@ -185,7 +200,10 @@ void Coupling::load(StateReader& reader) {
     throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "coupling", "",
                            "the snapshot has another number of tools than the scene",
                            "use the scene it was made with"});
-  for (ToolLoad& tool : tools_) tool.smooth_W = reader.vec3();
+  for (ToolLoad& tool : tools_) {
+    tool.smooth_W = reader.vec3();
+    tool.rock_W = reader.vec3();
+  }
   reader.end();
   if (!patch_height_.empty()) upload_ground_patch();
   ruts_.load(reader);

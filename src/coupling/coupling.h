@@ -21,7 +21,9 @@ struct ToolLoad {
   Vec3 force_W = Vec3::Zero();   ///< mean of the last step [N]
   Vec3 moment_W = Vec3::Zero();  ///< about the link's origin [N m]
   Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
-  soil::ToolImpulse impulse;     ///< of the last step, with the momentum proof
+  /// Force of the rock on the shells of its link, low-passed likewise [N].
+  Vec3 rock_W = Vec3::Zero();
+  soil::ToolImpulse impulse;  ///< of the last step, with the momentum proof
 };
 
 /// Wall time spent so far, by module [s].
@@ -45,7 +47,7 @@ class Coupling {
 
   const std::vector<ToolLoad>& tools() const { return tools_; }
   const TimeShare& time_share() const { return time_share_; }
-  /// Soil carried by a tool [kg].
+  /// Soil carried by a tool [kg]; what a bucket holds inside a bed is the bucket's.
   double payload(const ToolLoad& tool) const;
   /// The engine that moves machine `m` of the world, and its index there.
   vehicle::Engine& engine(int m) const { return *homes_[static_cast<std::size_t>(m)].engine; }

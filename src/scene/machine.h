@@ -85,6 +85,12 @@ struct Cylinder {
   double flow = 0.004;                        ///< most oil for this function [m3/s]
 };
 
+/// The pump that all cylinders of a machine share.
+struct Pump {
+  double flow = 0.007;  ///< most oil at any pressure it can drive [m3/s]
+  double power = 90e3;  ///< flow x pressure at most [W]
+};
+
 /// A tyre (or a twin pair as one) with its own force law on the ground.
 struct Wheel {
   std::string joint;        ///< spin joint
@@ -148,6 +154,8 @@ struct Machine {
   std::vector<Link> links;  ///< links[0] is the base
   std::vector<Joint> joints;
   std::vector<Cylinder> cylinders;
+  bool has_pump = false;  ///< false: every cylinder has its own flow
+  Pump pump;
   std::vector<Wheel> wheels;
   bool has_drive = false;
   Drive drive;

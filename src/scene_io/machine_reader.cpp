@@ -184,6 +184,15 @@ scene::Cylinder read_cylinder(Element& element, const Names& names, Faults& faul
   return cylinder;
 }
 
+void read_pump(Element& element, scene::Pump& pump, Faults& faults) {
+  Fields(element, faults)
+      .number("flow_m3_per_s", pump.flow, {1e-7, 10})
+      .required("flow_m3_per_s")
+      .number("power_w", pump.power, {0.1, 1e7})
+      .required("power_w")
+      .finish();
+}
+
 scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
   scene::Wheel wheel;
   Fields(element, faults)
@@ -430,6 +439,14 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     }
     if (kind == "navvy:arm") read_arm(*e, names, machine, faults);
     if (kind == "navvy:joint" && has_joints) read_initial_position(*e, machine, faults);
+    if (kind == "navvy:pump") {
+      machine.has_pump = true;
+      read_pump(*e, machine.pump, faults);
+      if (!model.FirstChildElement("navvy:cylinder"))
+        faults.error(*e, "", "a pump needs cylinders to feed", "add <navvy:cylinder>, or take the pump out");
+      if (kinematic)
+        faults.warning(*e, "", "a kinematic machine moves as told and has no use for a pump", "take it out");
+    }
     if (kind == "navvy:drive") {
       machine.has_drive = true;
       read_drive(*e, machine.drive, faults);

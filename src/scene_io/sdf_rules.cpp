@@ -213,7 +213,7 @@ const Extension kExtensions[] = {
     {"include", "navvy:on_ground"}, {"include", "navvy:load"}, {"include", "navvy:joint"}, {"model", "navvy:program"},
     {"model", "navvy:on_ground"},   {"model", "navvy:joint"},  {"model", "navvy:engine"},  {"model", "navvy:arm"},
     {"model", "navvy:cylinder"},    {"model", "navvy:wheel"},  {"model", "navvy:drive"},   {"model", "navvy:shell"},
-    {"model", "navvy:bucket"},      {"model", "navvy:bed"},    {"model", "navvy:load"},
+    {"model", "navvy:bucket"},      {"model", "navvy:bed"},    {"model", "navvy:load"},    {"model", "navvy:pump"},
 };
 
 const Rule* find_rule(const char* parent, const char* name) {

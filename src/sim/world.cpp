@@ -131,6 +131,9 @@ vehicle::LinkState World::link(int machine, int link) const {
 vehicle::WheelState World::wheel(int machine, int wheel) const {
   return state_->coupling.engine(machine).wheel(state_->coupling.index(machine), wheel);
 }
+vehicle::PumpState World::pump(int machine) const {
+  return state_->coupling.engine(machine).pump(state_->coupling.index(machine));
+}
 double World::work(int machine) const { return state_->coupling.engine(machine).work(state_->coupling.index(machine)); }
 const heightfield::Ground& World::ground() const { return state_->ground; }
 const soil::Solver& World::soil() const { return state_->soil; }

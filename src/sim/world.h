@@ -59,6 +59,7 @@ class World {
   vehicle::JointState joint(int machine, int joint) const;
   vehicle::LinkState link(int machine, int link) const;
   vehicle::WheelState wheel(int machine, int wheel) const;
+  vehicle::PumpState pump(int machine) const;
   double work(int machine) const;  ///< [J]
   const heightfield::Ground& ground() const;
   const soil::Solver& soil() const;

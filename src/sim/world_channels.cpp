@@ -48,6 +48,13 @@ void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, 
   }
 }
 
+void add_pump(World& world, int m, const std::string& prefix, Outputs& outputs) {
+  outputs.add({prefix + "pump/flow", "m3/s", "oil that the cylinders took in the last step"},
+              [&world, m] { return world.pump(m).flow; });
+  outputs.add({prefix + "pump/pressure", "Pa", "of the heaviest load it moves, smoothed"},
+              [&world, m] { return world.pump(m).pressure; });
+}
+
 void add_drive(World& world, int m, const std::string& prefix, Inputs& inputs) {
   // One value of the command changes, the others stay what the engine has: it keeps them through a snapshot.
   const auto change = [&world, m](auto&& what) {
@@ -112,6 +119,9 @@ void add_tools(World& world, const std::vector<std::string>& prefixes, Outputs& 
                   [&world, t, i] { return world.coupling().tools()[t].moment_W[i]; });
       outputs.add({base + "smooth_force_" + axes[i], "N", "the force, low-passed at 3 Hz"},
                   [&world, t, i] { return world.coupling().tools()[t].smooth_W[i]; });
+      if (!machine.kinematic)
+        outputs.add({base + "rock_force_" + axes[i], "N", "rock on the tool's link, low-passed at 3 Hz"},
+                    [&world, t, i] { return world.coupling().tools()[t].rock_W[i]; });
     }
     outputs.add({base + "payload", "kg", "soil inside the shell"},
                 [&world, t] { return world.coupling().payload(world.coupling().tools()[t]); });
@@ -129,7 +139,9 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     const int m = static_cast<int>(i);
     prefixes.push_back(world.description().machines[i].name + "/");
     add_joints(world, m, prefixes.back(), inputs, outputs);
-    if (world.description().machines[i].machine.has_drive) add_drive(world, m, prefixes.back(), inputs);
+    const scene::Machine& machine = world.description().machines[i].machine;
+    if (machine.has_pump && !machine.kinematic) add_pump(world, m, prefixes.back(), outputs);
+    if (machine.has_drive) add_drive(world, m, prefixes.back(), inputs);
     add_pose(world, m, prefixes.back(), outputs);
     add_wheels(world, m, prefixes.back(), outputs);
   }

@@ -16,7 +16,7 @@ namespace navvy::vehicle {
 enum class JointMode { kFree, kPosition, kVelocity, kEffort };
 
 /// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
-/// cylinder acts on the joint, by its pressure x area x lever arm and pump flow at the present position.
+/// cylinder acts on the joint, by its pressure x area x lever arm, its flow and its share of the pump's.
 struct JointInput {
   JointMode mode = JointMode::kPosition;
   double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
@@ -36,6 +36,12 @@ struct JointState {
   double cylinder_force = 0;                      ///< [N], 0 where no cylinder acts; positive pushes
   double cylinder_length = 0;                     ///< [m]
   bool stalled = false;                           ///< at the effort limit and not moving as told
+};
+
+/// The pump of a machine's cylinders.
+struct PumpState {
+  double flow = 0;      ///< oil that the cylinders took in the last step [m3/s]
+  double pressure = 0;  ///< of the heaviest load it moves, smoothed [Pa]
 };
 
 struct LinkState {
@@ -99,16 +105,29 @@ class Engine {
   virtual void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner,
                                 const std::vector<float>& height) = 0;
 
+  /// Height [m] of the level rock that no shell of a machine with masses goes into; far below until told.
+  virtual void set_rock(double height) { (void)height; }
+
   virtual JointState joint(int machine, int joint) const = 0;
   virtual LinkState link(int machine, int link) const = 0;
   virtual WheelState wheel(int machine, int wheel) const = 0;
+  /// Zeros for a machine without a pump, and from engines that have none.
+  virtual PumpState pump(int machine) const {
+    (void)machine;
+    return {};
+  }
   /// Inverse articulated mass at the link's origin, order (angular, linear), axes of W.
   virtual Mat6 inverse_mass(int machine, int link) const = 0;
   /// Total momentum of a machine [N s], and mechanical work done by its joints and drive since the start [J].
   virtual Vec3 momentum(int machine) const = 0;
   virtual double work(int machine) const = 0;
-  /// Sum of ground impulses (tyres and contacts) on a machine in the last step [N s].
+  /// Sum of ground impulses (tyres, contacts, rock) on a machine in the last step [N s].
   virtual Vec3 ground_impulse(int machine) const = 0;
+  /// Impulse of the rock on the shells of a link in the last step [N s].
+  virtual Vec3 rock_impulse(int machine, int link) const {
+    (void)machine, (void)link;
+    return Vec3::Zero();
+  }
   /// Sum of all impulses of apply_impulse and add_force on a machine since the start [N s].
   virtual Vec3 external_impulse(int machine) const {
     (void)machine;

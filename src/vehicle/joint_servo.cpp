@@ -27,10 +27,20 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
   return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
 }
 
+double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt) {
+  if (!has_valve()) return 0;
+  wanted_ = wanted_speed(joint, limits, q, dt);
+  // Against a load it cannot move, the valve opens from what really flows.
+  const double from = saturated_ ? qd : velocity_;
+  const double slew = dt / kValveTime * std::max(limits.speed_positive, limits.speed_negative);
+  velocity_ = std::clamp(wanted_, from - slew, from + slew);
+  return velocity_;
+}
+
 JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
-                                      double dt) {
+                                      double share, double dt) {
   Demand out;
-  if (input_.mode == JointMode::kFree || input_.mode == JointMode::kEffort) {
+  if (!has_valve()) {
     // Only the bearing's friction holds it.
     out.effort_low = -joint.friction;
     out.effort_high = joint.friction;
@@ -40,17 +50,15 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
     holding_ = false;
     return out;
   }
-  wanted_ = wanted_speed(joint, limits, q, dt);
-  const double from = saturated_ ? qd : velocity_;
-  const double slew = dt / kValveTime * std::max(limits.speed_positive, limits.speed_negative);
-  velocity_ = std::clamp(wanted_, from - slew, from + slew);
-  out.velocity = velocity_;
+  wanted_ *= share;
+  const double flowing = share * velocity_;
+  out.velocity = flowing;
   if (input_.mode == JointMode::kVelocity) {
     // A velocity of zero is no brake by itself: what solver errors and loads shift is driven back.
     if (!holding_ || saturated_) held_ = q;
     holding_ = true;
-    held_ += velocity_ * dt;
-    out.velocity += std::min(5.0, 0.2 / dt) * (held_ - q - velocity_ * dt);
+    held_ += flowing * dt;
+    out.velocity += std::min(5.0, 0.2 / dt) * (held_ - q - flowing * dt);
   } else {
     holding_ = false;
   }
@@ -62,8 +70,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
 void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
                         double dt) {
   (void)q;
-  const bool driven = input_.mode == JointMode::kPosition || input_.mode == JointMode::kVelocity;
-  saturated_ = driven && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
+  saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
   // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached.
   const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
   const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);

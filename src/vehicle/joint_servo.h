@@ -30,7 +30,11 @@ class JointServo {
   void set(const JointInput& input) { input_ = input; }
   const JointInput& input() const { return input_; }
 
-  Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt);
+  /// Turns the valve towards what the command asks for; call it once a step, before demand().
+  /// @returns the velocity it lets through when there is oil enough; 0 where no valve is at work (kFree, kEffort).
+  double open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt);
+  /// What the joint is to do in this step with `share` of the oil that its valve lets through.
+  Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double share, double dt);
   /// Tells what came of it: effort applied and velocity reached.
   void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd, double dt);
   bool stalled() const { return stall_time_ > kStallTime; }
@@ -41,12 +45,13 @@ class JointServo {
 
  private:
   static constexpr double kStallTime = 0.05;  // [s] shorter is the solver's own settling
+  bool has_valve() const { return input_.mode == JointMode::kPosition || input_.mode == JointMode::kVelocity; }
   double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const;
 
   JointInput input_;
   double velocity_ = 0;  // valve position, as velocity asked for in the last step
   double held_ = 0;      // where the joint is to be by velocity commands
-  double wanted_ = 0;    // before the valve
+  double wanted_ = 0;    // before the valve; what the pump has left of it
   double stall_time_ = 0;
   bool saturated_ = false, holding_ = false;
 };

@@ -271,27 +271,31 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
   }
 }
 
-void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
+void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const {
   update_kinematics();
-  update_factors();
-  const std::size_t size = 6 + index(body_->getNumDofs());
-  // Virtual work of the impulse on each freedom.
-  std::vector<double> force(size, 0.0);
+  std::fill_n(work, 6 + body_->getNumDofs(), 0.0);
   const Vec3 base = L_W + (p_W - frames_[0].X_WI.translation()).cross(J_W);
   for (int a = 0; a < 3; ++a) {
-    force[index(a)] = base[a];
-    force[index(3 + a)] = J_W[a];
+    work[a] = base[a];
+    work[3 + a] = J_W[a];
   }
   for (int k = bullet_of_link_[index(link)]; k >= 0; k = body_->getParent(k)) {
     const Frame& frame = frames_[index(link_of_bullet_[index(k)])];
     const Vec3 moment = L_W + (p_W - frame.X_WI.translation()).cross(J_W);
     const btMultibodyLink& part = body_->getLink(k);
     for (int d = 0; d < part.m_dofCount; ++d)
-      force[index(6 + part.m_dofOffset + d)] = (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
-                                               (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
+      work[6 + part.m_dofOffset + d] = (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
+                                       (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
   }
+}
+
+void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
+  update_factors();
+  const std::size_t size = 6 + index(body_->getNumDofs());
+  std::vector<double> work(size);
+  virtual_work(link, J_W, L_W, p_W, work.data());
   delta.assign(size, 0.0);
-  body_->calcAccelerationDeltasMultiDof(force.data(), delta.data(), scratch_r_, scratch_v_);
+  body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
 void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) {

@@ -22,7 +22,7 @@ constexpr int kGroundGroup = 1, kMachineGroup = 2;
 constexpr int kIterations = 60;     // tuned: BulletServo.HoldTorqueIsTheAnalyticOne
 constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 constexpr int kMostShapes = 4096;
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 class BulletEngine final : public Engine {
  public:
@@ -58,6 +58,10 @@ class BulletEngine final : public Engine {
       if (collider) world_.addCollisionObject(collider.get(), kMachineGroup, kGroundGroup | kMachineGroup);
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
+    for (const auto& rock : machines_.back()->rock()) {
+      rock->set_height(rock_height_);
+      constraints_.push_back(rock.get());
+    }
     return static_cast<int>(machines_.size()) - 1;
   }
   int machine_count() const override { return static_cast<int>(machines_.size()); }
@@ -96,9 +100,17 @@ class BulletEngine final : public Engine {
     world_.updateSingleAabb(&ground_);
   }
 
+  void set_rock(double height) override {
+    rock_height_ = height;
+    for (auto& machine : machines_)
+      for (const auto& rock : machine->rock()) rock->set_height(height);
+  }
+
   JointState joint(int machine, int joint) const override { return at(machine).joint(joint); }
   LinkState link(int machine, int link) const override { return at(machine).tree().link(link); }
   WheelState wheel(int machine, int wheel) const override { return at(machine).wheel(wheel); }
+  Vec3 rock_impulse(int machine, int link) const override { return at(machine).rock_impulse(link); }
+  PumpState pump(int machine) const override { return at(machine).pump(); }
   Mat6 inverse_mass(int machine, int link) const override { return at(machine).tree().inverse_mass(link); }
   Vec3 momentum(int machine) const override { return at(machine).tree().momentum(); }
   double work(int machine) const override { return at(machine).work(); }
@@ -181,6 +193,7 @@ class BulletEngine final : public Engine {
   btCollisionObject ground_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
   std::vector<btMultiBodyConstraint*> constraints_;
+  double rock_height_ = -1e6;  // far below, until told
 };
 
 }  // namespace

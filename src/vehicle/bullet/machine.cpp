@@ -35,6 +35,7 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
   add_actuators();
   add_tyres();
   add_colliders();
+  add_rock();
   drive_input_.brake = true;
 }
 
@@ -126,6 +127,23 @@ void BulletMachine::add_colliders() {
   tree_.place_colliders();
 }
 
+void BulletMachine::add_rock() {
+  for (std::size_t i = 0; i < machine_.links.size(); ++i) {
+    const int link = static_cast<int>(i);
+    std::vector<Vec3> corners;
+    for (const scene::Shell& shell : machine_.shells)
+      if (machine_.link_index(shell.link) == link)
+        corners.insert(corners.end(), shell.vertices.begin(), shell.vertices.end());
+    if (!corners.empty()) rock_.push_back(std::make_unique<RockContact>(tree_, link, std::move(corners)));
+  }
+}
+
+Vec3 BulletMachine::rock_impulse(int link) const {
+  for (const auto& rock : rock_)
+    if (rock->link() == link) return rock->impulse();
+  return Vec3::Zero();
+}
+
 void BulletMachine::set_joint(int joint, const JointInput& input) {
   Actuator& actuator = actuators_.at(index(joint));
   actuator.servo.set(input);
@@ -161,38 +179,76 @@ void BulletMachine::begin_step(const Vec3& gravity, const GroundQuery& ground, d
   tree_.step_velocities(gravity, dt);
 }
 
+JointLimits BulletMachine::limits(const Actuator& a, const scene::Joint& about, double q) const {
+  JointLimits limits;
+  limits.effort_positive = limits.effort_negative = about.effort;
+  limits.speed_positive = limits.speed_negative = about.velocity;
+  if (a.cylinder >= 0) {
+    const CylinderLimits hydraulic = cylinders_[index(a.cylinder)].limits(q);
+    limits.effort_positive = std::min(about.effort, hydraulic.torque_positive);
+    limits.effort_negative = std::min(about.effort, hydraulic.torque_negative);
+    limits.speed_positive = std::min(about.velocity, hydraulic.speed_positive);
+    limits.speed_negative = std::min(about.velocity, hydraulic.speed_negative);
+  }
+  if (a.driven && a.servo.input().mode == JointMode::kPosition) {
+    limits.speed_positive = std::min(limits.speed_positive, machine_.drive.steer_rate);
+    limits.speed_negative = std::min(limits.speed_negative, machine_.drive.steer_rate);
+  }
+  return limits;
+}
+
+double BulletMachine::oil_for(const Actuator& a, double velocity, double q) const {
+  if (a.cylinder < 0) return 0;
+  const scene::Cylinder& cylinder = machine_.cylinders[index(a.cylinder)];
+  const double piston = velocity * cylinders_[index(a.cylinder)].geometry(q).lever;
+  return std::abs(piston) * (piston > 0 ? head_area(cylinder) : rod_area(cylinder));
+}
+
+double BulletMachine::share_oil(double dt) {
+  if (!machine_.has_pump) return 1;
+  std::vector<OilDemand> demands;
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    const Actuator& a = actuators_[j];
+    if (a.cylinder < 0 || !constraints_[j]) continue;
+    const scene::Cylinder& cylinder = machine_.cylinders[index(a.cylinder)];
+    const double q = tree_.position(static_cast<int>(j));
+    const CylinderLimits hydraulic = cylinders_[index(a.cylinder)].limits(q);
+    const double against = a.opened > 0 ? a.effort / hydraulic.torque_positive : -a.effort / hydraulic.torque_negative;
+    demands.push_back({oil_for(a, a.opened, q), cylinder.flow, std::clamp(against, 0.0, 1.0) * cylinder.pressure});
+  }
+  return pump_.share(machine_.pump, demands, dt);
+}
+
 void BulletMachine::begin_joints(double dt) {
+  const auto spins = [&](std::size_t j) {
+    return std::any_of(tyres_.begin(), tyres_.end(),
+                       [&](const Tyre& t) { return t.spin_joint == static_cast<int>(j); });
+  };
+  // Of wheels that the drive turns, it has set constraint and torque.
+  const auto is_drives = [&](std::size_t j) { return actuators_[j].driven && spins(j); };
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    if (!constraints_[j] || is_drives(j)) continue;
+    const int joint = static_cast<int>(j);
+    Actuator& a = actuators_[j];
+    const double q = tree_.position(joint);
+    a.limits = limits(a, machine_.joints[j], q);
+    a.limits.inertia = tree_.outward_inertia(joint);
+    a.opened = a.servo.open(machine_.joints[j], a.limits, q, tree_.velocity(joint), dt);
+  }
+  const double share = share_oil(dt);
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     if (!constraints_[j]) continue;
     const int joint = static_cast<int>(j);
     const scene::Joint& about = machine_.joints[j];
     Actuator& a = actuators_[j];
-    const double q = tree_.position(joint), qd = tree_.velocity(joint);
-    a.limits.effort_positive = a.limits.effort_negative = about.effort;
-    a.limits.speed_positive = a.limits.speed_negative = about.velocity;
-    if (a.cylinder >= 0) {
-      const CylinderLimits hydraulic = cylinders_[index(a.cylinder)].limits(q);
-      a.limits.effort_positive = std::min(about.effort, hydraulic.torque_positive);
-      a.limits.effort_negative = std::min(about.effort, hydraulic.torque_negative);
-      a.limits.speed_positive = std::min(about.velocity, hydraulic.speed_positive);
-      a.limits.speed_negative = std::min(about.velocity, hydraulic.speed_negative);
-    }
-    const int k = tree_.bullet_of_joint(joint);
-    const bool spins = std::any_of(tyres_.begin(), tyres_.end(), [&](const Tyre& t) { return t.spin_joint == joint; });
-    if (a.driven && spins) {
-      // The drive has set constraint and torque.
-    } else {
-      if (a.driven && a.servo.input().mode == JointMode::kPosition) {
-        a.limits.speed_positive = std::min(a.limits.speed_positive, machine_.drive.steer_rate);
-        a.limits.speed_negative = std::min(a.limits.speed_negative, machine_.drive.steer_rate);
-      }
-      a.limits.inertia = tree_.outward_inertia(joint);
-      a.demand = a.servo.demand(about, a.limits, q, qd, dt);
+    const double qd = tree_.velocity(joint);
+    if (!is_drives(j)) {
+      a.demand = a.servo.demand(about, a.limits, tree_.position(joint), qd, a.cylinder >= 0 ? share : 1.0, dt);
       constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt, a.demand.effort_high * dt);
     }
     // Viscous friction, no stronger than what stops the joint within the step.
     const double damping = about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
-    tree_.multibody().addJointTorque(k, a.demand.feed_forward - damping * qd);
+    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint), a.demand.feed_forward - damping * qd);
   }
 }
 
@@ -296,8 +352,13 @@ void BulletMachine::push_tyres(const GroundQuery& ground, double dt) {
 
 void BulletMachine::end_step(const Vec3& contact, double dt) {
   ground_impulse_ = tyre_impulse_ + contact;
+  for (const auto& rock : rock_) {
+    rock->settle();
+    ground_impulse_ += rock->impulse();
+  }
   tree_.step_positions(dt);
   tree_.place_colliders();
+  double oil = 0;
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     if (!constraints_[j]) continue;
     Actuator& a = actuators_[j];
@@ -306,7 +367,9 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
     work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
     a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
+    if (a.opened * qd > 0) oil += oil_for(a, qd, q);  // what a load pushes back goes to the tank
   }
+  pump_.settle(oil);
 }
 
 JointState BulletMachine::joint(int joint) const {
@@ -382,6 +445,8 @@ void BulletMachine::visit_state(Visit visit) {
 void BulletMachine::hash(StateHash& hash) const {
   tree_.hash(hash);
   for (const Actuator& a : actuators_) a.servo.hash(hash);
+  for (const auto& rock : rock_) rock->hash(hash);
+  pump_.hash(hash);
   drive_train_.hash(hash);
   const_cast<BulletMachine*>(this)->visit_state([&](auto& v) { hash.value(v); });
 }
@@ -389,6 +454,8 @@ void BulletMachine::hash(StateHash& hash) const {
 void BulletMachine::save(StateWriter& writer) const {
   tree_.save(writer);
   for (const Actuator& a : actuators_) a.servo.save(writer);
+  for (const auto& rock : rock_) rock->save(writer);
+  pump_.save(writer);
   drive_train_.save(writer);
   const_cast<BulletMachine*>(this)->visit_state([&](auto& v) { writer.value(v); });
 }
@@ -396,6 +463,8 @@ void BulletMachine::save(StateWriter& writer) const {
 void BulletMachine::load(StateReader& reader) {
   tree_.load(reader);
   for (Actuator& a : actuators_) a.servo.load(reader);
+  for (const auto& rock : rock_) rock->load(reader);
+  pump_.load(reader);
   drive_train_.load(reader);
   visit_state([&](auto& v) { v = reader.value<std::decay_t<decltype(v)>>(); });
   pushes_.clear();

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "vehicle/bullet/body.h"
+#include "vehicle/bullet/rock.h"
 #include "vehicle/bullet/servo.h"
 #include "vehicle/bullet/shapes.h"
 #include "vehicle/drive_train.h"
 #include "vehicle/joint_servo.h"
 #include "vehicle/kinematics.h"
+#include "vehicle/pump.h"
 #include "vehicle/tyre.h"
 
 namespace navvy::vehicle {
@@ -26,6 +28,7 @@ class BulletMachine {
   const TreeBody& tree() const { return tree_; }
   const scene::Machine& scene() const { return machine_; }
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
+  std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
 
   void set_joint(int joint, const JointInput& input);
@@ -41,6 +44,9 @@ class BulletMachine {
 
   JointState joint(int joint) const;
   WheelState wheel(int wheel) const;
+  /// Of the rock on a link in the last step [N s].
+  Vec3 rock_impulse(int link) const;
+  PumpState pump() const { return {pump_.flow(), pump_.pressure()}; }
   double work() const { return work_; }
   const Vec3& ground_impulse() const { return ground_impulse_; }
   const Vec3& external_impulse() const { return external_impulse_; }
@@ -56,6 +62,7 @@ class BulletMachine {
     bool driven = false;  // the drive commands it
     JointLimits limits;
     JointServo::Demand demand;
+    double opened = 0;  // velocity that the valve lets through with oil enough
     double effort = 0;  // in the last step
     double speed_before = 0;
   };
@@ -77,6 +84,12 @@ class BulletMachine {
   void add_actuators();
   void add_tyres();
   void add_colliders();
+  void add_rock();
+  JointLimits limits(const Actuator& a, const scene::Joint& about, double q) const;
+  /// Oil [m3/s] that a joint's cylinders take at `velocity`.
+  double oil_for(const Actuator& a, double velocity, double q) const;
+  /// Share of its oil that every function gets.
+  double share_oil(double dt);
   void begin_joints(double dt);
   void begin_drive(double dt);
   void steer_wheels();
@@ -91,7 +104,9 @@ class BulletMachine {
   TreeBody tree_;
   std::vector<Actuator> actuators_;                            // by joint
   std::vector<std::unique_ptr<ServoConstraint>> constraints_;  // by joint, null where it is fixed or a ball
+  std::vector<std::unique_ptr<RockContact>> rock_;             // of links with shells
   std::vector<CylinderMap> cylinders_;
+  Pump pump_;
   std::vector<LinkShape> shapes_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<Tyre> tyres_;

@@ -2,47 +2,17 @@
 #include "vehicle/bullet/servo.h"
 
 namespace navvy::vehicle {
-namespace {
-
-constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks for
-
-}  // namespace
-
 ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper)
-    : btMultiBodyConstraint(body, nullptr, link, -1, 3, true, kConstraintType),
-      has_limits_(has_limits),
-      lower_(lower),
-      upper_(upper) {
+    : WorldConstraint(body, link, 3), has_limits_(has_limits), lower_(lower), upper_(upper) {
   finalizeMultiDof();
 }
 
 void ServoConstraint::finalizeMultiDof() {
-  allocateJacobiansMultiDof();
+  WorldConstraint::finalizeMultiDof();
   const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
   jacobianA(0)[offset] = 1;
   jacobianA(1)[offset] = 1;
   jacobianA(2)[offset] = -1;
-  m_numDofsFinalized = m_jacSizeBoth;
-}
-
-void ServoConstraint::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
-                              btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
-  btMultiBodySolverConstraint& c = rows.expandNonInitializing();
-  c.m_orgConstraint = this;
-  c.m_orgDofIndex = row;
-  c.m_multiBodyA = m_bodyA;
-  // The other side is the world: a joint's motor is inside the one body, so the second half would be all zeros.
-  c.m_multiBodyB = nullptr;
-  c.m_solverBodyIdB = data.m_fixedBodyId;
-  c.m_linkA = m_linkA;
-  c.m_linkB = -1;
-  const btVector3 zero(0, 0, 0);
-  c.m_contactNormal1 = c.m_contactNormal2 = zero;
-  c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
-  c.m_angularComponentA = c.m_angularComponentB = zero;
-  fillMultiBodyConstraint(c, data, jacobianA(row), nullptr, zero, zero, zero, zero, 0, info, low, high, true, 1, false,
-                          velocity);
-  c.m_solverBodyIdB = -1;  // nothing to push there
 }
 
 void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,

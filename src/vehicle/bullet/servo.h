@@ -2,14 +2,13 @@
 // Constraint rows on one joint of a multibody: a motor with unequal bounds, and the joint's limits.
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include "vehicle/bullet/world_constraint.h"
 
 namespace navvy::vehicle {
 
 /// Motor of one revolute or prismatic joint. Reaches `velocity` within [low, high] impulse, and keeps the joint between
 /// its limits at any cost; the impulses are read back after the solver ran.
-class ServoConstraint final : public btMultiBodyConstraint {
+class ServoConstraint final : public WorldConstraint {
  public:
   ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper);
 
@@ -24,16 +23,10 @@ class ServoConstraint final : public btMultiBodyConstraint {
   double limit_impulse() { return getAppliedImpulse(1) - getAppliedImpulse(2); }
 
   void finalizeMultiDof() override;
-  int getIslandIdA() const override { return -1; }
-  int getIslandIdB() const override { return -1; }
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
-  void debugDraw(btIDebugDraw*) override {}
 
  private:
-  void add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
-               btMultiBodyJacobianData& data, const btContactSolverInfo& info);
-
   bool has_limits_;
   double lower_, upper_;
   double velocity_ = 0, low_ = 0, high_ = 0;

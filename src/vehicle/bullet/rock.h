@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Level rock below all soil, against the shells of a machine: constraint rows in the solver that moves the machine.
+#pragma once
+
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "vehicle/bullet/body.h"
+#include "vehicle/bullet/world_constraint.h"
+
+namespace navvy::vehicle {
+
+/// Keeps the corners of one link's shells out of the rock; they slide on it with the friction of steel on rock.
+///
+/// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls and the machine
+/// lifts. Each corner's friction is bounded by its normal impulse of the step before.
+class RockContact final : public WorldConstraint {
+ public:
+  /// @param corners in the link's frame [m]
+  RockContact(TreeBody& tree, int link, std::vector<Vec3> corners);
+
+  int link() const { return link_; }
+  /// Of the rock's surface in W [m].
+  void set_height(double z) { height_ = z; }
+  /// Reads the solver's impulses, before positions change.
+  void settle();
+  /// On the link in the last step [N s].
+  const Vec3& impulse() const { return impulse_; }
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+
+ private:
+  /// Row of the velocity of the point p_W of the link along a direction.
+  void aim(int row, const Vec3& p_W, const Vec3& along);
+
+  TreeBody& tree_;
+  int link_;
+  std::vector<Vec3> corners_;
+  double height_ = -1e6;
+  std::vector<double> normal_;  // impulse of each corner in the last step [N s]
+  std::vector<Vec3> along_;     // directions of the present rows, three a corner
+  Vec3 impulse_ = Vec3::Zero();
+};
+
+}  // namespace navvy::vehicle

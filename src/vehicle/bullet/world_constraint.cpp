@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/world_constraint.h"
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks for
+
+}  // namespace
+
+WorldConstraint::WorldConstraint(btMultiBody* body, int link, int rows)
+    : btMultiBodyConstraint(body, nullptr, link, -1, rows, true, kConstraintType) {}
+
+void WorldConstraint::finalizeMultiDof() {
+  allocateJacobiansMultiDof();
+  m_numDofsFinalized = m_jacSizeBoth;
+}
+
+void WorldConstraint::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
+                              btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  btMultiBodySolverConstraint& c = rows.expandNonInitializing();
+  c.m_orgConstraint = this;
+  c.m_orgDofIndex = row;
+  c.m_multiBodyA = m_bodyA;
+  // The other side is the world, so the second half would be all zeros.
+  c.m_multiBodyB = nullptr;
+  c.m_solverBodyIdB = data.m_fixedBodyId;
+  c.m_linkA = m_linkA;
+  c.m_linkB = -1;
+  const btVector3 zero(0, 0, 0);
+  c.m_contactNormal1 = c.m_contactNormal2 = zero;
+  c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
+  c.m_angularComponentA = c.m_angularComponentB = zero;
+  fillMultiBodyConstraint(c, data, jacobianA(row), nullptr, zero, zero, zero, zero, 0, info, low, high, true, 1, false,
+                          velocity);
+  c.m_solverBodyIdB = -1;  // nothing to push there
+}
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What our own constraint rows between one multibody and the world have in common.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+
+namespace navvy::vehicle {
+
+/// Rows on one multibody whose other side is the world; the impulses are read back after the solver ran.
+class WorldConstraint : public btMultiBodyConstraint {
+ public:
+  int getIslandIdA() const override { return -1; }
+  int getIslandIdB() const override { return -1; }
+  void debugDraw(btIDebugDraw*) override {}
+
+ protected:
+  /// @param link Bullet's link, -1: the base
+  WorldConstraint(btMultiBody* body, int link, int rows);
+  void finalizeMultiDof() override;
+  /// Adds a row: what jacobianA(row) tells of the body's velocity shall become `velocity` within [low, high] impulse.
+  void add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
+               btMultiBodyJacobianData& data, const btContactSolverInfo& info);
+};
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thin layer of soil over rock: the shipped excavator presses its bucket through it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "device/device.h"
+#include "scene_io/loader.h"
+#include "sim/world.h"
+#include "values.h"
+
+namespace navvy::coupling {
+namespace {
+
+TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
+  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", {});
+  scene.ground.depth = 0.4;
+  scene.machines.at(0).program = {};
+  device::Device device;
+  sim::World world(scene, device);
+  const scene::Machine& machine = world.description().machines.at(0).machine;
+  const int boom = machine.joint_index(machine.boom_joint), bucket = machine.link_index(machine.buckets.at(0).link);
+  world.set_joint(0, boom, {vehicle::JointMode::kVelocity, -0.25});
+  double lowest = 1, most = 0;
+  while (world.time() < 6) {
+    world.step();
+    for (const Vec3& v : machine.shells.at(0).vertices) lowest = std::min(lowest, (world.link(0, bucket).X_WL * v).z());
+    most = std::max(most, world.coupling().tools().at(0).rock_W.z());
+  }
+  print_value("bucket below the surface of the rock [mm]", 1e3 * (-0.4 - lowest), "<= 10", "vehicle/bullet/rock.h");
+  print_value("rock on the bucket [N]", most, "> 10e3: lifts the front wheels", "test");
+  EXPECT_LT(lowest, -0.35) << "it went through the soil";
+  EXPECT_GT(lowest, -0.41);
+  EXPECT_GT(most, 10e3);
+  EXPECT_GT(world.link(0, 0).X_WL.linear()(2, 0), 0.01) << "nose up";
+  EXPECT_EQ(world.soil().ledger().error(), 0);
+}
+
+}  // namespace
+}  // namespace navvy::coupling

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pump for all cylinders: by itself, and on the shipped excavator.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "values.h"
+#include "vehicle/kinematics.h"
+#include "vehicle/machines.h"
+#include "vehicle/pump.h"
+
+namespace navvy::vehicle {
+namespace {
+
+using testing::ew180;
+using testing::flat;
+using testing::run;
+
+constexpr double kStep = 1.0 / 600;
+const Vec3 kDown(0, 0, -kGravity);
+const scene::Pump kPump{0.007, 90e3};
+
+/// Share that the functions get once the swashplate has settled.
+double settled_share(const std::vector<OilDemand>& demands) {
+  Pump pump;
+  double share = 0;
+  for (int i = 0; i < 3000; ++i) share = pump.share(kPump, demands, kStep);
+  return share;
+}
+
+TEST(Pump, GivesWhatIsAskedWhileThereIsEnough) {
+  EXPECT_EQ(settled_share({}), 1);
+  EXPECT_EQ(settled_share({{0.004, 0.006, 10e6}, {0.002, 0.004, 0}}), 1);
+}
+
+TEST(Pump, SlowsAllFunctionsByTheSameShareWhenItsFlowIsShort) {
+  EXPECT_DOUBLE_EQ(settled_share({{0.006, 0.006, 5e6}, {0.0055, 0.0055, 0}, {0.004, 0.004, 0}}), 0.007 / 0.0155);
+}
+
+TEST(Pump, DrivesNoMoreThanItsPowerAtTheHeaviestLoad) {
+  // 90 kW at 30 MPa are 3 l/s.
+  EXPECT_NEAR(settled_share({{0.004, 0.006, 30e6}, {0.002, 0.004, 1e6}}), 0.5, 1e-6);
+}
+
+TEST(Pump, FunctionsThatOnlyHoldSetNoPressure) {
+  EXPECT_EQ(settled_share({{0.0001, 0.006, 35e6}, {0.004, 0.004, 1e6}}), 1);
+}
+
+TEST(Pump, IsTheSameAfterASnapshot) {
+  Pump pump;
+  pump.share(kPump, {{0.006, 0.006, 30e6}}, 0.1);
+  pump.settle(0.004);
+  StateWriter writer;
+  pump.save(writer);
+  Pump copy;
+  StateReader reader(writer.bytes());
+  copy.load(reader);
+  EXPECT_EQ(copy.flow(), pump.flow());
+  EXPECT_EQ(copy.pressure(), pump.pressure());
+  EXPECT_EQ(copy.share(kPump, {{0.006, 0.006, 30e6}}, 0.1), pump.share(kPump, {{0.006, 0.006, 30e6}}, 0.1));
+}
+
+/// The excavator on a fixed base, with what its arm's joints are called.
+struct Digger {
+  explicit Digger(double boom, double stick, double bucket) : machine(ew180(boom, stick, bucket)) {
+    machine.fixed_base = true;
+    engine = make_bullet_engine(kDown);
+    engine->add_machine(machine, Pose::Identity());
+  }
+  int joint(const std::string& name) const { return machine.joint_index(name); }
+  void turn(const std::string& name, double velocity) {
+    engine->set_joint(0, joint(name), {JointMode::kVelocity, velocity});
+  }
+  scene::Machine machine;
+  std::unique_ptr<Engine> engine;
+};
+
+TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
+  Digger digger(0.9, -1.0, 0.2);
+  for (const std::string& name : {digger.machine.boom_joint, digger.machine.stick_joint, digger.machine.bucket_joint})
+    digger.turn(name, -3);
+  double most = 0;
+  run(*digger.engine, flat(), 1, kStep, [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
+  const double flow = digger.machine.pump.flow;
+  print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, gated at 1 %",
+              "vehicles/ew180/SOURCE.md");
+  // 1 %: the share is taken at the step's start.
+  EXPECT_NEAR(most, flow, 0.01 * flow);
+}
+
+TEST(BulletPump, LiftsWithItsPower) {
+  Digger digger(0.1, -0.9, -1.5);
+  const int boom = digger.joint(digger.machine.boom_joint), link = digger.machine.link_index("bucket");
+  digger.turn(digger.machine.boom_joint, 3);
+  double time = 0, sum = 0, least = 1e9, most = 0;
+  run(*digger.engine, flat(), 1.6, kStep, [&](double t) {
+    digger.engine->add_force(0, link, 2000 * kDown, digger.engine->link(0, link).X_WL.translation());
+    const JointState state = digger.engine->joint(0, boom);
+    const double power = state.effort * state.velocity;
+    if (t < 1) return;
+    sum += power * kStep;
+    time += kStep;
+    least = std::min(least, power);
+    most = std::max(most, power);
+  });
+  const double mean = sum / time;
+  print_value("power of a steady lift [kW]", mean / 1e3, "90, gated at 5 %", "vehicles/ew180/SOURCE.md");
+  EXPECT_NEAR(mean, digger.machine.pump.power, 0.05 * digger.machine.pump.power);
+  // It does not hunt.
+  EXPECT_LT(most - least, 0.15 * mean);
+}
+
+TEST(BulletPump, AFunctionAtItsStopLeavesItsOilToTheOthers) {
+  Digger digger(radians(59), -1.2, 0.3);
+  const int bucket = digger.joint(digger.machine.bucket_joint);
+  digger.turn(digger.machine.boom_joint, 3);
+  run(*digger.engine, flat(), 1, kStep);
+  EXPECT_TRUE(digger.engine->joint(0, digger.joint(digger.machine.boom_joint)).stalled);
+  digger.turn(digger.machine.bucket_joint, -3);
+  double least = 1e9;
+  run(*digger.engine, flat(), 0.8, kStep, [&](double t) {
+    const JointState state = digger.engine->joint(0, bucket);
+    const double limit = cylinder_limits(digger.machine, digger.machine.cylinders[2], state.position).speed_negative;
+    if (t > 0.3) least = std::min(least, -state.velocity / limit);
+  });
+  EXPECT_GT(least, 0.95);
+}
+
+}  // namespace
+}  // namespace navvy::vehicle
