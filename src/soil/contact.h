@@ -11,6 +11,7 @@
 #include "core/math.h"
 #include "device/buffer.h"
 #include "device/program.h"
+#include "soil/marks.h"
 #include "soil/particle_store.h"
 #include "soil/shell_geometry.h"
 #include "soil/solver.h"
@@ -85,8 +86,7 @@ class Contact {
   };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
-  void find_candidates(const BlockTable& table, std::vector<std::array<int, 2>>& nodes,
-                       std::vector<std::array<int, 2>>& homes) const;
+  void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
   void upload_frame();
   void append_tool(std::size_t tool, std::vector<float>& words) const;
   template <class... Tail>

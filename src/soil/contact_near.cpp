@@ -27,9 +27,9 @@ Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix
 /// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks.
 int floor_div(double cells) { return static_cast<int>(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells)); }
 
-/// Adds (block, triangle) for every block of `index` whose box [low, high] (cells from its corner) meets the given box.
+/// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,
-           std::vector<std::array<int, 2>>& pairs) {
+           Marks& marks) {
   const BlockKey from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1,
                          floor_div(box_low.z() - high) + 1};
   const BlockKey to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low), floor_div(box_high.z() - low)};
@@ -37,13 +37,8 @@ void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, i
     for (int y = from.y; y <= to.y; ++y)
       for (int x = from.x; x <= to.x; ++x) {
         const int block = index.find({x, y, z});
-        if (block >= 0) pairs.push_back({block, triangle});
+        if (block >= 0) marks.set(static_cast<std::size_t>(block), static_cast<std::size_t>(triangle));
       }
-}
-
-void sort_unique(std::vector<std::array<int, 2>>& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace
@@ -80,8 +75,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
   return again;
 }
 
-void Contact::find_candidates(const BlockTable& table, std::vector<std::array<int, 2>>& nodes,
-                              std::vector<std::array<int, 2>>& homes) const {
+void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
   const double far = settings_.band + settings_.margin;
   for (const Tool& tool : tools_) {
     if (!tool.listed) continue;
@@ -99,44 +93,39 @@ void Contact::find_candidates(const BlockTable& table, std::vector<std::array<in
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
     }
   }
-  sort_unique(nodes);
-  sort_unique(homes);
 }
 
 void Contact::list_near(const BlockTable& table) {
-  std::vector<std::array<int, 2>> node_pairs, home_pairs;
-  find_candidates(table, node_pairs, home_pairs);
+  std::size_t triangles = 0;  // of all tools, which count on from one another
+  for (const Tool& tool : tools_) triangles += tool.geometry->triangles().size();
+  Marks node_marks(table.active.size(), triangles), home_marks(table.homes.size(), triangles);
+  find_candidates(table, node_marks, home_marks);
   near_slot_.assign(table.active.size(), -1);
   near_homes_.assign(table.homes.size(), 0);
   near_home_list_.clear();
   near_keys_.clear();
   // Compressed rows of candidate triangles per near block, in ascending order of blocks.
   std::vector<std::int32_t> near_list, node_first, node_list, home_first, home_list;
-  for (const auto& [block, triangle] : node_pairs) {
-    const auto b = static_cast<std::size_t>(block);
-    if (near_slot_[b] < 0) {
-      near_slot_[b] = static_cast<int>(near_list.size());
-      near_list.push_back(block);
-      near_keys_.push_back(table.active[b]);
-      node_first.push_back(static_cast<std::int32_t>(node_list.size()));
-    }
-    node_list.push_back(triangle);
+  for (std::size_t b = 0; b < table.active.size(); ++b) {
+    if (!node_marks.any(b)) continue;
+    near_slot_[b] = static_cast<int>(near_list.size());
+    near_list.push_back(static_cast<int>(b));
+    near_keys_.push_back(table.active[b]);
+    node_first.push_back(static_cast<std::int32_t>(node_list.size()));
+    node_marks.each(b, [&](std::size_t triangle) { node_list.push_back(static_cast<std::int32_t>(triangle)); });
   }
   node_first.push_back(static_cast<std::int32_t>(node_list.size()));
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
-  std::size_t next = 0;
   for (std::size_t h = 0; h < table.homes.size(); ++h) {
-    const std::size_t begin = next;
-    while (next < home_pairs.size() && home_pairs[next][0] == static_cast<int>(h)) ++next;
-    bool near = next > begin;
+    bool near = home_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
     if (!near) continue;
     near_homes_[h] = 1;
     near_home_list_.push_back(static_cast<int>(h));
     home_first.push_back(static_cast<std::int32_t>(home_list.size()));
-    for (std::size_t i = begin; i < next; ++i) home_list.push_back(home_pairs[i][1]);
+    home_marks.each(h, [&](std::size_t triangle) { home_list.push_back(static_cast<std::int32_t>(triangle)); });
   }
   home_first.push_back(static_cast<std::int32_t>(home_list.size()));
 

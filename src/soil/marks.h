@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A table of bits: which columns are marked in which rows, read back in order.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace navvy::soil {
+
+/// Pairs (row, column) that arrive in any order and more than once, and leave sorted and once: cheaper than sorting
+/// them where columns are few.
+class Marks {
+ public:
+  Marks(std::size_t rows, std::size_t columns) : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
+
+  void set(std::size_t row, std::size_t column) {
+    bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);
+  }
+  bool any(std::size_t row) const {
+    for (std::size_t w = 0; w < words_; ++w)
+      if (bits_[row * words_ + w] != 0) return true;
+    return false;
+  }
+  /// Calls `use` with every marked column of the row, ascending.
+  template <class Use>
+  void each(std::size_t row, Use use) const {
+    for (std::size_t w = 0; w < words_; ++w)
+      for (std::uint64_t bits = bits_[row * words_ + w]; bits != 0; bits &= bits - 1)
+        use(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
+  }
+
+ private:
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace navvy::soil
