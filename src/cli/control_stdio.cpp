@@ -13,8 +13,10 @@ namespace navvy::cli {
 
 using nlohmann::json;
 
-ControlStdio::ControlStdio(sim::World& world, double rate)
-    : world_(world), interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world.dt()))))) {}
+ControlStdio::ControlStdio(sim::Session& session, double rate)
+    : session_(session),
+      world_(session.world()),
+      interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world_.dt()))))) {}
 
 bool ControlStdio::exchange() {
   if (world_.steps() % interval_ != 0) return true;
@@ -45,6 +47,7 @@ bool ControlStdio::exchange() {
     if (!value.is_number()) throw fault(name, value.dump(), "must be a number");
     try {
       world_.set(name, value.get<double>());
+      session_.take_over(name);
     } catch (const InputError& error) {
       const Fault& cause = error.faults().front();
       throw InputError(Fault{cause.severity, "standard input", static_cast<int>(lines_), cause.element, cause.value,

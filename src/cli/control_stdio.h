@@ -4,20 +4,22 @@
 
 #include <cstdint>
 
-#include "sim/world.h"
+#include "sim/session.h"
 
 namespace navvy::cli {
 
 /// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line {"inputs": {name:
-/// value}} (only the inputs that change). {"end": true} or end of file ends the run.
+/// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} or end of
+/// file ends the run.
 class ControlStdio {
  public:
-  ControlStdio(sim::World& world, double rate);
+  ControlStdio(sim::Session& session, double rate);
   /// Exchanges when a control step is due. Returns false when the controller wants to end.
   /// @throws InputError naming line and key when the line is not as described.
   bool exchange();
 
  private:
+  sim::Session& session_;
   sim::World& world_;
   std::uint64_t interval_;  ///< base steps per control step
   std::uint64_t lines_ = 0;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -53,6 +54,7 @@ struct LabOptions {
       {"--delta-deg", "friction angle of soil on tool [deg]", {}},
       {"--adhesion-pa", "adhesion of soil on tool [Pa]", {}},
   };
+  std::vector<std::string> settings;  // NAME=VALUE of scene::soil_values
   bool quiet = false;
 };
 
@@ -97,6 +99,28 @@ scene::Soil shipped_soil(const std::string& name) {
                          best.empty() ? "set NAVVY_DATA_DIR" : "did you mean '" + best + "'?"});
 }
 
+/// Sets a number of the soil by its name in scene files, in that file's unit.
+void set_value(scene::Soil& soil, const std::string& setting) {
+  const auto [name, text] = scene_io::parse_setting(setting);
+  std::string best;
+  std::size_t least = static_cast<std::size_t>(-1);
+  for (const scene::SoilValue& value : scene::soil_values()) {
+    if (name == value.name) {
+      double number = 0;
+      const char* end = text.data() + text.size();
+      const auto [stop, failed] = std::from_chars(text.data(), end, number);
+      if (failed != std::errc() || stop != end)
+        throw InputError(Fault{Fault::Severity::kError, "", 0, "--set " + name, text, "must be a number", ""});
+      soil.*value.value = number * value.factor;
+      return;
+    }
+    const std::size_t distance = edit_distance(value.name, name);
+    if (distance < least) least = distance, best = value.name;
+  }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "--set", name,
+                         "a number of a soil, by its name in scene files", "did you mean '" + best + "'?"});
+}
+
 scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   if (!options.soil.empty()) soil = shipped_soil(options.soil);
   const auto set = [&](const char* name, double& target, double scale = 1) {
@@ -121,6 +145,7 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   set("--inertial-number", soil.inertial_number);
   set("--delta-deg", soil.tool_friction_angle, kPi / 180);
   set("--adhesion-pa", soil.adhesion);
+  for (const std::string& setting : options.settings) set_value(soil, setting);
   return soil;
 }
 
@@ -248,6 +273,10 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")->group("Soil");
   for (SoilOption& value : options->soil_values)
     command->add_option(value.name, value.value, value.help)->group("Soil");
+  command
+      ->add_option("--set", options->settings,
+                   "NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02; repeatable")
+      ->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
       ->check(above_zero)
       ->default_str(text_of(rig.default_cell));

@@ -19,8 +19,8 @@ constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as 
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
 constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
-// so long after the lift [s]. Then a well filled bucket [share of a full one] swings more gently [share of the usual
-// rate].
+// so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
+// usual rate].
 constexpr double kDrip = 0.001, kStill = 0.4, kDripPatience = 2.5;
 constexpr double kHeavy = 0.3, kGently = 0.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket

@@ -56,7 +56,8 @@ double Coupling::payload(const ToolLoad& tool) const {
   std::vector<soil::PlacedTool> buckets;  // that may reach into a bed
   if (machine(tool).is_bed(tool.shell))
     for (const ToolLoad& other : tools_)
-      if (machine(other).is_bucket(other.shell)) buckets.push_back({other.tool, pose(other)});
+      if (other.tool != tool.tool && machine(other).is_bucket(other.shell))
+        buckets.push_back({other.tool, pose(other)});
   return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
@@ -104,7 +105,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.force_W = impulse.J_W / dt;
     tool.moment_W = impulse.L_W / dt;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
-    const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.link) / dt;
+    const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.shell) / dt;
     tool.rock_W += blend * (rock - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine).apply_impulse(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W);

@@ -21,9 +21,8 @@ struct ToolLoad {
   Vec3 force_W = Vec3::Zero();   ///< mean of the last step [N]
   Vec3 moment_W = Vec3::Zero();  ///< about the link's origin [N m]
   Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
-  /// Force of the rock on the shells of its link, low-passed likewise [N].
-  Vec3 rock_W = Vec3::Zero();
-  soil::ToolImpulse impulse;  ///< of the last step, with the momentum proof
+  Vec3 rock_W = Vec3::Zero();    ///< force of the rock on it, low-passed likewise [N]
+  soil::ToolImpulse impulse;     ///< of the last step, with the momentum proof
 };
 
 /// Wall time spent so far, by module [s].

@@ -2,6 +2,7 @@
 #include "lab/shapes.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/math.h"
 
@@ -14,6 +15,14 @@ scene::Shell open_box(double length, double width, double height) {
   s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
   s.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
                  {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
+  return s;
+}
+
+scene::Shell closed_box(double length, double width, double height) {
+  scene::Shell s = open_box(length, width, height);
+  s.name = "block";
+  s.triangles.insert(s.triangles.end(), {{4, 7, 6}, {4, 6, 5}});
+  for (auto& triangle : s.triangles) std::swap(triangle[1], triangle[2]);
   return s;
 }
 

@@ -8,6 +8,8 @@ namespace navvy::lab {
 
 /// A box open at the top: floor at z = 0, middle at the origin, inside = front [m].
 scene::Shell open_box(double length, double width, double height);
+/// The same with a lid and its front outside: a body.
+scene::Shell closed_box(double length, double width, double height);
 /// An upright plate of `width` along y from z = 0 up to `height`; its front looks along +x. `rake` [rad] leans the top
 /// back along -x: rake 90 degrees is upright, less is flatter (the angle of the face with the ground ahead).
 scene::Shell blade(double width, double height, double rake = 1.5707963267948966);

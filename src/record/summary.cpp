@@ -77,37 +77,47 @@ json ledger(const sim::Session& session) {
   return {{"error_units", sums.error()}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
-}  // namespace
-
-namespace {
-
-/// Mass of a column as bank volume [m3].
-double bank_volume(const std::vector<heightfield::Layer>& column, const std::vector<scene::Soil>& soils) {
-  double volume = 0;
-  for (const heightfield::Layer& layer : column) volume += kilograms(layer.mass) / soils[layer.soil].bank_density;
-  return volume;
+/// Bank volume of each soil in a column [m3].
+void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vector<scene::Soil>& soils,
+                  std::vector<double>& volumes) {
+  volumes.assign(soils.size(), 0.0);
+  for (const heightfield::Layer& layer : column)
+    volumes[layer.soil] += kilograms(layer.mass) / soils[layer.soil].bank_density;
 }
 
 }  // namespace
 
 Earthwork measure_earthwork(const sim::World& world) {
   const heightfield::Ground& ground = world.ground();
-  std::map<std::pair<int, int>, double> awake;  // bank volume over columns [m3]
-  for (const soil::Particle& p : world.soil().particles())
-    awake[world.soil().grid().column_of(p)] += kilograms(p.mass) / ground.setup().soils[p.soil].bank_density;
+  const std::vector<scene::Soil>& soils = ground.setup().soils;
+  std::map<std::pair<int, int>, std::vector<double>> awake;  // bank volumes over columns [m3]
+  for (const soil::Particle& p : world.soil().particles()) {
+    std::vector<double>& volumes = awake[world.soil().grid().column_of(p)];
+    volumes.resize(soils.size());
+    volumes[p.soil] += kilograms(p.mass) / soils[p.soil].bank_density;
+  }
   Earthwork sum;
+  sum.soils.resize(soils.size());
   const heightfield::CellRect rect = ground.touched_rect();
   const double area = ground.cell() * ground.cell();
   // A twentieth of a cell keeps the rounding of woken and rebooked columns out of the sums.
   const double least = 0.05 * area * ground.cell();
   std::vector<heightfield::Layer> now, start;
+  std::vector<double> after, before;
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
       ground.column(ix, iy, now);
       ground.start_column(ix, iy, start);
+      bank_volumes(now, soils, after);
+      bank_volumes(start, soils, before);
       const auto above = awake.find({ix, iy});
-      const double gain = bank_volume(now, ground.setup().soils) + (above == awake.end() ? 0.0 : above->second) -
-                          bank_volume(start, ground.setup().soils);
+      double gain = 0;
+      for (std::size_t i = 0; i < soils.size(); ++i) {
+        const double change = after[i] + (above == awake.end() ? 0.0 : above->second[i]) - before[i];
+        gain += change;
+        if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
+        if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
+      }
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least) sum.loose_volume += area * (ground.height(ix, iy) - ground.start_height(ix, iy));
     }
@@ -140,9 +150,14 @@ std::string summary_json(const sim::Session& session, const RunStatus& status, b
   out["carried_kg"] = carried(session);
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;
+  for (std::size_t i = 0; i < earth.soils.size(); ++i)
+    out["earthwork"].push_back({{"soil", world.description().soils[i].name},
+                                {"dug_kg", earth.soils[i].dug},
+                                {"spoil_kg", earth.soils[i].spoil}});
   out["energy_j"] = session.energy();
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_force_mean_n"] = session.force().mean();
+  out["rock_force_peak_n"] = session.force().rock_peak;
   out["momentum_residual_max"] = session.force().residual_max;
   out["particles_peak"] = stats.particles_peak;
   out["particle_steps"] = stats.particle_steps;

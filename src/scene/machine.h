@@ -87,8 +87,8 @@ struct Cylinder {
 
 /// The pump that all cylinders of a machine share.
 struct Pump {
-  double flow = 0.007;  ///< most oil at any pressure it can drive [m3/s]
-  double power = 90e3;  ///< flow x pressure at most [W]
+  double flow = 0;   ///< most oil at any pressure it can drive [m3/s]
+  double power = 0;  ///< flow x pressure at most [W]
 };
 
 /// A tyre (or a twin pair as one) with its own force law on the ground.

@@ -38,6 +38,7 @@ struct Session::State {
     control::Observation seen;
     std::optional<Cycle> open;
     std::optional<BedTip> open_tip;
+    bool taken = false;  ///< by inputs: the program no longer commands
   };
 
   World world;
@@ -59,6 +60,7 @@ struct Session::State {
   void note_progress();
   int tool_of(int machine, const std::string& shell) const;
   void note_forces();
+  void hash_operators(StateHash& hash) const;
 };
 
 /// Index into Coupling::tools, -1 without.
@@ -74,7 +76,7 @@ int Session::State::tool_of(int machine, const std::string& shell) const {
 void Session::State::enlist(int machine) {
   const scene::MachineInWorld& placed = world.description().machines[static_cast<std::size_t>(machine)];
   if (placed.program.steps.empty()) return;
-  Crew crew{machine, -1, -1, control::Operator(placed.machine, placed.program), {}, {}, {}};
+  Crew crew{machine, -1, -1, control::Operator(placed.machine, placed.program), {}, {}, {}, false};
   if (!placed.machine.buckets.empty()) crew.tool = tool_of(machine, placed.machine.buckets[0].shell);
   if (!placed.machine.beds.empty()) crew.bed = tool_of(machine, placed.machine.beds[0].shell);
   crew.seen.joints.resize(placed.machine.joints.size());
@@ -150,6 +152,7 @@ void Session::State::note_event(Crew& crew) {
 
 void Session::State::note_forces() {
   for (const coupling::ToolLoad& tool : world.coupling().tools()) {
+    force.rock_peak = std::max(force.rock_peak, tool.rock_W.norm());
     const soil::ToolImpulse& impulse = tool.impulse;
     if (!(impulse.scale > 0)) continue;
     // What lies in a bed is a load, no digging force.
@@ -162,6 +165,13 @@ void Session::State::note_forces() {
     if (impulse.scale_moment > 0)
       force.residual_max =
           std::max(force.residual_max, impulse.residual_moment.cwiseAbs().maxCoeff() / impulse.scale_moment);
+  }
+}
+
+void Session::State::hash_operators(StateHash& hash) const {
+  for (const Crew& crew : crews) {
+    crew.op.hash(hash);
+    if (crew.taken) hash.value(crew.taken);
   }
 }
 
@@ -189,16 +199,28 @@ void Session::step() {
     bool busy = false;
     s.note_progress();
     for (State::Crew& crew : s.crews) {
+      busy = busy || crew.taken || !crew.op.done();
+      if (crew.taken) continue;
       s.observe(crew);
       s.command(crew);
       s.note_event(crew);
       s.note_tip(crew);
-      busy = busy || !crew.op.done();
     }
     s.idle = busy || s.crews.empty() ? 0 : s.idle + s.world.dt();
   }
   s.world.step();
   s.note_forces();
+}
+
+void Session::take_over(const std::string& input) {
+  for (State::Crew& crew : state_->crews) {
+    const std::string& name = state_->world.description().machines[static_cast<std::size_t>(crew.machine)].name;
+    if (crew.taken || input.rfind(name + "/", 0) != 0) continue;
+    crew.taken = true;
+    crew.open.reset();
+    crew.open_tip.reset();
+    log_info("'" + name + "' leaves its program at " + std::to_string(state_->world.time()) + " s: inputs drive it");
+  }
 }
 
 bool Session::done() const {
@@ -215,7 +237,7 @@ const std::string& Session::device_name() const { return state_->device_name; }
 
 std::string Session::phase(int machine) const {
   for (const State::Crew& crew : state_->crews)
-    if (crew.machine == machine) return crew.op.phase();
+    if (crew.machine == machine) return crew.taken ? "inputs" : crew.op.phase();
   return "idle";
 }
 
@@ -234,14 +256,14 @@ double Session::energy() const {
 std::string Session::state_hash() const {
   StateHash sum;
   state_->world.hash(sum);
-  for (const State::Crew& crew : state_->crews) crew.op.hash(sum);
+  state_->hash_operators(sum);
   return sum.hex();
 }
 
 std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out = state_->world.hash_parts();
   StateHash operators;
-  for (const State::Crew& crew : state_->crews) crew.op.hash(operators);
+  state_->hash_operators(operators);
   out.emplace_back("operators", operators.hex());
   return out;
 }
@@ -249,7 +271,7 @@ std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
 void Session::save(StateWriter& writer) const {
   static_assert(std::is_trivially_copyable_v<Cycle> && std::is_trivially_copyable_v<BedTip>);
   state_->world.save(writer);
-  writer.begin("session", 2);
+  writer.begin("session", 3);
   writer.vector(state_->cycles);
   writer.vector(state_->tips);
   writer.value(state_->force);
@@ -261,6 +283,7 @@ void Session::save(StateWriter& writer) const {
     writer.value(crew.open.value_or(Cycle{}));
     writer.value(static_cast<std::uint8_t>(crew.open_tip.has_value()));
     writer.value(crew.open_tip.value_or(BedTip{}));
+    writer.value(static_cast<std::uint8_t>(crew.taken));
   }
   writer.end();
   for (const State::Crew& crew : state_->crews) crew.op.save(writer);
@@ -268,7 +291,7 @@ void Session::save(StateWriter& writer) const {
 
 void Session::load(StateReader& reader) {
   state_->world.load(reader);
-  reader.begin("session", 2);
+  reader.begin("session", 3);
   state_->cycles = reader.vector<Cycle>();
   state_->tips = reader.vector<BedTip>();
   state_->force = reader.value<ForceStatistics>();
@@ -285,6 +308,7 @@ void Session::load(StateReader& reader) {
     const bool tipping = reader.value<std::uint8_t>() != 0;
     const auto tip = reader.value<BedTip>();
     crew.open_tip = tipping ? std::optional<BedTip>(tip) : std::nullopt;
+    crew.taken = reader.value<std::uint8_t>() != 0;
   }
   reader.end();
   for (State::Crew& crew : state_->crews) crew.op.load(reader);

@@ -32,6 +32,7 @@ struct ForceStatistics {
   double peak = 0;  ///< of the low-passed force [N]
   double sum = 0;   ///< of |force| x steps in contact
   std::uint64_t steps = 0;
+  double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
   double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
   double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
 };
@@ -47,13 +48,16 @@ class Session {
 
   /// Operators decide, then the world takes one base step.
   void step();
+  /// The machine of this input channel leaves its program for good and is driven by inputs alone; nothing happens to a
+  /// machine without one.
+  void take_over(const std::string& input);
   /// True when every program has ended and the settling time has passed, or the scene's duration is over.
   bool done() const;
 
   World& world();
   const World& world() const;
   const std::string& device_name() const;
-  std::string phase(int machine) const;  ///< "idle" for a machine without a program
+  std::string phase(int machine) const;  ///< "idle" for a machine without a program, "inputs" after take_over
   const std::vector<Cycle>& cycles() const;
   const std::vector<BedTip>& tips() const;
   const ForceStatistics& force() const;

@@ -120,10 +120,10 @@ void add_tools(World& world, const std::vector<std::string>& prefixes, Outputs& 
       outputs.add({base + "smooth_force_" + axes[i], "N", "the force, low-passed at 3 Hz"},
                   [&world, t, i] { return world.coupling().tools()[t].smooth_W[i]; });
       if (!machine.kinematic)
-        outputs.add({base + "rock_force_" + axes[i], "N", "rock on the tool's link, low-passed at 3 Hz"},
+        outputs.add({base + "rock_force_" + axes[i], "N", "rock on the tool, low-passed at 3 Hz"},
                     [&world, t, i] { return world.coupling().tools()[t].rock_W[i]; });
     }
-    outputs.add({base + "payload", "kg", "soil inside the shell"},
+    outputs.add({base + "payload", "kg", "soil inside the shell; of a bed without what a bucket holds in it"},
                 [&world, t] { return world.coupling().payload(world.coupling().tools()[t]); });
   }
 }

@@ -23,9 +23,13 @@ constexpr double kPieceCells = 3;
   throw InputError(fault);
 }
 
+/// Folds of a closed body that turn by more than this act like edges [cos]: 30 degrees.
+constexpr double kSharp = 0.866;
+
 struct EdgeUse {
   int count = 0;
   Vec3 normal = Vec3::Zero();
+  bool sharp = false;  ///< folds away from the front
 };
 
 std::pair<int, int> edge_key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
@@ -64,6 +68,8 @@ void ShellGeometry::find_normals() {
     for (const Vec3& corner : t.corner) t.radius = std::max(t.radius, (corner - t.centre).norm());
     for (std::size_t i = 0; i < 3; ++i) {
       EdgeUse& use = edges[edge_key(index[i], index[(i + 1) % 3])];
+      const bool away = use.normal.dot(t.corner[(i + 2) % 3] - t.corner[i]) < 0;
+      use.sharp = use.count == 1 && away && use.normal.dot(t.normal) < kSharp;
       ++use.count;
       use.normal += t.normal;
       // A corner's pseudo-normal weighs each face by its angle there.
@@ -74,11 +80,15 @@ void ShellGeometry::find_normals() {
     }
     triangles_.push_back(t);
   }
+  // A body without free edges: nodes reach round its sharp edges as far as round a plate's free ones, and count less
+  // near them likewise; else it would act a cell larger on every side. Its particles stay outside as of any fold.
+  const bool closed = std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 1; });
   for (const auto& [key, use] : edges) {
-    if (use.count != 1) continue;
-    corner_free[key.first] = corner_free[key.second] = true;
-    rims_.push_back(
-        {shell_.vertices[static_cast<std::size_t>(key.first)], shell_.vertices[static_cast<std::size_t>(key.second)]});
+    const bool free = use.count == 1;
+    if (free) corner_free[key.first] = corner_free[key.second] = true;
+    if (free || (closed && use.sharp))
+      rims_.push_back({shell_.vertices[static_cast<std::size_t>(key.first)],
+                       shell_.vertices[static_cast<std::size_t>(key.second)]});
   }
   for (std::size_t n = 0; n < triangles_.size(); ++n) {
     const auto& index = shell_.triangles[n];

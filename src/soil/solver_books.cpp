@@ -75,14 +75,15 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
     low = low.cwiseMin(grid);
     high = high.cwiseMax(grid);
   }
+  std::vector<std::pair<const ShellGeometry*, Pose>> others;
+  for (const PlacedTool& other : except)
+    others.emplace_back(&state_->contact.geometry(other.tool), other.X_WT.inverse());
   std::int64_t sum = 0;
   int closest = 0;  // triangle of the particle before: neighbours in memory are neighbours in space
   for (const PointMass& p : state_->masses_near(low, high)) {
     const Vec3 p_W = state_->origin + p.grid * state_->cell;
-    const auto holds = [&](const PlacedTool& other) {
-      return state_->contact.geometry(other.tool).holds(other.X_WT.inverse() * p_W);
-    };
-    if (geometry.holds(X_TW * p_W, closest) && std::none_of(except.begin(), except.end(), holds)) sum += p.mass;
+    const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
+    if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds)) sum += p.mass;
   }
   return kilograms(sum);
 }

@@ -123,9 +123,9 @@ class Engine {
   virtual double work(int machine) const = 0;
   /// Sum of ground impulses (tyres, contacts, rock) on a machine in the last step [N s].
   virtual Vec3 ground_impulse(int machine) const = 0;
-  /// Impulse of the rock on the shells of a link in the last step [N s].
-  virtual Vec3 rock_impulse(int machine, int link) const {
-    (void)machine, (void)link;
+  /// Impulse of the rock on a shell in the last step [N s].
+  virtual Vec3 rock_impulse(int machine, int shell) const {
+    (void)machine, (void)shell;
     return Vec3::Zero();
   }
   /// Sum of all impulses of apply_impulse and add_force on a machine since the start [N s].

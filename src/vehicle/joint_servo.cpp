@@ -10,6 +10,8 @@ namespace {
 constexpr double kGain = 20;         // [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
 constexpr double kValveTime = 0.15;  // [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
 constexpr double kSaturated = 0.999;
+constexpr double kHolds = 0.02;       // of full flow: less only keeps a joint in its place
+constexpr double kLeastShare = 0.01;  // of the oil asked for
 
 }  // namespace
 
@@ -28,12 +30,14 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
 }
 
 double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt) {
+  flows_ = false;
   if (!has_valve()) return 0;
   wanted_ = wanted_speed(joint, limits, q, dt);
-  // Against a load it cannot move, the valve opens from what really flows.
-  const double from = saturated_ ? qd : velocity_;
-  const double slew = dt / kValveTime * std::max(limits.speed_positive, limits.speed_negative);
+  // Against a load it cannot move, the valve opens from what really flows; of that it got a share.
+  const double from = saturated_ ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive) : velocity_;
+  const double fastest = std::max(limits.speed_positive, limits.speed_negative), slew = dt / kValveTime * fastest;
   velocity_ = std::clamp(wanted_, from - slew, from + slew);
+  flows_ = std::abs(velocity_) > std::max(1.5 * slew, kHolds * fastest);
   return velocity_;
 }
 
@@ -50,8 +54,8 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
     holding_ = false;
     return out;
   }
-  wanted_ *= share;
-  const double flowing = share * velocity_;
+  share_ = std::max(share, kLeastShare);
+  const double flowing = share_ * velocity_;
   out.velocity = flowing;
   if (input_.mode == JointMode::kVelocity) {
     // A velocity of zero is no brake by itself: what solver errors and loads shift is driven back.
@@ -71,30 +75,31 @@ void JointServo::settle(const Demand& demand, const JointLimits& limits, double 
                         double dt) {
   (void)q;
   saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
-  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached.
+  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached that it got oil
+  // for.
   const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
   const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);
-  const bool stuck = saturated_ && asked && effort * wanted_ > 0 && qd * wanted_ < 0.1 * wanted_ * wanted_;
+  const bool stuck = saturated_ && asked && effort * wanted_ > 0 && qd * wanted_ < 0.1 * share_ * wanted_ * wanted_;
   stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
 }
 
 void JointServo::hash(StateHash& hash) const {
   hash.value(input_.mode);
-  for (const double v : {input_.target, velocity_, held_, wanted_, stall_time_}) hash.value(v);
+  for (const double v : {input_.target, velocity_, held_, wanted_, share_, stall_time_}) hash.value(v);
   hash.value(saturated_);
   hash.value(holding_);
 }
 
 void JointServo::save(StateWriter& writer) const {
   writer.value(input_.mode);
-  for (const double v : {input_.target, velocity_, held_, wanted_, stall_time_}) writer.value(v);
+  for (const double v : {input_.target, velocity_, held_, wanted_, share_, stall_time_}) writer.value(v);
   writer.value(saturated_);
   writer.value(holding_);
 }
 
 void JointServo::load(StateReader& reader) {
   input_.mode = reader.value<JointMode>();
-  for (double* v : {&input_.target, &velocity_, &held_, &wanted_, &stall_time_}) *v = reader.value<double>();
+  for (double* v : {&input_.target, &velocity_, &held_, &wanted_, &share_, &stall_time_}) *v = reader.value<double>();
   saturated_ = reader.value<bool>();
   holding_ = reader.value<bool>();
 }

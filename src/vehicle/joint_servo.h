@@ -33,6 +33,8 @@ class JointServo {
   /// Turns the valve towards what the command asks for; call it once a step, before demand().
   /// @returns the velocity it lets through when there is oil enough; 0 where no valve is at work (kFree, kEffort).
   double open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt);
+  /// The valve is open farther than a step's travel from closed: it neither holds nor stalls. Of the last open().
+  bool flows() const { return flows_; }
   /// What the joint is to do in this step with `share` of the oil that its valve lets through.
   Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double share, double dt);
   /// Tells what came of it: effort applied and velocity reached.
@@ -51,9 +53,11 @@ class JointServo {
   JointInput input_;
   double velocity_ = 0;  // valve position, as velocity asked for in the last step
   double held_ = 0;      // where the joint is to be by velocity commands
-  double wanted_ = 0;    // before the valve; what the pump has left of it
+  double wanted_ = 0;    // before the valve, with all the oil it could take
+  double share_ = 1;     // of that oil which the last step got
   double stall_time_ = 0;
   bool saturated_ = false, holding_ = false;
+  bool flows_ = false;  // follows from the above in every step
 };
 
 }  // namespace navvy::vehicle

@@ -12,9 +12,9 @@ namespace navvy::vehicle {
 
 /// What one hydraulic function asks of the pump in a step.
 struct OilDemand {
-  double flow = 0;       ///< that its valve would pass if there were oil enough [m3/s]
-  double full_flow = 1;  ///< the most this function takes [m3/s]
-  double pressure = 0;   ///< its load against the motion asked for, 0 when the load helps [Pa]
+  double flow = 0;  ///< that its valve would pass if there were oil enough [m3/s]
+  double pressure =
+      0;  ///< its load against the motion asked for; 0 when the load helps, or while it holds or stalls [Pa]
 };
 
 /// A load-sensing pump with flow sharing, as on wheeled excavators (LUDV and its kin).
@@ -22,7 +22,8 @@ struct OilDemand {
 /// It delivers what the valves let through, at the pressure of the function with the heaviest load. When that is more
 /// than its flow, or than its power at that pressure, all functions are slowed by the same share. A function that only
 /// holds, or that stalls, opens its valve hardly at all and neither takes oil nor sets the pressure. Lowering takes oil
-/// like lifting; nothing is regenerated.
+/// like lifting; nothing is regenerated. The swashplate lags behind the load: for some 0.3 s after a load came it may
+/// give more than its power.
 class Pump {
  public:
   /// Share of the asked flow that every function gets in this step, 0 to 1.
@@ -39,6 +40,7 @@ class Pump {
 
  private:
   double flow_ = 0, pressure_ = 0;
+  double share_ = 1;  // in the last step
 };
 
 }  // namespace navvy::vehicle

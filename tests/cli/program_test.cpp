@@ -175,13 +175,27 @@ TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
 
 TEST_F(Program, LabWritesEveryNumberOfItsSoil) {
   const std::string json = (directory_ / "light.json").string();
-  ASSERT_EQ(run({"lab", "light-tool", "--delta-deg", "12", "--quiet", "--json", json}), 0) << complained();
+  ASSERT_EQ(run({"lab", "light-tool", "--delta-deg", "12", "--set", "opening_strain=0.02", "--set",
+                 "friction_angle_deg=31", "--quiet", "--json", json}),
+            0)
+      << complained();
   const auto soil = nlohmann::json::parse(text_of(json)).at("inputs").at("soil");
   EXPECT_NEAR(soil.at("tool_friction_angle_deg").get<double>(), 12, 1e-9);
+  EXPECT_NEAR(soil.at("opening_strain").get<double>(), 0.02, 1e-12);
+  EXPECT_NEAR(soil.at("friction_angle_deg").get<double>(), 31, 1e-9);
   for (const char* name : {"name", "bank_density_kg_per_m3", "swell", "friction_angle_deg", "cohesion_pa",
                            "residual_cohesion_pa", "remoulding_strain", "loosening_strain", "opening_strain",
                            "young_modulus_pa", "poisson", "adhesion_pa", "bekker_n", "janosi_k_m"})
     EXPECT_TRUE(soil.contains(name)) << name;
+}
+
+TEST_F(Program, LabNamesAWrongNumberOfTheSoil) {
+  EXPECT_EQ(run({"lab", "light-tool", "--set", "opening_stain=0.02"}), 2);
+  EXPECT_NE(complained().find("'opening_strain'"), std::string::npos) << complained();
+  EXPECT_EQ(run({"lab", "light-tool", "--set", "opening_strain=much"}), 2);
+  EXPECT_NE(complained().find("much"), std::string::npos) << complained();
+  EXPECT_EQ(run({"lab", "light-tool", "--set", "opening_strain=7"}), 2);
+  EXPECT_NE(complained().find("opening_strain"), std::string::npos) << complained();
 }
 
 TEST_F(Program, SaysWhenItCannotWriteThere) {
@@ -286,7 +300,8 @@ TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
     const auto state = nlohmann::json::parse(line);
     EXPECT_GT(state.at("time").get<double>(), time);
     time = state.at("time").get<double>();
-    EXPECT_TRUE(state.at("outputs").contains("bucket/slide_x/position"));
+    EXPECT_NEAR(state.at("outputs").at("bucket/slide_x/position").get<double>(), -1.6 + 0.5 * time, 1e-6)
+        << "inputs drive it, not its program";
     ++count;
   }
   EXPECT_EQ(count, 11);  // ten answered, one ended
@@ -335,6 +350,34 @@ TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatGoesOn) {
   const auto resumed = nlohmann::json::parse(text_of(out() + "2/summary.json"));
   EXPECT_EQ(resumed.at("mass_ledger").at("error_units"), 0);
   EXPECT_GT(resumed.at("steps").get<int>(), failed.at("steps").get<int>());
+}
+
+TEST_F(Program, StopsOnAToolFasterThanWavesAndLeavesASnapshotThatGoesOn) {
+  const std::string middle = (directory_ / "middle.snapshot").string();
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "2", "--out", out(), "--snapshot",
+                 middle, "--snapshot-at", "1.9"}),
+            0)
+      << complained();
+  // From there by hand: slowly on, then at 60 m/s through the soil.
+  const auto drive = [&](const std::string& snapshot, const std::string& to, const std::vector<int>& speeds) {
+    std::string lines;
+    for (const int speed : speeds)
+      lines += R"({"inputs": {"bucket/slide_x/velocity": )" + std::to_string(speed) + "}}\n";
+    lines += "{\"end\": true}\n";
+    return run(
+        {"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--resume", snapshot, "--out", to},
+        lines);
+  };
+  ASSERT_EQ(drive(middle, out() + "1", {0, 0, 60, 60}), 5) << complained();
+  EXPECT_NE(complained().find("soil step"), std::string::npos) << complained();
+  EXPECT_NE(complained().find("faster than waves"), std::string::npos) << complained();
+  const auto failed = nlohmann::json::parse(text_of(out() + "1/summary.json"));
+  EXPECT_EQ(failed.at("status"), "failed");
+  EXPECT_NE(failed.at("message").get<std::string>().find("m/s"), std::string::npos);
+  EXPECT_EQ(failed.at("mass_ledger").at("error_units"), 0);
+  expect_readable(out() + "1");
+  ASSERT_EQ(drive(out() + "1/failed.snapshot", out() + "2", {0, 0}), 0) << complained();
+  EXPECT_EQ(nlohmann::json::parse(text_of(out() + "2/summary.json")).at("mass_ledger").at("error_units"), 0);
 }
 
 TEST_F(Program, ListsDevicesSoilsAndChannels) {

@@ -196,6 +196,43 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
   EXPECT_EQ(cylinder.count, 2);
 }
 
+/// A shell with this geometry on a link of its own.
+scene::Shell shell_of(const std::string& geometry) {
+  const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">
+<navvy:engine>kinematic</navvy:engine><link name="a"/>
+<navvy:shell name="s"><link>a</link>)" +
+                                  geometry + "</navvy:shell></model>");
+  return world.machines.at(0).machine.shells.at(0);
+}
+
+TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
+  // Quads, faces with texture and normal numbers, numbers from the end, comments and groups: what modellers export.
+  const std::string path = testing::TempDir() + "navvy_shell.obj";
+  const std::string obj =
+      "# a tray\no tray\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0.5\nv 1 0 0.5\nvt 0 0\nvn 0 0 1\ng floor\n"
+      "f 1/1/1 2/1/1 3/1/1 4/1/1\ng back\nf -2//1 -1//1 2//1\nf 5 2 1\n";
+  write_file_atomically(path, obj);
+  const scene::Shell mesh = shell_of("<mesh>" + path + "</mesh>");
+  const scene::Shell inline_shell = shell_of(
+      "<vertices_m>0 0 0 1 0 0 1 1 0 0 1 0 0 0 0.5 1 0 0.5</vertices_m>"
+      "<triangles>0 1 2 0 2 3 4 5 1 4 1 0</triangles>");
+  ASSERT_EQ(mesh.triangles.size(), inline_shell.triangles.size());
+  ASSERT_EQ(mesh.vertices.size(), inline_shell.vertices.size()) << "corners that triangles share stay one";
+  // Which diagonal cuts a quad is the reader's choice: areas with their direction, above each level and in all.
+  const auto area = [](const scene::Shell& shell, double above) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& triangle : shell.triangles) {
+      const auto corner = [&](std::size_t i) { return shell.vertices.at(static_cast<std::size_t>(triangle[i])); };
+      if ((corner(0) + corner(1) + corner(2)).z() >= above)
+        sum += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    }
+    return sum;
+  };
+  EXPECT_TRUE(area(mesh, 0).isApprox(area(inline_shell, 0), 1e-6));
+  EXPECT_TRUE(area(mesh, 0.1).isApprox(Vec3(0, 0.5, 0), 1e-6)) << "the back looks inward";
+  EXPECT_TRUE(area(inline_shell, 0.1).isApprox(Vec3(0, 0.5, 0), 1e-6));
+}
+
 TEST(Overrides, ChangeOneOrAllObjects) {
   EXPECT_EQ(load(kBody, set("soil.swell=1.5")).soils[1].swell, 1.5);
   const scene::World one = load(kBody, set("soil[loam].cohesion_pa=8000"));

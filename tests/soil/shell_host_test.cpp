@@ -36,6 +36,16 @@ TEST(ShellGeometry, FindsTheSameDistanceFromEveryGuess) {
   }
 }
 
+TEST(ShellGeometry, SharpFoldsOfAClosedBodyCountAsEdgesAndNoOthersDo) {
+  // A box whose outside is its front: twelve edges, not the six diagonals of its faces. Turned inside out, as the
+  // inside of a tank, none; with its lid open the four of the rim.
+  scene::Shell box = lab::closed_box(1.0, 0.8, 0.6);
+  EXPECT_EQ(ShellGeometry(box, 0.1).rims().size(), 12u);
+  for (auto& triangle : box.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_EQ(ShellGeometry(box, 0.1).rims().size(), 0u);
+  EXPECT_EQ(ShellGeometry(rig::open_box(1.0, 0.8, 0.6), 0.1).rims().size(), 4u);
+}
+
 TEST(ShellGeometry, FindsTheRimAndOnlyTheRim) {
   const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
   ASSERT_EQ(box.rims().size(), 4u);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "core/error.h"
 
 namespace navvy::validation {
 namespace {
@@ -50,6 +53,12 @@ struct Slice {
 };
 
 }  // namespace
+
+scene::Dig dig_step(const scene::World& world) {
+  for (const scene::ProgramStep& step : world.machines.at(0).program.steps)
+    if (const auto* dig = std::get_if<scene::Dig>(&step)) return *dig;
+  throw SimulationError("the scene digs nothing");
+}
 
 TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig) {
   TrenchMeasure out;

@@ -6,9 +6,13 @@
 
 #include "heightfield/ground.h"
 #include "scene/program.h"
+#include "scene/world.h"
 #include "sim/world.h"
 
 namespace navvy::validation {
+
+/// The dig step of the only machine.
+scene::Dig dig_step(const scene::World& world);
 
 /// Terrain end minus start inside and outside the design.
 struct TrenchMeasure {

@@ -17,14 +17,6 @@
 namespace navvy::validation {
 namespace {
 
-/// The dig step of the only machine.
-scene::Dig dig_step(const scene::World& world) {
-  for (const scene::ProgramStep& step : world.machines.at(0).program.steps)
-    if (const auto* dig = std::get_if<scene::Dig>(&step)) return *dig;
-  ADD_FAILURE() << "the scene digs nothing";
-  return {};
-}
-
 TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   scene_io::Overrides overrides;
   overrides.render = false;

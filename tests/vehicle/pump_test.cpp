@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "values.h"
+#include "vehicle/joint_servo.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/machines.h"
 #include "vehicle/pump.h"
@@ -30,25 +31,80 @@ double settled_share(const std::vector<OilDemand>& demands) {
 
 TEST(Pump, GivesWhatIsAskedWhileThereIsEnough) {
   EXPECT_EQ(settled_share({}), 1);
-  EXPECT_EQ(settled_share({{0.004, 0.006, 10e6}, {0.002, 0.004, 0}}), 1);
+  EXPECT_EQ(settled_share({{0.004, 10e6}, {0.002, 0}}), 1);
 }
 
 TEST(Pump, SlowsAllFunctionsByTheSameShareWhenItsFlowIsShort) {
-  EXPECT_DOUBLE_EQ(settled_share({{0.006, 0.006, 5e6}, {0.0055, 0.0055, 0}, {0.004, 0.004, 0}}), 0.007 / 0.0155);
+  EXPECT_DOUBLE_EQ(settled_share({{0.006, 5e6}, {0.0055, 0}, {0.004, 0}}), 0.007 / 0.0155);
 }
 
 TEST(Pump, DrivesNoMoreThanItsPowerAtTheHeaviestLoad) {
   // 90 kW at 30 MPa are 3 l/s.
-  EXPECT_NEAR(settled_share({{0.004, 0.006, 30e6}, {0.002, 0.004, 1e6}}), 0.5, 1e-6);
+  EXPECT_NEAR(settled_share({{0.004, 30e6}, {0.002, 1e6}}), 0.5, 1e-6);
 }
 
-TEST(Pump, FunctionsThatOnlyHoldSetNoPressure) {
-  EXPECT_EQ(settled_share({{0.0001, 0.006, 35e6}, {0.004, 0.004, 1e6}}), 1);
+TEST(JointServo, HoldingAndStallingIsNoFlowAtAnyStep) {
+  const scene::Joint joint;
+  JointLimits limits;
+  limits.effort_positive = limits.effort_negative = 100;
+  limits.speed_positive = 0.5;
+  limits.speed_negative = 0.9;
+  for (const double dt : {1.0 / 600, 0.02}) {
+    JointServo holds, stalls, moves;
+    holds.set({JointMode::kPosition, 0.0005});
+    stalls.set({JointMode::kVelocity, 0.5});
+    moves.set({JointMode::kVelocity, 0.5});
+    for (int i = 0; i < 200; ++i) {
+      const auto step = [&](JointServo& servo, double effort, double qd) {
+        servo.open(joint, limits, 0, qd, dt);
+        servo.settle(servo.demand(joint, limits, 0, qd, 1, dt), limits, effort, 0, qd, dt);
+      };
+      step(holds, 10, 0);
+      step(stalls, 100, 0);
+      step(moves, 50, 0.5);
+    }
+    EXPECT_FALSE(holds.flows());
+    EXPECT_FALSE(stalls.flows());
+    EXPECT_TRUE(moves.flows());
+    EXPECT_TRUE(stalls.stalled());
+  }
+}
+
+TEST(JointServo, AFunctionAtReliefWithHalfTheOilOpensItsValveAllTheSame) {
+  // Its speed is that of its share; were it taken for the valve's, the valve would close step by step.
+  const scene::Joint joint;
+  JointLimits limits;
+  limits.effort_positive = limits.effort_negative = 100;
+  limits.speed_positive = limits.speed_negative = 1;
+  JointServo servo;
+  servo.set({JointMode::kVelocity, 1});
+  double qd = 0;
+  for (int i = 0; i < 1000; ++i) {
+    servo.open(joint, limits, 0, qd, kStep);
+    const JointServo::Demand demand = servo.demand(joint, limits, i * kStep * 0.5, qd, 0.5, kStep);
+    servo.settle(demand, limits, 100, 0, qd, kStep);  // always at its limit, yet it follows
+    qd = std::min(0.5, qd + 0.002);
+  }
+  EXPECT_NEAR(servo.open(joint, limits, 500 * kStep, qd, kStep), 1, 0.02);
+}
+
+TEST(Pump, OilThatBecomesFreeReachesTheOthersSmoothly) {
+  Pump pump;
+  double share = 0;
+  for (int i = 0; i < 600; ++i) share = pump.share(kPump, {{0.007, 0}, {0.007, 0}}, kStep);
+  EXPECT_DOUBLE_EQ(share, 0.5);
+  int steps = 0;
+  for (; share < 1; ++steps) {
+    const double next = pump.share(kPump, {{0.007, 0}}, kStep);
+    EXPECT_LT(next - share, 0.012);
+    share = next;
+  }
+  EXPECT_LE(steps * kStep, 0.1);
 }
 
 TEST(Pump, IsTheSameAfterASnapshot) {
   Pump pump;
-  pump.share(kPump, {{0.006, 0.006, 30e6}}, 0.1);
+  pump.share(kPump, {{0.006, 30e6}}, 0.1);
   pump.settle(0.004);
   StateWriter writer;
   pump.save(writer);
@@ -57,7 +113,7 @@ TEST(Pump, IsTheSameAfterASnapshot) {
   copy.load(reader);
   EXPECT_EQ(copy.flow(), pump.flow());
   EXPECT_EQ(copy.pressure(), pump.pressure());
-  EXPECT_EQ(copy.share(kPump, {{0.006, 0.006, 30e6}}, 0.1), pump.share(kPump, {{0.006, 0.006, 30e6}}, 0.1));
+  EXPECT_EQ(copy.share(kPump, {{0.006, 30e6}}, 0.1), pump.share(kPump, {{0.006, 30e6}}, 0.1));
 }
 
 /// The excavator on a fixed base, with what its arm's joints are called.

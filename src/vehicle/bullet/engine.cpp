@@ -109,7 +109,7 @@ class BulletEngine final : public Engine {
   JointState joint(int machine, int joint) const override { return at(machine).joint(joint); }
   LinkState link(int machine, int link) const override { return at(machine).tree().link(link); }
   WheelState wheel(int machine, int wheel) const override { return at(machine).wheel(wheel); }
-  Vec3 rock_impulse(int machine, int link) const override { return at(machine).rock_impulse(link); }
+  Vec3 rock_impulse(int machine, int shell) const override { return at(machine).rock_impulse(shell); }
   PumpState pump(int machine) const override { return at(machine).pump(); }
   Mat6 inverse_mass(int machine, int link) const override { return at(machine).tree().inverse_mass(link); }
   Vec3 momentum(int machine) const override { return at(machine).tree().momentum(); }

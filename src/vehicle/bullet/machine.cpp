@@ -128,20 +128,11 @@ void BulletMachine::add_colliders() {
 }
 
 void BulletMachine::add_rock() {
-  for (std::size_t i = 0; i < machine_.links.size(); ++i) {
-    const int link = static_cast<int>(i);
-    std::vector<Vec3> corners;
-    for (const scene::Shell& shell : machine_.shells)
-      if (machine_.link_index(shell.link) == link)
-        corners.insert(corners.end(), shell.vertices.begin(), shell.vertices.end());
-    if (!corners.empty()) rock_.push_back(std::make_unique<RockContact>(tree_, link, std::move(corners)));
+  for (const scene::Shell& shell : machine_.shells) {
+    const int link = machine_.link_index(shell.link);
+    if (link < 0) refuse("shell[" + shell.name + "]", shell.link, "no link of this name");
+    rock_.push_back(std::make_unique<RockContact>(tree_, link, shell.vertices));
   }
-}
-
-Vec3 BulletMachine::rock_impulse(int link) const {
-  for (const auto& rock : rock_)
-    if (rock->link() == link) return rock->impulse();
-  return Vec3::Zero();
 }
 
 void BulletMachine::set_joint(int joint, const JointInput& input) {
@@ -179,16 +170,16 @@ void BulletMachine::begin_step(const Vec3& gravity, const GroundQuery& ground, d
   tree_.step_velocities(gravity, dt);
 }
 
-JointLimits BulletMachine::limits(const Actuator& a, const scene::Joint& about, double q) const {
+JointLimits BulletMachine::limits(Actuator& a, const scene::Joint& about, double q) const {
   JointLimits limits;
   limits.effort_positive = limits.effort_negative = about.effort;
   limits.speed_positive = limits.speed_negative = about.velocity;
   if (a.cylinder >= 0) {
-    const CylinderLimits hydraulic = cylinders_[index(a.cylinder)].limits(q);
-    limits.effort_positive = std::min(about.effort, hydraulic.torque_positive);
-    limits.effort_negative = std::min(about.effort, hydraulic.torque_negative);
-    limits.speed_positive = std::min(about.velocity, hydraulic.speed_positive);
-    limits.speed_negative = std::min(about.velocity, hydraulic.speed_negative);
+    a.hydraulic = cylinders_[index(a.cylinder)].limits(q);
+    limits.effort_positive = std::min(about.effort, a.hydraulic.torque_positive);
+    limits.effort_negative = std::min(about.effort, a.hydraulic.torque_negative);
+    limits.speed_positive = std::min(about.velocity, a.hydraulic.speed_positive);
+    limits.speed_negative = std::min(about.velocity, a.hydraulic.speed_negative);
   }
   if (a.driven && a.servo.input().mode == JointMode::kPosition) {
     limits.speed_positive = std::min(limits.speed_positive, machine_.drive.steer_rate);
@@ -206,17 +197,18 @@ double BulletMachine::oil_for(const Actuator& a, double velocity, double q) cons
 
 double BulletMachine::share_oil(double dt) {
   if (!machine_.has_pump) return 1;
-  std::vector<OilDemand> demands;
+  demands_.clear();
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     const Actuator& a = actuators_[j];
     if (a.cylinder < 0 || !constraints_[j]) continue;
-    const scene::Cylinder& cylinder = machine_.cylinders[index(a.cylinder)];
     const double q = tree_.position(static_cast<int>(j));
-    const CylinderLimits hydraulic = cylinders_[index(a.cylinder)].limits(q);
-    const double against = a.opened > 0 ? a.effort / hydraulic.torque_positive : -a.effort / hydraulic.torque_negative;
-    demands.push_back({oil_for(a, a.opened, q), cylinder.flow, std::clamp(against, 0.0, 1.0) * cylinder.pressure});
+    OilDemand demand{oil_for(a, a.opened, q), 0};
+    const double most = a.opened > 0 ? a.hydraulic.torque_positive : -a.hydraulic.torque_negative;
+    if (a.servo.flows() && a.effort * most > 0)
+      demand.pressure = std::min(a.effort / most, 1.0) * machine_.cylinders[index(a.cylinder)].pressure;
+    demands_.push_back(demand);
   }
-  return pump_.share(machine_.pump, demands, dt);
+  return pump_.share(machine_.pump, demands_, dt);
 }
 
 void BulletMachine::begin_joints(double dt) {
@@ -367,7 +359,9 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
     work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
     a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
-    if (a.opened * qd > 0) oil += oil_for(a, qd, q);  // what a load pushes back goes to the tank
+    // What a load pushes back goes to the tank.
+    const double driven = a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
+    if (machine_.has_pump && driven * qd > 0) oil += oil_for(a, qd, q);
   }
   pump_.settle(oil);
 }

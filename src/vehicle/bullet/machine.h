@@ -44,8 +44,8 @@ class BulletMachine {
 
   JointState joint(int joint) const;
   WheelState wheel(int wheel) const;
-  /// Of the rock on a link in the last step [N s].
-  Vec3 rock_impulse(int link) const;
+  /// Of the rock on a shell in the last step [N s].
+  const Vec3& rock_impulse(int shell) const { return rock_.at(index(shell))->impulse(); }
   PumpState pump() const { return {pump_.flow(), pump_.pressure()}; }
   double work() const { return work_; }
   const Vec3& ground_impulse() const { return ground_impulse_; }
@@ -58,8 +58,9 @@ class BulletMachine {
  private:
   struct Actuator {
     JointServo servo;
-    int cylinder = -1;    // index into cylinders_
-    bool driven = false;  // the drive commands it
+    int cylinder = -1;         // index into cylinders_
+    bool driven = false;       // the drive commands it
+    CylinderLimits hydraulic;  // at the step's start
     JointLimits limits;
     JointServo::Demand demand;
     double opened = 0;  // velocity that the valve lets through with oil enough
@@ -85,7 +86,7 @@ class BulletMachine {
   void add_tyres();
   void add_colliders();
   void add_rock();
-  JointLimits limits(const Actuator& a, const scene::Joint& about, double q) const;
+  JointLimits limits(Actuator& a, const scene::Joint& about, double q) const;
   /// Oil [m3/s] that a joint's cylinders take at `velocity`.
   double oil_for(const Actuator& a, double velocity, double q) const;
   /// Share of its oil that every function gets.
@@ -104,9 +105,10 @@ class BulletMachine {
   TreeBody tree_;
   std::vector<Actuator> actuators_;                            // by joint
   std::vector<std::unique_ptr<ServoConstraint>> constraints_;  // by joint, null where it is fixed or a ball
-  std::vector<std::unique_ptr<RockContact>> rock_;             // of links with shells
+  std::vector<std::unique_ptr<RockContact>> rock_;             // by shell
   std::vector<CylinderMap> cylinders_;
   Pump pump_;
+  std::vector<OilDemand> demands_;  // of the present step
   std::vector<LinkShape> shapes_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<Tyre> tyres_;

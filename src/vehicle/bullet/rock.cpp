@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "core/error.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -78,7 +81,13 @@ void RockContact::save(StateWriter& writer) const {
 }
 
 void RockContact::load(StateReader& reader) {
-  normal_ = reader.vector<double>();
+  std::vector<double> normal = reader.vector<double>();
+  if (normal.size() != normal_.size())
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "bullet", "",
+                           "the snapshot has a shell of " + std::to_string(normal.size()) +
+                               " corners, the scene's has " + std::to_string(normal_.size()),
+                           "use the machine it was made with"});
+  normal_ = std::move(normal);
   impulse_ = reader.vec3();
 }
 

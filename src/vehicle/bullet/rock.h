@@ -11,16 +11,16 @@
 
 namespace navvy::vehicle {
 
-/// Keeps the corners of one link's shells out of the rock; they slide on it with the friction of steel on rock.
+/// Keeps the corners of one shell out of the rock; they slide on it with the friction of steel on rock.
 ///
 /// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls and the machine
-/// lifts. Each corner's friction is bounded by its normal impulse of the step before.
+/// lifts. Each corner's friction is bounded by its normal impulse of the step before: none in the first step of a
+/// touch, and after a blow too much for one.
 class RockContact final : public WorldConstraint {
  public:
   /// @param corners in the link's frame [m]
   RockContact(TreeBody& tree, int link, std::vector<Vec3> corners);
 
-  int link() const { return link_; }
   /// Of the rock's surface in W [m].
   void set_height(double z) { height_ = z; }
   /// Reads the solver's impulses, before positions change.
