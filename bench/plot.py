@@ -88,7 +88,7 @@ def scaling(rows, path):
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(9, 4))
     for index, (device, own) in enumerate(sorted(by_device(rows).items())):
         color, label = "C%d" % index, device[:40]
-        for prefix, mark in (("soil_collapse", "o-"), ("soil_dig", "s--")):
+        for prefix, mark in (("soil_collapse_no_tool", "o-"), ("soil_dig", "s--")):
             line = sorted((value(r, "particles"), value(r, "particle_steps_per_s") / 1e6) for r in own
                           if r["bench"].startswith(prefix) and value(r, "particles") > 0)
             if line:

@@ -55,7 +55,7 @@ bench::Row opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, dou
   StateWriter writer;
   rig.solver().save(writer);
   bench::Row row;
-  row.bench = "soil_collapse:" + size_name(particles);
+  row.bench = "soil_collapse_no_tool:" + size_name(particles);
   row.particles = particles;
   row.steps = static_cast<std::uint64_t>(steps);
   row.simulated = steps * dt;

@@ -83,7 +83,7 @@ void collapse(double edge, int steps) {
   soil::rig::Rig rig({soil::rig::sand()});
   rig.solver().insert(rig.fill({Vec3(6, 6, 0), Vec3(6 + edge, 6 + edge, edge)}, true));
   rig.run(0.1);  // in motion
-  bench_row("soil_collapse", rig, steps, {});
+  bench_row("soil_collapse_no_tool", rig, steps, {});
 }
 
 void held_bucket(int steps) {

@@ -64,6 +64,20 @@ TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
+TEST_F(SessionTest, AnAwakeBudgetShrinksTheWakeAndNeitherDropsSoilNorStretchesTheStep) {
+  const auto run = [&](const std::string& budget) {
+    auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
+    run_to(*session, 2.2);
+    EXPECT_EQ(session->world().soil().ledger().error(), 0);
+    return session;
+  };
+  const auto whole = run("100000"), bounded = run("6000");
+  EXPECT_GT(whole->world().soil().stats().particles_peak, 10000);
+  EXPECT_LE(bounded->world().soil().stats().particles_peak, 6000);
+  EXPECT_GT(bounded->world().soil().stats().particles_peak, 3000) << "it still digs";
+  EXPECT_EQ(bounded->world().steps(), whole->world().steps());
+}
+
 TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
   const auto bucket = make(load("bucket_path.sdf"));
   StateWriter writer;

@@ -2,6 +2,7 @@
 // Faults: each stops the run with step and cause and leaves a state that a snapshot holds, or is bounded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -69,6 +70,33 @@ TEST(SoilFaults, AToolAtFiftyMetresPerSecondInStiffSoilIsSteppedFinely) {
     for (const float v : p.v) fastest = std::max(fastest, std::abs(static_cast<double>(v)));
   EXPECT_GT(fastest, 25);
   EXPECT_LT(fastest, 200) << "thrown no faster than four times the blade";
+}
+
+TEST(SoilFaults, ANumberThatIsNotFiniteInMidRunIsNamedAndTheSnapshotShowsWhere) {
+  Rig rig({rig::sand()}, kBed), fresh({rig::sand()});
+  auto soil = rig.fill(kBed, true);
+  rig.solver().insert(soil);
+  rig.run(0.02);
+  const std::uint64_t steps = rig.solver().stats().steps;
+  Particle bad = soil[7];
+  bad.v[2] = std::nanf("");
+  rig.solver().insert({bad});
+  std::string cause;
+  try {
+    rig.run(0.02);
+  } catch (const SimulationError& error) {
+    cause = error.what();
+  }
+  EXPECT_NE(cause.find("soil step " + std::to_string(steps)), std::string::npos) << cause;
+  EXPECT_NE(cause.find("not finite"), std::string::npos) << cause;
+  StateWriter writer;
+  rig.solver().save(writer);
+  StateReader reader(writer.bytes());
+  fresh.solver().load(reader);
+  const std::vector<Particle> saved = fresh.solver().particles();
+  EXPECT_EQ(saved.size(), soil.size() + 1);
+  EXPECT_TRUE(std::any_of(saved.begin(), saved.end(), [](const Particle& p) { return !std::isfinite(p.v[2]); }));
+  EXPECT_GE(fresh.solver().ledger().error(), bad.mass) << "what is not finite counts as lost";
 }
 
 TEST(SoilFaults, ToolMotionsMustBeFinite) {
