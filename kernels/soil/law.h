@@ -8,6 +8,7 @@
 //   - viscosity on soil that does not yield, so that intact ground does not ring;
 // and, where LAW_EXTENDED is defined (a scene whose soils have them; the rest need not pay),
 //   - dilatancy: shear widens J0 also against pressure, less and less until it is loose;
+//   - compaction: pressure above what the density state bears makes J0 denser for good;
 //   - mu(I): friction grows with the inertial number of the flow.
 // Only + - * / sqrt min max, so that contraction-free builds agree bit for bit.
 //
@@ -36,6 +37,8 @@ typedef struct LawSoil {
   LAW_T alpha_fast;  // growth of alpha from slow to fast flow
   LAW_T grain;       // diameter x sqrt(density) of the grains
   LAW_T inertial;    // inertial number at half that growth
+  LAW_T cap;         // mean pressure that bank soil bears without getting denser
+  LAW_T cap_growth;  // growth of it, as a share, per volume strain
 #endif
 } LawSoil;
 
@@ -62,6 +65,12 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
 
   // Pressure from the tracked volume; opened soil has none.
   *j = LAW_MAX(*j * (LAW_LIT(1.0) + dt * trace), LAW_LIT(0.2));  // a floor far below any real state: p stays finite
+#ifdef LAW_EXTENDED
+  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again.
+  const LAW_T bears = soil->cap * LAW_MAX(LAW_LIT(1.0) + soil->cap_growth * (LAW_LIT(1.0) - *j0), LAW_LIT(0.05));
+  const LAW_T over = LAW_MAX(soil->bulk * (LAW_LIT(1.0) - *j / *j0) - bears, LAW_LIT(0.0));
+  *j0 = LAW_MAX(*j0 - over / (soil->bulk / *j0 + soil->cap * soil->cap_growth), LAW_MIN(*j0, LAW_LIT(DENSEST_STATE)));
+#endif
   const LAW_T open = *j / *j0 - LAW_LIT(1.0);
   const LAW_T p = soil->bulk * LAW_MAX(-open, LAW_LIT(0.0));
 

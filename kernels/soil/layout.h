@@ -32,6 +32,10 @@
 #define FLOOR_COLUMNS 16
 #define FLOOR_WORDS 80
 
+// Densest state that soil is pressed into, and that columns take from particles [evidence, section 4: a tighter clamp
+// creates volume].
+#define DENSEST_STATE 0.88
+
 // One soil in the constant table.
 #define SOIL_BULK 0
 #define SOIL_SHEAR 1
@@ -51,10 +55,12 @@
 #define SOIL_ALPHA_FAST 14
 #define SOIL_GRAIN 15
 #define SOIL_INERTIAL 16
-#define SOIL_EXTENDED_WORDS 17  // with LAW_EXTENDED it needs these, too
-#define SOIL_TOOL_FRICTION 17
-#define SOIL_ADHESION 18  // [Pa]
-#define SOIL_WORDS 20
+#define SOIL_CAP 17
+#define SOIL_CAP_GROWTH 18
+#define SOIL_EXTENDED_WORDS 19  // with LAW_EXTENDED it needs these, too
+#define SOIL_TOOL_FRICTION 19
+#define SOIL_ADHESION 20  // [Pa]
+#define SOIL_WORDS 24
 
 // The frame: what changes every step about the tools, one buffer of float4. Triangles first, SHELL_WORDS each (see
 // shell_query.h), then the free edges, two each, then the tools from float4 number `first_tool` on, TOOL_WORDS floats:

@@ -49,6 +49,8 @@ static inline void load_soil(constant float* soils, int16 tag, int count, LawSoi
   soil->alpha_fast = value[SOIL_ALPHA_FAST];
   soil->grain = value[SOIL_GRAIN];
   soil->inertial = value[SOIL_INERTIAL];
+  soil->cap = value[SOIL_CAP];
+  soil->cap_growth = value[SOIL_CAP_GROWTH];
 #endif
   *inv_density = value[SOIL_INV_DENSITY];
 }

@@ -19,10 +19,12 @@ struct Soil {
   double opening_strain = 0.05;     ///< eps: volume ratio above closed at which cohesion is gone [-]
   double young_modulus = 1.0e6;     ///< softened for speed [Pa]
   double poisson = 0.3;
-  double dilatancy_angle = 0;      ///< psi in bank state, fades to 0 at the loose density [rad]
-  double fast_friction_angle = 0;  ///< that of fast flow in mu(I) [rad]; not above phi: friction knows no rate
-  double grain_diameter = 0.001;   ///< for the inertial number I = shear rate x diameter x sqrt(grain density / p) [m]
-  double inertial_number = 0.279;  ///< I at which half the way from phi to the fast angle is done [-]
+  double dilatancy_angle = 0;       ///< psi in bank state, fades to 0 at the loose density [rad]
+  double fast_friction_angle = 0;   ///< that of fast flow in mu(I) [rad]; not above phi: friction knows no rate
+  double grain_diameter = 0.001;    ///< for the inertial number I = shear rate x diameter x sqrt(grain density / p) [m]
+  double inertial_number = 0.279;   ///< I at which half the way from phi to the fast angle is done [-]
+  double compaction_pressure = 0;   ///< mean pressure above which bank soil gets denser for good; 0: never [Pa]
+  double compaction_strain = 0.05;  ///< volume strain over which that pressure grows by itself [-]
   double tool_friction_angle = 0.349;  ///< delta [rad]
   double adhesion = 0;                 ///< soil on steel [Pa]
   // Bekker-Wong plate and Janosi-Hanamoto shear, for tyres on resting ground.

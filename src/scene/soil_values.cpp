@@ -48,6 +48,8 @@ const std::vector<SoilValue>& soil_values() {
       {"fast_friction_angle_deg", &Soil::fast_friction_angle, 0, 60, kDegree},
       {"grain_diameter_m", &Soil::grain_diameter, 1e-6, 0.5},
       {"inertial_number", &Soil::inertial_number, 1e-3, 10},
+      {"compaction_pressure_pa", &Soil::compaction_pressure, 0, 1e8},
+      {"compaction_strain", &Soil::compaction_strain, 1e-3, 1},
       {"tool_friction_angle_deg", &Soil::tool_friction_angle, 0, 60, kDegree},
       {"adhesion_pa", &Soil::adhesion, 0, 1e5},
       {"bekker_kc_n_per_m_n1", &Soil::bekker_kc, -1e9, 1e9},

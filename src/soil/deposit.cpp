@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soil/layout.h"
+
 namespace navvy::soil {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
 constexpr double kHollowRest = 5;
 /// A tool this far above the soil leaves it free to settle [cells] [evidence, section 4].
 constexpr double kToolAbove = 2;
-/// Densest state the columns take from particles [evidence, section 4: a tighter clamp creates volume].
-constexpr double kDensest = 0.88;
 /// Where particles crowd into less room than their state asks for (beside plates the tracked volume misses up to half
 /// of it), a block may rise this much above its surface; the rest is stored as density, down to the limit below.
 /// tuned: a blade drawn 2 m through sand leaves every block but the three it stood in within 0.85 .. 1.15.
@@ -210,7 +210,7 @@ heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
   const double mass = static_cast<double>(share.mass);
   heightfield::Layer layer;
   layer.soil = share.soil;
-  double state = std::clamp(share.volume / mass, kDensest, ground_.setup().soils[share.soil].swell);
+  double state = std::clamp(share.volume / mass, DENSEST_STATE, ground_.setup().soils[share.soil].swell);
   if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
   layer.specific_volume = static_cast<float>(state);
   layer.plastic_shear = static_cast<float>(share.shear / mass);

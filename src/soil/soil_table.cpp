@@ -22,7 +22,8 @@ constexpr double kMixingTime = 0.02;
 /// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by
 /// that. tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
 constexpr double kPacked = 1.05, kClosingTime = 0.1;
-constexpr double kGrainDensity = 2650;  ///< of quartz, for the inertial number [kg/m3]
+constexpr double kNeverCompacts = 1e30;  ///< [Pa]
+constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
 
 }  // namespace
 
@@ -51,6 +52,8 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);
   k.grain = soil.grain_diameter * std::sqrt(kGrainDensity);
   k.inertial = soil.inertial_number;
+  k.cap = soil.compaction_pressure > 0 ? soil.compaction_pressure : kNeverCompacts;
+  k.cap_growth = 1 / soil.compaction_strain;
   return k;
 }
 
@@ -62,7 +65,7 @@ double sound_speed(const scene::Soil& soil) {
 
 bool needs_extended_law(const std::vector<scene::Soil>& soils) {
   return std::any_of(soils.begin(), soils.end(), [](const scene::Soil& soil) {
-    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle;
+    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle || soil.compaction_pressure > 0;
   });
 }
 
@@ -91,6 +94,8 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
     at[SOIL_ALPHA_FAST] = static_cast<float>(k.alpha_fast);
     at[SOIL_GRAIN] = static_cast<float>(k.grain);
     at[SOIL_INERTIAL] = static_cast<float>(k.inertial);
+    at[SOIL_CAP] = static_cast<float>(k.cap);
+    at[SOIL_CAP_GROWTH] = static_cast<float>(k.cap_growth);
     at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
     at[SOIL_ADHESION] = static_cast<float>(soils[i].adhesion);
     at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));

@@ -20,7 +20,7 @@ double mixing_time();
 double packed_mass(double densest, double cell);
 double closing_time();
 
-/// Whether the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has dilatancy or mu(I).
+/// Whether the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has dilatancy, mu(I) or compaction.
 bool needs_extended_law(const std::vector<scene::Soil>& soils);
 
 /// SOIL_WORDS floats per soil (kernels/soil/layout.h). `cell` in m.
@@ -30,7 +30,7 @@ std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell
 /// Shared by the table and the reference: law constants derived from a soil.
 struct LawConstants {
   double bulk, shear, alpha, k_residual, k_bond, inv_remould, inv_opening, viscosity, swell, loosening;
-  double dilatancy, inv_range, matched, alpha_fast, grain, inertial;
+  double dilatancy, inv_range, matched, alpha_fast, grain, inertial, cap, cap_growth;
 };
 LawConstants law_constants(const scene::Soil& soil, double cell);
 

@@ -168,6 +168,44 @@ TEST(SoilLaw, DilatingSoilThatIsConfinedPressesItself) {
   EXPECT_NEAR(e.q() / e.pressure(), e.soil.alpha * (1 + e.soil.matched * dense), 1e-3);
 }
 
+TEST(SoilLaw, PressureCompactsForGoodAlongItsLineAndUnloadsElastically) {
+  // Oedometer: pressed along z without side strain, let go, pressed again.
+  scene::Soil soil = rig::sand(33);
+  soil.swell = 1.2;
+  soil.compaction_pressure = 20e3;
+  soil.compaction_strain = 0.05;
+  Element e{law_soil(soil, 0.1)};
+  e.soil.viscosity = 0;
+  const auto press = [&](double to) {  // mean pressure
+    e.c[8] = e.pressure() < to ? -0.01 : 0.01;
+    const bool up = e.c[8] < 0;
+    for (int i = 0; i < 100000 && (up ? e.pressure() < to : e.pressure() > to); ++i) e.step(1e-3);
+  };
+  const auto bears = [&] { return 20e3 * (1 + (1 - e.j0) / 0.05); };
+  press(18e3);
+  EXPECT_EQ(e.j0, 1) << "bank soil bears it";
+  press(40e3);
+  print_value("density state at twice the pressure", e.j0, "0.95 +-0.1 %", "the line's definition");
+  EXPECT_NEAR(e.pressure(), bears(), 0.01 * bears());
+  EXPECT_NEAR(e.j0, 0.95, 0.001);
+  const double dense = e.j0;
+  press(1e3);
+  EXPECT_EQ(e.j0, dense) << "it stays dense";
+  press(35e3);
+  EXPECT_EQ(e.j0, dense) << "and bears what it has borne";
+  press(200e3);
+  EXPECT_NEAR(e.j0, 0.88, 1e-9) << "the densest state";
+  // Loosened soil gives way at a twentieth.
+  Element loose{law_soil(soil, 0.1)};
+  loose.soil.viscosity = 0;
+  loose.j = loose.j0 = 1.15;
+  loose.c[8] = -0.01;
+  for (int i = 0; i < 5000; ++i) loose.step(1e-3);
+  EXPECT_LT(loose.j0, 1.12);
+  EXPECT_LT(loose.pressure(), 1.5e3);
+  EXPECT_GT(loose.pressure(), 0.9e3);
+}
+
 TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
   scene::Soil soil = rig::sand(30);
   soil.fast_friction_angle = radians(40);

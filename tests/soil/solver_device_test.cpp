@@ -72,6 +72,12 @@ void expect_agreement(const std::vector<scene::Soil>& soils, int count) {
 
 TEST_P(TwinTest, AgreesWithTheDoubleTwin) { expect_agreement({rig::sand(), loam()}, GetParam()); }
 
+TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsCompact) {
+  scene::Soil sand = rig::sand(), soft = loam();
+  soft.compaction_pressure = 200;  // what a step presses is some hundreds
+  expect_agreement({sand, soft}, GetParam());
+}
+
 TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsDilateAndFeelRates) {
   scene::Soil sand = rig::sand(), dense = loam();
   sand.fast_friction_angle = sand.friction_angle + radians(10);

@@ -275,6 +275,35 @@ TEST(SoilTool, TwoBucketsInOneWorldFeelTheirOwnLoads) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(-sum[i].z() / weight[i], 1, 0.01);
 }
 
+TEST(SoilTool, APlateCompactsSoftSoilForGood) {
+  const Box bed{Vec3(9.6, 9.6, -0.5), Vec3(10.4, 10.4, 0)};
+  double state[2], rebound[2];
+  for (const bool soft : {false, true}) {
+    scene::Soil soil = rig::sand(33);
+    if (soft) soil.compaction_pressure = 3000;
+    Rig rig({soil}, bed);
+    rig.solver().insert(rig.fill(bed, true));
+    Driver driver(rig, lab::plate(0.78, 0.78), make_pose(10, 10, 0.1, kPi, 0, 0));
+    const auto mean_state = [&] {
+      double sum = 0;
+      const auto particles = rig.solver().particles();
+      for (const Particle& p : particles) sum += p.j0;
+      return sum / static_cast<double>(particles.size());
+    };
+    driver.motion.v_WT = Vec3(0, 0, -0.1);
+    driver.run(1.5);  // 50 mm into the soil, less what the contact holds off
+    state[soft] = mean_state();
+    driver.motion.v_WT = Vec3(0, 0, 0.2);
+    driver.run(1);
+    rebound[soft] = mean_state() / state[soft];
+    EXPECT_EQ(rig.solver().ledger().error(), 0);
+  }
+  print_value("density state under the plate, soft soil", state[1], "< 0.97, 1 in hard soil", "compaction");
+  EXPECT_NEAR(state[0], 1, 1e-3);
+  EXPECT_LT(state[1], 0.97);
+  EXPECT_NEAR(rebound[1], 1, 0.01);
+}
+
 TEST(SoilTool, ABedDoesNotCarryWhatABucketInsideItHolds) {
   Rig rig({rig::sand()});
   const PlacedTool bed{rig.solver().add_tool(rig::open_box(2.4, 2, 1)), make_pose(10, 10, 1)};

@@ -16,7 +16,7 @@ static inline LawSoil load_soil(constant float* at) {
       at[SOIL_INV_REMOULD], at[SOIL_INV_OPENING], at[SOIL_VISCOSITY], at[SOIL_SWELL],      at[SOIL_LOOSENING],
 #ifdef LAW_EXTENDED
       at[SOIL_DILATANCY],   at[SOIL_INV_RANGE],   at[SOIL_MATCHED],   at[SOIL_ALPHA_FAST], at[SOIL_GRAIN],
-      at[SOIL_INERTIAL],
+      at[SOIL_INERTIAL],    at[SOIL_CAP],         at[SOIL_CAP_GROWTH],
 #endif
   };
   return soil;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/soil.h"
+#include "soil/layout.h"
 #include "soil/soil_table.h"
 
 namespace navvy::soil::reference {
@@ -30,8 +31,9 @@ namespace navvy::soil::reference {
 
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants k = law_constants(soil, cell);
-  return {k.bulk,  k.shear,     k.alpha,     k.k_residual, k.k_bond,  k.inv_remould, k.inv_opening, k.viscosity,
-          k.swell, k.loosening, k.dilatancy, k.inv_range,  k.matched, k.alpha_fast,  k.grain,       k.inertial};
+  return {k.bulk,        k.shear,      k.alpha, k.k_residual, k.k_bond,    k.inv_remould,
+          k.inv_opening, k.viscosity,  k.swell, k.loosening,  k.dilatancy, k.inv_range,
+          k.matched,     k.alpha_fast, k.grain, k.inertial,   k.cap,       k.cap_growth};
 }
 
 }  // namespace navvy::soil::reference
