@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/control_stdio.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -13,10 +18,34 @@ namespace navvy::cli {
 
 using nlohmann::json;
 
-ControlStdio::ControlStdio(sim::Session& session, double rate)
-    : session_(session),
+ControlStdio::ControlStdio(sim::Session& session, double rate, std::function<bool()> stop)
+    : stop_(std::move(stop)),
+      session_(session),
       world_(session.world()),
       interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world_.dt()))))) {}
+
+bool ControlStdio::read_line(std::string& line) {
+  // Not through std::cin: a signal that comes just before a blocking read would be lost in it.
+  constexpr int kPatience = 100;  // [ms]
+  for (std::size_t end = unread_.find('\n'); end == std::string::npos; end = unread_.find('\n')) {
+    pollfd in{STDIN_FILENO, POLLIN, 0};
+    const int ready = poll(&in, 1, kPatience);
+    if (stop_()) return false;
+    if (ready <= 0) continue;
+    char bytes[4096];
+    const ssize_t got = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) {  // the last line may lack its end
+      line = std::exchange(unread_, "");
+      return !line.empty();
+    }
+    unread_.append(bytes, static_cast<std::size_t>(got));
+  }
+  const std::size_t end = unread_.find('\n');
+  line = unread_.substr(0, end);
+  unread_.erase(0, end + 1);
+  return true;
+}
 
 bool ControlStdio::exchange() {
   if (world_.steps() % interval_ != 0) return true;
@@ -27,7 +56,7 @@ bool ControlStdio::exchange() {
     values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
   std::cout << out.dump() << "\n" << std::flush;
   std::string line;
-  if (!std::getline(std::cin, line)) return false;
+  if (!read_line(line)) return false;
   ++lines_;
   const auto fault = [&](const std::string& element, const std::string& value, const std::string& rule) {
     return InputError(Fault{Fault::Severity::kError, "standard input", static_cast<int>(lines_), element, value, rule,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "sim/session.h"
 
@@ -13,12 +15,17 @@ namespace navvy::cli {
 /// file ends the run.
 class ControlStdio {
  public:
-  ControlStdio(sim::Session& session, double rate);
+  /// @param stop asked while it waits for a line: true ends the wait as the end of the stream does
+  ControlStdio(sim::Session& session, double rate, std::function<bool()> stop);
   /// Exchanges when a control step is due. Returns false when the controller wants to end.
   /// @throws InputError naming line and key when the line is not as described.
   bool exchange();
 
  private:
+  bool read_line(std::string& line);
+
+  std::function<bool()> stop_;
+  std::string unread_;  ///< what came after the last line
   sim::Session& session_;
   sim::World& world_;
   std::uint64_t interval_;  ///< base steps per control step

@@ -280,7 +280,8 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
       ->check(above_zero)
       ->default_str(text_of(rig.default_cell));
-  command->add_option("--device", options->device, "OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE decides");
+  command->add_option("--device", options->device,
+                      "OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE decides");
   command->add_option("--json", options->json, "write inputs, results and series to this file");
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {

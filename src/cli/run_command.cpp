@@ -70,7 +70,8 @@ std::string default_out(const scene::World& world) { return "out/" + (world.name
 int step_to_the_end(const RunOptions& options, sim::Session& session, record::Recorder& recorder) {
   ProgressLine line(options.quiet || !options.control.empty());
   std::unique_ptr<ControlStdio> control;
-  if (!options.control.empty()) control = std::make_unique<ControlStdio>(session, options.control_rate);
+  if (!options.control.empty())
+    control = std::make_unique<ControlStdio>(session, options.control_rate, [] { return interrupted.load(); });
   bool snapshot_due = !options.snapshot.empty();
   try {
     while (!session.done() && !interrupted) {

@@ -56,7 +56,9 @@ void SceneOptions::add_values_to(CLI::App& command) {
 void SceneOptions::add_to(CLI::App& command) {
   command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
       ->required();
-  command.add_option("--device", device, "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); without it NAVVY_DEVICE decides");
+  command.add_option(
+      "--device", device,
+      "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); without it NAVVY_DEVICE decides");
   add_values_to(command);
   command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
   command.add_flag("--no-render", no_render, "draw no pictures");
