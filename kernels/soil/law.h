@@ -67,9 +67,11 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
   *j = LAW_MAX(*j * (LAW_LIT(1.0) + dt * trace), LAW_LIT(0.2));  // a floor far below any real state: p stays finite
 #ifdef LAW_EXTENDED
   // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again.
-  const LAW_T bears = soil->cap * LAW_MAX(LAW_LIT(1.0) + soil->cap_growth * (LAW_LIT(1.0) - *j0), LAW_LIT(0.05));
-  const LAW_T over = LAW_MAX(soil->bulk * (LAW_LIT(1.0) - *j / *j0) - bears, LAW_LIT(0.0));
-  *j0 = LAW_MAX(*j0 - over / (soil->bulk / *j0 + soil->cap * soil->cap_growth), LAW_MIN(*j0, LAW_LIT(DENSEST_STATE)));
+  const LAW_T line = LAW_LIT(1.0) + soil->cap_growth * (LAW_LIT(1.0) - *j0);
+  const LAW_T over =
+      LAW_MAX(soil->bulk * (LAW_LIT(1.0) - *j / *j0) - soil->cap * LAW_MAX(line, LAW_LIT(0.05)), LAW_LIT(0.0));
+  const LAW_T slope = soil->bulk / *j0 + soil->cap * soil->cap_growth * LAW_STEP(LAW_LIT(0.05), line);
+  *j0 = LAW_MAX(*j0 - over / slope, LAW_MIN(*j0, LAW_LIT(DENSEST_STATE)));
 #endif
   const LAW_T open = *j / *j0 - LAW_LIT(1.0);
   const LAW_T p = soil->bulk * LAW_MAX(-open, LAW_LIT(0.0));

@@ -75,8 +75,9 @@ bool ControlStdio::exchange() {
   for (const auto& [name, value] : in["inputs"].items()) {
     if (!value.is_number()) throw fault(name, value.dump(), "must be a number");
     try {
-      world_.set(name, value.get<double>());
+      const int channel = world_.input(name);
       session_.take_over(name);
+      world_.set(channel, value.get<double>());
     } catch (const InputError& error) {
       const Fault& cause = error.faults().front();
       throw InputError(Fault{cause.severity, "standard input", static_cast<int>(lines_), cause.element, cause.value,

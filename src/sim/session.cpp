@@ -38,7 +38,8 @@ struct Session::State {
     control::Observation seen;
     std::optional<Cycle> open;
     std::optional<BedTip> open_tip;
-    bool taken = false;  ///< by inputs: the program no longer commands
+    bool taken = false;                   ///< by inputs: the program no longer commands
+    std::vector<std::uint8_t> commanded;  ///< by joint: the program has
   };
 
   World world;
@@ -76,10 +77,11 @@ int Session::State::tool_of(int machine, const std::string& shell) const {
 void Session::State::enlist(int machine) {
   const scene::MachineInWorld& placed = world.description().machines[static_cast<std::size_t>(machine)];
   if (placed.program.steps.empty()) return;
-  Crew crew{machine, -1, -1, control::Operator(placed.machine, placed.program), {}, {}, {}, false};
+  Crew crew{machine, -1, -1, control::Operator(placed.machine, placed.program), {}, {}, {}, false, {}};
   if (!placed.machine.buckets.empty()) crew.tool = tool_of(machine, placed.machine.buckets[0].shell);
   if (!placed.machine.beds.empty()) crew.bed = tool_of(machine, placed.machine.beds[0].shell);
   crew.seen.joints.resize(placed.machine.joints.size());
+  crew.commanded.resize(placed.machine.joints.size());
   crew.seen.ground = &world.ground();
   crew.seen.surface = &surface;
   crew.seen.programs = &programs;
@@ -106,7 +108,10 @@ void Session::State::note_progress() {
 void Session::State::command(Crew& crew) {
   const control::Command command = crew.op.update(crew.seen, world.time(), world.dt());
   for (std::size_t j = 0; j < command.joints.size(); ++j)
-    if (command.joints[j]) world.set_joint(crew.machine, static_cast<int>(j), *command.joints[j]);
+    if (command.joints[j]) {
+      world.set_joint(crew.machine, static_cast<int>(j), *command.joints[j]);
+      crew.commanded[j] = 1;
+    }
   if (command.drive) world.set_drive(crew.machine, *command.drive);
 }
 
@@ -214,9 +219,16 @@ void Session::step() {
 
 void Session::take_over(const std::string& input) {
   for (State::Crew& crew : state_->crews) {
-    const std::string& name = state_->world.description().machines[static_cast<std::size_t>(crew.machine)].name;
+    const scene::MachineInWorld& placed = state_->world.description().machines[static_cast<std::size_t>(crew.machine)];
+    const std::string& name = placed.name;
     if (crew.taken || input.rfind(name + "/", 0) != 0) continue;
     crew.taken = true;
+    // What the program had set in motion stops.
+    for (std::size_t j = 0; j < crew.commanded.size(); ++j)
+      if (crew.commanded[j] != 0)
+        state_->world.set_joint(crew.machine, static_cast<int>(j), {vehicle::JointMode::kVelocity, 0});
+    if (placed.machine.has_drive)
+      state_->world.set_drive(crew.machine, {0, state_->world.drive(crew.machine).steer, true});
     crew.open.reset();
     crew.open_tip.reset();
     log_info("'" + name + "' leaves its program at " + std::to_string(state_->world.time()) + " s: inputs drive it");
@@ -284,6 +296,7 @@ void Session::save(StateWriter& writer) const {
     writer.value(static_cast<std::uint8_t>(crew.open_tip.has_value()));
     writer.value(crew.open_tip.value_or(BedTip{}));
     writer.value(static_cast<std::uint8_t>(crew.taken));
+    writer.vector(crew.commanded);
   }
   writer.end();
   for (const State::Crew& crew : state_->crews) crew.op.save(writer);
@@ -309,6 +322,12 @@ void Session::load(StateReader& reader) {
     const auto tip = reader.value<BedTip>();
     crew.open_tip = tipping ? std::optional<BedTip>(tip) : std::nullopt;
     crew.taken = reader.value<std::uint8_t>() != 0;
+    std::vector<std::uint8_t> commanded = reader.vector<std::uint8_t>();
+    if (commanded.size() != crew.commanded.size())
+      throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "session", "",
+                             "the snapshot has a machine with another number of joints than the scene",
+                             "use the scene it was made with"});
+    crew.commanded = std::move(commanded);
   }
   reader.end();
   for (State::Crew& crew : state_->crews) crew.op.load(reader);

@@ -48,8 +48,8 @@ class Session {
 
   /// Operators decide, then the world takes one base step.
   void step();
-  /// The machine of this input channel leaves its program for good and is driven by inputs alone; nothing happens to a
-  /// machine without one.
+  /// The machine of this input channel leaves its program for good and is driven by inputs alone: its joints stop, its
+  /// drive brakes. Call it before the first input is set; nothing happens to a machine without a program.
   void take_over(const std::string& input);
   /// True when every program has ended and the settling time has passed, or the scene's duration is over.
   bool done() const;

@@ -23,7 +23,7 @@ struct OilDemand {
 /// than its flow, or than its power at that pressure, all functions are slowed by the same share. A function that only
 /// holds, or that stalls, opens its valve hardly at all and neither takes oil nor sets the pressure. Lowering takes oil
 /// like lifting; nothing is regenerated. The swashplate lags behind the load: for some 0.3 s after a load came it may
-/// give more than its power.
+/// give more than its power. Meant for steps of up to 5 ms: in longer ones a stalled valve opens by more than a trifle.
 class Pump {
  public:
   /// Share of the asked flow that every function gets in this step, 0 to 1.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/row.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -74,14 +75,15 @@ TEST(BenchRow, JsonKeepsNumbersAsNumbersAndTextAsText) {
 }
 
 TEST(BenchCompare, PrintsTheRatioAndMarksAnotherHash) {
-  const std::string folder = ::testing::TempDir(), a = folder + "navvy_bench_a.csv", b = folder + "navvy_bench_b.csv";
+  const test::Folder folder;
+  const std::string a = folder / "a.csv", b = folder / "b.csv";
   if (std::system("python3 -c 'pass' 2>/dev/null") != 0) GTEST_SKIP() << "no python3";
   Row other = example();
   other.timing.best = 0.25;
   other.hash = "f";
   std::ofstream(a) << csv_header() << "\n" << csv_line(example()) << "\n";
   std::ofstream(b) << csv_header() << "\n" << csv_line(other) << "\n";
-  const std::string out = folder + "navvy_bench_compare.txt";
+  const std::string out = folder / "compare.txt";
   const std::string command =
       "python3 " + std::string(NAVVY_SOURCE_DIR) + "/bench/compare.py " + a + " " + b + " >" + out;
   ASSERT_EQ(std::system(command.c_str()), 0);

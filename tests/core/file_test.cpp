@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "folder.h"
 
 namespace navvy {
 namespace {
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 /// A fresh folder that goes with the test.
 class File : public testing::Test {
  protected:
-  File() : folder_(fs::path(testing::TempDir()) / ("navvy_file_test_" + std::to_string(::getpid()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~File() override { fs::remove_all(folder_); }
   std::string path(const std::string& name) const { return folder_ / name; }
   static std::string text(const std::string& path) {
     const std::vector<char> bytes = read_file(path);
@@ -32,7 +28,7 @@ class File : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  const test::Folder folder_;
 };
 
 std::string message(const std::function<void()>& action) {

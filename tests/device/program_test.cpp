@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/program.h"
+#include "folder.h"
 
 #include <gtest/gtest.h>
 
@@ -97,7 +98,8 @@ TEST(Program, IncludesEachFileOnceAndGoesOnCounting) {
 }
 
 TEST(Program, ReadsKernelsFromTheFolderInTheEnvironment) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "navvy_kernel_dir";
+  const test::Folder own;
+  const std::filesystem::path& folder = own.path();
   std::filesystem::create_directories(folder / "common");
   std::ofstream(folder / "common/edited.cl") << "kernel void edited(global int* x) { x[0] = 42; }\n";
   ::setenv("NAVVY_KERNEL_DIR", folder.c_str(), 1);

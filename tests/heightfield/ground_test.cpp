@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include <chrono>
 #include <limits>
 
 #include "core/error.h"
@@ -247,7 +246,6 @@ TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {
   setup.surface = [](int ix, int iy) { return 1e-4 * ix + 2e-4 * iy; };
   const std::size_t bytes_before = ::mallinfo2().uordblks;
   Ground ground(std::move(setup));
-  const auto start = std::chrono::steady_clock::now();
   for (int n = 0; n < 100; ++n) {
     std::vector<Layer> taken;
     ground.take_above(40 + n % 10, 8888 + n / 10, -0.5, taken);
@@ -256,8 +254,6 @@ TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {
   EXPECT_LE(ground.touched_tiles(), 4u);
   const std::size_t bytes_after = ::mallinfo2().uordblks;
   EXPECT_LT(bytes_after - bytes_before, 1u << 20);  // tables of the site, four tiles, their cache: 0.2 MB
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(took.count(), 0.1);  // 1e8 columns would take many seconds; a few tiles take under a millisecond
 }
 
 TEST(Ground, SamplesBilinearlyAndExtendsItsEdge) {

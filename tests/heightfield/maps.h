@@ -9,22 +9,22 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "folder.h"
 #include "scene/world.h"
 
 namespace navvy::heightfield::testing {
 
-/// A folder of its own for each test, emptied first.
+/// A folder of its own for each test, with a slash at its end; goes with the next one or the program.
 inline std::string folder() {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto path = std::filesystem::path(::testing::TempDir()) /
-                    (std::string("navvy_") + info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directories(path);
-  return path.string() + "/";
+  static std::unique_ptr<test::Folder> own;
+  own.reset();
+  own = std::make_unique<test::Folder>();
+  return *own / "";
 }
 
 inline std::string write_text(const std::string& path, const std::string& text) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "folder.h"
 
 namespace navvy::render {
 namespace {
@@ -23,10 +24,8 @@ Image gradient(int width, int height) {
 
 class ImageTest : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string folder_ = ::testing::TempDir() + "navvy_image_test";
+  const test::Folder own_;
+  const std::string folder_ = own_.path().string();
 };
 
 TEST_F(ImageTest, APngReadsBackAsItWasWritten) {

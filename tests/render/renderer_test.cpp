@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "folder.h"
 #include "trench_scene.h"
 
 namespace navvy::render {
@@ -179,7 +180,8 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
 
 TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {
   // Coin hands meshes of this size to OpenGL in arrays, through functions it fetches by name.
-  const std::string file = ::testing::TempDir() + "navvy_render_grid.obj";
+  const test::Folder folder;
+  const std::string file = folder / "grid.obj";
   std::ofstream out(file);
   constexpr int kSide = 65;
   for (int j = 0; j < kSide; ++j)
@@ -202,7 +204,6 @@ TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {
       const Vec2 at = project(above, Vec3(x, y, 1));
       ASSERT_TRUE(is_red(image.pixel(static_cast<int>(at.x()), static_cast<int>(at.y())))) << x << ", " << y;
     }
-  std::filesystem::remove(file);
 }
 
 TEST_F(RendererTest, CylindersReachFromPinToPin) {

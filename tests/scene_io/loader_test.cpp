@@ -7,6 +7,7 @@
 
 #include "core/file.h"
 #include "core/log.h"
+#include "folder.h"
 
 namespace navvy::scene_io {
 namespace {
@@ -207,7 +208,8 @@ scene::Shell shell_of(const std::string& geometry) {
 
 TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
   // Quads, faces with texture and normal numbers, numbers from the end, comments and groups: what modellers export.
-  const std::string path = testing::TempDir() + "navvy_shell.obj";
+  const test::Folder folder;
+  const std::string path = folder / "shell.obj";
   const std::string obj =
       "# a tray\no tray\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0.5\nv 1 0 0.5\nvt 0 0\nvn 0 0 1\ng floor\n"
       "f 1/1/1 2/1/1 3/1/1 4/1/1\ng back\nf -2//1 -1//1 2//1\nf 5 2 1\n";

@@ -116,6 +116,35 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
+TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
+  // Both excavators drive and dig; the first one is stopped on its way and keeps the pose it had.
+  const scene::World description = load("two_excavators.sdf");
+  const auto session = make(description);
+  World& world = session->world();
+  run_to(*session, 3);
+  ASSERT_EQ(session->phase(0), session->phase(1));
+  const std::string first = description.machines.at(0).name;
+  session->take_over(first + "/drive/speed");
+  EXPECT_EQ(session->phase(0), "inputs");
+  EXPECT_NE(session->phase(1), "inputs");
+  run_to(*session, 4);
+  const Vec3 place = world.link(0, 0).X_WL.translation();
+  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.boom_joint);
+  const double angle = world.joint(0, boom).position;
+  StateWriter writer;
+  session->save(writer);
+  run_to(*session, 6);
+  EXPECT_LT((world.link(0, 0).X_WL.translation() - place).norm(), 0.02) << "braked";
+  EXPECT_NEAR(world.joint(0, boom).position, angle, 0.005);
+  EXPECT_FALSE(session->done());
+  const auto resumed = make(description);
+  StateReader reader(writer.bytes());
+  resumed->load(reader);
+  EXPECT_EQ(resumed->phase(0), "inputs");
+  run_to(*resumed, 6);
+  EXPECT_EQ(resumed->state_hash(), session->state_hash());
+}
+
 TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   scene::World description = load("trench.sdf");
   description.machines[0].program.steps.clear();
