@@ -13,7 +13,6 @@
 namespace navvy::heightfield {
 namespace {
 
-using testing::soil;
 using testing::total;
 using testing::wavy_setup;
 
@@ -258,7 +257,7 @@ TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {
 
 TEST(Ground, SamplesBilinearlyAndExtendsItsEdge) {
   const Ground ground(wavy_setup());
-  const Vec2 o = ground.origin();
+  const Vec2& o = ground.origin();
   EXPECT_NEAR(ground.sample(o.x() + 0.05 + 0.1 * 31, o.y() + 0.05 + 0.1 * 31), ground.height(31, 31), 1e-12);
   const double mean =
       (ground.height(31, 31) + ground.height(32, 31) + ground.height(31, 32) + ground.height(32, 32)) / 4;

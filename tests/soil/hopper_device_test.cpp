@@ -9,7 +9,6 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
 
 /// A square funnel without a floor: outlet of this width at z = 0, walls out to `mouth` at z = `cone`, upright to
