@@ -25,7 +25,7 @@ class RockContact final : public WorldConstraint {
   void set_height(double z) { height_ = z; }
   /// Reads the solver's impulses, before positions change.
   void settle();
-  /// On the link in the last step [N s].
+  /// On the shell in the last step [N s].
   const Vec3& impulse() const { return impulse_; }
 
   void hash(StateHash& hash) const;
