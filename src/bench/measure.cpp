@@ -55,6 +55,22 @@ Timing measure(device::Device& device, const std::function<void()>& restore, con
   return out;
 }
 
+double kernel_seconds(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
+                      int runs) {
+  double least = 0;
+  for (int run = 0; run < runs; ++run) {
+    restore();
+    device.set_profile(true);
+    device.clear_profile();
+    work();
+    double sum = 0;
+    for (const device::KernelTime& time : device.profile()) sum += time.seconds;
+    device.set_profile(false);
+    least = run == 0 ? sum : std::min(least, sum);
+  }
+  return least;
+}
+
 double copy_bandwidth(device::Device& device, std::size_t bytes) {
   const device::Program program =
       device::Program::from_text(device, "copy",

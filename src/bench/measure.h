@@ -19,6 +19,11 @@ namespace navvy::bench {
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs = 5);
 
+/// Least time that the device's kernels take in one of `runs` runs of `work`, added up by its own clock: no launches,
+/// no copies, no host [s]. The clock slows a run down a little, so it is never on in `measure`.
+double kernel_seconds(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
+                      int runs = 3);
+
 /// Bytes read plus written per second by a plain copy kernel over `bytes` of memory: what a schedule's traffic is held
 /// against.
 double copy_bandwidth(device::Device& device, std::size_t bytes = std::size_t{1} << 28);

@@ -50,13 +50,16 @@ const std::vector<std::string>& columns() {
                                                  "site_m",
                                                  "copy_bytes_per_s",
                                                  "fma_flops_per_s",
-                                                 "processor_ms"};
+                                                 "processor_ms",
+                                                 "kernel_ms",
+                                                 "kernel_particle_steps_per_s"};
   return names;
 }
 
 std::vector<std::string> cells(const Row& row) {
   const double best = row.timing.best;
-  const double rate = best > 0 ? static_cast<double>(row.particles) * static_cast<double>(row.steps) / best : 0;
+  const double work = static_cast<double>(row.particles) * static_cast<double>(row.steps);
+  const double rate = best > 0 ? work / best : 0;
   const auto share = [&](double each, double peak) { return peak > 0 ? rate * each / peak : 0; };
   return {row.bench,
           row.device,
@@ -76,7 +79,9 @@ std::vector<std::string> cells(const Row& row) {
           number(row.site, "%.0f"),
           number(row.peak.copy_bandwidth, "%.4g"),
           number(row.peak.flops, "%.4g"),
-          number(row.timing.processor * 1e3, "%.1f")};
+          number(row.timing.processor * 1e3, "%.1f"),
+          number(row.kernels * 1e3, "%.4f"),
+          number(row.kernels > 0 ? work / row.kernels : 0, "%.4g")};
 }
 
 std::string csv_header() {

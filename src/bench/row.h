@@ -28,6 +28,7 @@ struct Row {
   std::uint64_t particles = 0;  ///< or elements
   std::uint64_t steps = 0;
   Timing timing;
+  double kernels = 0;             ///< least time the device's kernels alone took in a run, by its own clock [s]
   double bytes_per_particle = 0;  ///< traffic of one step, counted from the kernel's arguments
   double flops_per_particle = 0;  ///< of one step, counted from the kernel's lines
   double simulated = 0;           ///< simulated time [s], for the real-time factor

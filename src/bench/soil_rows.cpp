@@ -42,23 +42,22 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
   row.simulated = steps * dt;
   row.bytes_per_particle = kBytesPerParticle;
   row.flops_per_particle = kFlopsPerParticle;
-  row.timing = measure(
-      device,
-      [&] {
-        StateReader reader(writer.bytes());
-        site.ground().load(reader);
-        site.solver().load(reader);
-      },
-      [&] {
-        std::vector<soil::ToolMotion> now = motions;
-        const std::uint64_t before = site.solver().stats().particle_steps;
-        for (int i = 0; i < steps; ++i) {
-          site.solver().step(dt, now, impulses);
-          for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
-        }
-        row.particles = (site.solver().stats().particle_steps - before) / row.steps;  // their mean: ground may wake
-      },
-      kRuns);
+  const auto restore = [&] {
+    StateReader reader(writer.bytes());
+    site.ground().load(reader);
+    site.solver().load(reader);
+  };
+  const auto work = [&] {
+    std::vector<soil::ToolMotion> now = motions;
+    const std::uint64_t before = site.solver().stats().particle_steps;
+    for (int i = 0; i < steps; ++i) {
+      site.solver().step(dt, now, impulses);
+      for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
+    }
+    row.particles = (site.solver().stats().particle_steps - before) / row.steps;  // their mean: ground may wake
+  };
+  row.timing = measure(device, restore, work, kRuns);
+  row.kernels = kernel_seconds(device, restore, work);
   StateHash state;
   site.solver().hash(state);
   row.hash = state.hex();
@@ -66,15 +65,25 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
 }
 
 /// A block on level ground, falling apart; re-binning included.
-Row collapse(device::Device& device, double edge, int steps) {
+Row collapse(device::Device& device, double edge, int steps, const scene::Soil& soil = sand()) {
   lab::SiteOptions options;
   options.size = 20;
-  Site site(device, {sand()}, 0.1, options);
+  Site site(device, {soil}, 0.1, options);
   std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
   site.run(0.1);  // in motion
   return time_steps(device, site, steps);
+}
+
+/// The same with every option of the law in use: dilatancy, mu(I), compaction (LAW_EXTENDED).
+scene::Soil every_option() {
+  scene::Soil soil = sand();
+  soil.swell = 1.13;
+  soil.dilatancy_angle = radians(8);
+  soil.fast_friction_angle = radians(40);
+  soil.compaction_pressure = 50e3;
+  return soil;
 }
 
 /// A load that rests in a bucket: the shell's cost without motion.
@@ -142,6 +151,8 @@ std::vector<SoilCase> make_cases() {
       {"soil_collapse_no_tool:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
       {"soil_collapse_no_tool:50k", "1.85 m", false, [](Device& d) { return collapse(d, 1.85, 50); }},
       {"soil_collapse_no_tool:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
+      {"soil_collapse_no_tool_extended_law:64k", "2 m, with dilatancy, mu(I) and compaction", false,
+       [](Device& d) { return collapse(d, 2.0, 50, every_option()); }},
       {"soil_collapse_no_tool:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
       {"soil_collapse_no_tool:1953k", "6.25 m", false, [](Device& d) { return collapse(d, 6.25, 5); }},

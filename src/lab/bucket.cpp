@@ -74,7 +74,12 @@ struct Scoop {
 };
 
 Scoop scoop_of(const Setup& setup) {
-  return {setup["depth"], setup["drag"], setup["speed"], radians(30), radians(50), setup["depth"] + 0.4};
+  return {setup["depth"],
+          setup["drag"],
+          setup["speed"],
+          radians(setup["attack-deg"]),
+          radians(setup["curl-deg"]),
+          setup["depth"] + setup["lift"]};
 }
 
 struct Filled {
@@ -249,7 +254,10 @@ std::vector<Parameter> scoop_parameters() {
           {"volume", 0.3, "m3", "struck, of the bucket"},
           {"depth", 0.25, "m", "of the lip in the drag"},
           {"drag", 0.8, "m", "level"},
-          {"speed", 0.8, "m/s", "of the lip"}};
+          {"speed", 0.8, "m/s", "of the lip"},
+          {"attack-deg", 30, "deg", "of the floor as the lip goes in"},
+          {"curl-deg", 50, "deg", "by which it turns up behind the drag"},
+          {"lift", 0.4, "m", "of the lip over the ground at the end"}};
 }
 
 }  // namespace
@@ -259,8 +267,9 @@ Rig bucket() {
   rig.name = "bucket";
   rig.summary = "bucket filled along a path: force and load, against half the cell";
   rig.drawing =
-      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor at 30 degrees, levels "
-      "out at `depth`, is dragged `drag` at `speed`, curls by 50 degrees, lifts and holds. Refine 1 repeats it at half "
+      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor at `attack-deg`, "
+      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, lifts by `lift` over the ground and "
+      "holds. Refine 1 repeats it at half "
       "the cell and compares mean force of the drag and load.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back({"refine", 0, "", "1: also at half the cell"});

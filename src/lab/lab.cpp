@@ -85,8 +85,9 @@ void check(const Rig& rig, const Setup& setup) {
   const auto is_choice = [](const Parameter& p) {
     return p.unit.empty() && (p.help.rfind("0:", 0) == 0 || p.help.rfind("1:", 0) == 0);
   };
-  const std::vector<std::string> may_be_zero = {"rest",  "wait",  "drop",     "offset", "beside", "back", "front",
-                                                "ahead", "below", "tilt-deg", "search", "press",  "turn", "height"};
+  const std::vector<std::string> may_be_zero = {"rest",   "wait",  "drop",  "offset", "beside",
+                                                "back",   "front", "ahead", "below",  "tilt-deg",
+                                                "search", "press", "turn",  "height", "slip"};
   std::vector<Fault> faults;
   for (const Parameter& p : rig.parameters) {
     const double value = setup[p.name];
@@ -95,7 +96,7 @@ void check(const Rig& rig, const Setup& setup) {
       rule = "a finite number";
     else if (is_choice(p) && value != 0 && value != 1)
       rule = p.help;
-    else if (p.value >= 0 && p.name != "travel" && value < 0)
+    else if (p.value >= 0 && p.name != "travel" && p.name != "slip" && value < 0)
       rule = "not less than 0";
     else if (p.value > 0 && value == 0 && !is_choice(p) &&
              std::find(may_be_zero.begin(), may_be_zero.end(), p.name) == may_be_zero.end())

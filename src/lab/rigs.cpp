@@ -20,6 +20,7 @@ const std::vector<Rig>& rigs() {
       wall(),
       footing(),
       plate_sinkage(),
+      wheel(),
       cut(),
       shear_box(),
       hold(),

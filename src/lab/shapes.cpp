@@ -70,4 +70,23 @@ scene::Shell tube(double radius, double bottom, double top, int sides) {
   return s;
 }
 
+scene::Shell drum(double radius, double width, int sides) {
+  scene::Shell s;
+  s.name = "drum";
+  s.vertices = {{0, -width / 2, 0}, {0, width / 2, 0}};
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * kPi * i / sides;
+    for (const double y : {-width / 2, width / 2})
+      s.vertices.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % sides);  // at -y; their partners at +y are one further
+    s.triangles.push_back({a, b, b + 1});
+    s.triangles.push_back({a, b + 1, a + 1});
+    s.triangles.push_back({0, b, a});
+    s.triangles.push_back({1, a + 1, b + 1});
+  }
+  return s;
+}
+
 }  // namespace navvy::lab

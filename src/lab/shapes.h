@@ -20,5 +20,7 @@ scene::Shell plate(double length, double width);
 scene::Shell channel(double length, double gap, double bottom, double top, bool back);
 /// An upright tube of `radius` about the z axis, z = `bottom` to `top`, of `sides` flat facets; inside = front.
 scene::Shell tube(double radius, double bottom, double top, int sides = 32);
+/// A wheel: a closed drum of `radius` and `width` about the y axis, of `sides` flat facets; front outside.
+scene::Shell drum(double radius, double width, int sides = 48);
 
 }  // namespace navvy::lab

@@ -152,6 +152,11 @@ void Site::push_tool(Tool& tool, double dt) const {
   soil::ToolMotion& motion = tool.motion;
   motion.inverse_mass = Mat6::Zero();
   if (!(tool.mass > 0)) return;
+  if (tool.only_sinks) {
+    motion.inverse_mass(5, 5) = 1 / tool.mass;
+    motion.v_WT.z() += (world_.gravity.z() + tool.force_W.z() / tool.mass) * dt;
+    return;
+  }
   motion.inverse_mass.bottomRightCorner<3, 3>() = Mat3::Identity() / tool.mass;
   motion.v_WT += (world_.gravity + tool.force_W / tool.mass) * dt;
   if (tool.keep_attitude) return;

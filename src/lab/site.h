@@ -48,6 +48,7 @@ struct Tool {
   Vec3 force_W = Vec3::Zero();   ///< from outside, weight not included [N]
   Vec3 torque_W = Vec3::Zero();  ///< from outside, about the origin [N m]
   bool keep_attitude = false;    ///< a free body that does not rotate
+  bool only_sinks = false;       ///< free along W's z alone; its other speeds and its turning are kept
 };
 
 /// Soil, tools and clock of one experiment.

@@ -11,6 +11,7 @@ Rig blade();
 Rig wall();
 Rig footing();
 Rig plate_sinkage();
+Rig wheel();
 Rig cut();
 Rig shear_box();
 Rig hold();
