@@ -14,12 +14,14 @@ constexpr double kDownAir = 0.9, kDownSoil = 0.45;  // [m/s]
 constexpr double kDragSpeed = 0.7;                  // [m/s]
 constexpr double kTurnIn = 0.9;                     // of the bucket while dragging [rad/s]
 constexpr double kCurlTime = 2.2;                   // [s]
-constexpr double kOut = 0.25;                       // lowest point over the surface after the curl [m]
-constexpr double kPastEnd = 0.03;                   // the shell may pass the far end by this [m]
-constexpr double kMore = 0.5;    // the drag goes on by this beyond its planned end when the bucket is not full [m]
-constexpr double kLag = 0.12;    // tip this far behind its path: the path waits [m]
-constexpr double kHeld = 0.08;   // [m/s] a waiting tip slower than this is held by the soil
-constexpr double kGiveIn = 0.2;  // [s] of being held before the path rises
+// The lip cuts on [m/s] in this first share of the curl, if the bucket has this share of a load: not over rock.
+constexpr double kCurlSpeed = 0.50, kCutOn = 0.6, kFair = 0.5;
+constexpr double kOut = 0.25;      // lowest point over the surface after the curl [m]
+constexpr double kPastEnd = 0.03;  // the shell may pass the far end by this [m]
+constexpr double kMore = 0.5;      // the drag goes on by this beyond its planned end when the bucket is not full [m]
+constexpr double kLag = 0.12;      // tip this far behind its path: the path waits [m]
+constexpr double kHeld = 0.08;     // [m/s] a waiting tip slower than this is held by the soil
+constexpr double kGiveIn = 0.2;    // [s] of being held before the path rises
 constexpr double kLiftRate = 0.3, kSinkRate = 0.1;  // of the path while held, and back when free [m/s]
 constexpr double kTilt = radians(1.5);              // the chassis moves on its tyres; at twice this the arm waits
 constexpr double kPenetrateLift = 0.12;             // raised by so much on the way down: go on at that depth [m]
@@ -138,6 +140,7 @@ bool Operator::State::drag(const Observation& seen, double dt) {
 bool Operator::State::curl(const Observation& seen, double dt) {
   const double least = footing(seen) < 1 ? 0 : 0.1;
   m.progress = std::min(1.0, m.progress + std::max(least, m.slow) * dt / kCurlTime);
+  if (m.progress < kCutOn && seen.payload > kFair * m.full_mass) m.s = std::max(0.0, m.s - kCurlSpeed * m.slow * dt);
   m.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
   // First the bucket turns, its heel on the slice's floor; then it leaves the ground straight up.
   const double top = plan.start_height(m.s) + kOut + arm->below_tip(m.reached);
