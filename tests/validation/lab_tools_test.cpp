@@ -82,7 +82,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Cut", "cut", {}}, Case{"Shear", "box", {}},
                     Case{"ShearHalf", "box", {{"length", 48}, {"height", 8}}, 0.05}, Case{"Hold", "hold", {}},
                     Case{"HoldHeavy", "hold", kHeavy}, Case{"HoldHeavyHalfStep", "hold", kHeavyHalfStep},
-                    Case{"LightTool", "light-tool", {}}, Case{"LightToolFromAbove", "light-tool", {{"height", 0.2}}},
+                    Case{"LightTool", "light-tool", {}}, Case{"LightToolHalf", "light-tool", {}, 0.05},
+                    Case{"LightToolFromAbove", "light-tool", {{"height", 0.2}}},
+                    Case{"LightToolFromAboveHalf", "light-tool", {{"height", 0.2}}, 0.05},
                     Case{"Bucket", "bucket", {{"refine", 1}}}, Case{"Scrape", "scrape", {}},
                     Case{"Cycle", "cycle", {{"cycles", 5}}}),
     case_name);

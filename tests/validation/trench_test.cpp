@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
+#include <vector>
 
 #include "core/stopwatch.h"
-#include "device/device.h"
 #include "record/summary.h"
-#include "scene_io/loader.h"
-#include "sim/session.h"
 #include "validation/report.h"
+#include "validation/scenes.h"
 #include "validation/trench_measure.h"
 #include "values.h"
 
@@ -25,12 +23,9 @@ double mean_cycle_time(const std::vector<sim::Cycle>& cycles) {
 }
 
 TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
-  scene_io::Overrides overrides;
-  overrides.render = false;
-  const scene::World description = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", overrides);
+  const scene::World description = load_scene("trench.sdf");
   const scene::Dig dig = dig_step(description);
-  device::Device device;
-  sim::Session session(description, device);
+  sim::Session session(description, shared_device());
   WheelTracks tracks(session.world().ground());
   double fastest_rise = 0;
   const Stopwatch watch;
