@@ -108,6 +108,8 @@ double lube_plane_run_out(double a) {
 }
 double lube_axisymmetric_run_out(double a) { return a < 1.7 ? 1.24 * a : 1.6 * std::sqrt(a); }
 double lajeunesse_axisymmetric_height(double a) { return std::min(a, 0.74); }
+double lajeunesse_plane_height(double a) { return a < 0.7 ? a : std::cbrt(a); }
+double lube_plane_height(double a) { return a < 1.15 ? a : std::pow(a, 0.4); }
 
 double flow_angle(double phi) { return std::atan(std::sin(phi)); }
 

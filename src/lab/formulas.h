@@ -44,6 +44,8 @@ double culmann_height(double phi, double cohesion, double unit_weight);
 double lube_plane_run_out(double a);         ///< Lube 2005: 1.2 a below 1.8, 1.9 a^(2/3) above 2.8, between: linear
 double lube_axisymmetric_run_out(double a);  ///< Lube 2004: 1.24 a below 1.7, 1.6 a^(1/2) above
 double lajeunesse_axisymmetric_height(double a);  ///< H / R0: a below 0.74, then 0.74 [Lajeunesse 2004]
+double lajeunesse_plane_height(double a);         ///< H / L0: a below 0.7, then a^(1/3) [Lajeunesse 2005]
+double lube_plane_height(double a);               ///< H / L0: a below 1.15, then a^(2/5) [Lube 2005]
 
 /// Slope at which soil of zero dilatancy flows: atan(sin phi).
 double flow_angle(double phi);

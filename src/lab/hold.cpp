@@ -111,7 +111,8 @@ Report run_light(const Setup& setup) {
   // The cells it touches: half a cell of soil under it.
   const double touched = setup.soil.bank_density * edge * edge * cell;
   const double start = setup["height"];
-  ToolDriver driver(site, plate(edge, edge), make_pose(0.02, 0.01, start, 0, radians(4), 0));
+  const scene::Shell shell = plate(edge, edge);
+  ToolDriver driver(site, shell, make_pose(0.02, 0.01, start, 0, radians(4), 0));
   Tool& tool = site.tool(driver.tool());
   tool.mass = setup["mass-ratio"] * touched;
   tool.inertia = tool.mass * edge * edge / 12 * Vec3(1, 1, 2);
@@ -135,7 +136,10 @@ Report run_light(const Setup& setup) {
              "no growth; VALIDATION 1");
   report.add("speed at the end", tool.motion.v_WT.norm(), "m/s", 0, kNone, 0.02, "at rest");
   report.note("mass of the plate", tool.mass, "kg");
-  report.note("rests at", 1000 * tool.motion.X_WT.translation().z(), "mm", "over the ground");
+  const double z = tool.motion.X_WT.translation().z();
+  report.add("stand-off of the plate at rest", (z - shell.half_thickness) / cell, "cells", 0, kNone, 1,
+             "contact's reach; SOIL_SOLVER 5");
+  report.note("rests at", 1000 * z, "mm", "its middle, over the ground");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   site.finish(report);
   return report;
@@ -172,7 +176,9 @@ Rig light_tool() {
       "A square plate of `edge`, tilted by 4 degrees, `mass-ratio` times as heavy as the layer of one cell under it, "
       "falls on a bed from `height` at `speed`. Its kinetic and potential energy must never exceed what it started "
       "with "
-      "by more than 1 % (one step of gravity before the first contact), and it comes to rest.";
+      "by more than 1 % (one step of gravity before the first contact), and it comes to rest. A light plate stands off "
+      "by up "
+      "to the reach of the contact, one cell: the gap between its lower face, at its middle, and the nominal ground.";
   rig.parameters = {{"edge", 0.6, "m", "of the plate"},
                     {"mass-ratio", 0.1, "", "mass over that of the soil layer it touches"},
                     {"height", 0.08, "m", "over the ground at the start"},

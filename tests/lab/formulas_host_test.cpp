@@ -88,6 +88,12 @@ TEST(Formulas, CollapseLawsAndFlowAnglesMatchTheirTables) {
   EXPECT_NEAR(lube_plane_run_out(5), 1.9 * std::pow(5, 2.0 / 3), 1e-12);
   EXPECT_NEAR(lube_axisymmetric_run_out(1), 1.24, 1e-12);
   EXPECT_NEAR(lube_axisymmetric_run_out(3), 1.6 * std::sqrt(3), 1e-12);
+  EXPECT_EQ(lajeunesse_axisymmetric_height(0.5), 0.5);
+  EXPECT_EQ(lajeunesse_axisymmetric_height(3), 0.74);
+  EXPECT_EQ(lajeunesse_plane_height(0.5), 0.5);
+  EXPECT_NEAR(lajeunesse_plane_height(8), 2, 1e-12);
+  EXPECT_EQ(lube_plane_height(1), 1);
+  EXPECT_NEAR(lube_plane_height(32), 4, 1e-12);
   const double phi[] = {25, 30, 35, 40}, flows[] = {22.9, 26.6, 29.8, 32.7};
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(degrees(flow_angle(radians(phi[i]))), flows[i], 0.05);
   EXPECT_NEAR(degrees(friction_from_repose(radians(29.84))), 35, 0.02);

@@ -71,8 +71,8 @@ struct Site {
 
   /// One check; particles are taken and added as it says.
   Exchange::Result check(const std::vector<ToolRegion>& tools = {}) {
-    Exchange::Result result = exchange.check(particles, tools, time, kCheck);
-    time += kCheck;
+    Exchange::Result result = exchange.check(particles, tools, time, step);
+    time += step;
     std::vector<Particle> stay;
     for (std::size_t i = 0; i < particles.size(); ++i)
       if (result.removed[i] == 0) stay.push_back(particles[i]);
@@ -86,7 +86,7 @@ struct Site {
   /// Checks for `seconds`; returns the sums of their counts.
   Exchange::Result checks(double seconds, const std::vector<ToolRegion>& tools = {}) {
     Exchange::Result sum;
-    for (int n = static_cast<int>(std::lround(seconds / kCheck)); n > 0; --n) {
+    for (int n = static_cast<int>(std::lround(seconds / step)); n > 0; --n) {
       const Exchange::Result one = check(tools);
       sum.woken_columns += one.woken_columns;
       sum.deposited_blocks += one.deposited_blocks;
@@ -128,7 +128,7 @@ struct Site {
   Exchange exchange;
   std::vector<Particle> particles;
   std::vector<std::int64_t> inserted;
-  double time = 0;
+  double time = 0, step = kCheck;  ///< simulated now, and between checks [s]
   std::uint32_t next_id = 1;
 };
 

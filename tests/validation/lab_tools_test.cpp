@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tool rigs at the sizes their gates are given for. A miss fails unless it is in
 // gates/known_misses.md.
-#include "core/math.h"
-#include "lab/report.h"
-#include "validation/report.h"
+#include "validation/rig_case.h"
 
-namespace navvy::lab {
+namespace navvy::validation {
 namespace {
+
+using Case = RigCase;
 
 double force_of(const std::map<std::string, double>& geometry, double cell,
                 const std::function<void(scene::Soil&)>& soil) {
-  const Report report = run_rig("blade", geometry, [&](lab::Setup& s) {
+  const lab::Report report = lab::run_rig("blade", geometry, [&](lab::Setup& s) {
     s.cell = cell;
     soil(s.soil);
   });
   EXPECT_EQ(report.ledger_error, 0);
-  EXPECT_EQ(measured(report, "particles through the blade"), 0);
-  return measured(report, "horizontal force");
+  EXPECT_EQ(lab::measured(report, "particles through the blade"), 0);
+  return lab::measured(report, "horizontal force");
 }
 
 TEST(ToolLab, NarrowBladeInWashedSand) {
@@ -36,8 +36,8 @@ TEST(ToolLab, NarrowBladeInWashedSand) {
   }
   const double exponent = std::log(last / first) / std::log(2.5);
   const char* source = "Obermayr 2011; VALIDATION 3";
-  validation::expect_between("mean absolute error of the four forces", error, 0, 0.25, source);
-  validation::expect_between("exponent of force against depth", exponent, 1.6, 2.3, source);
+  expect_between("mean absolute error of the four forces", error, 0, 0.25, source);
+  expect_between("exponent of force against depth", exponent, 1.6, 2.3, source);
 }
 
 TEST(ToolLab, RakedBladeInSand) {
@@ -51,50 +51,43 @@ TEST(ToolLab, RakedBladeInSand) {
           soil.friction_angle = radians(38);
           soil.tool_friction_angle = radians(26.6);
         });
-    validation::expect_between("force / measured, rake " + std::to_string(static_cast<int>(rakes[i])) + " deg",
-                               force / forces[i], 0.7, 1.3, "Hatamura and Chijiiwa 1977; VALIDATION 3");
+    expect_between("force / measured, rake " + std::to_string(static_cast<int>(rakes[i])) + " deg", force / forces[i],
+                   0.7, 1.3, "Hatamura and Chijiiwa 1977; VALIDATION 3");
     EXPECT_GT(force, before);
     before = force;
   }
 }
 
-struct Case {
-  const char* name;
-  const char* rig;
-  std::map<std::string, double> geometry;
-  double cell = 0;                                     ///< 0: the rig's default
-  double phi_degrees = -1, cohesion = -1, young = -1;  ///< -1: the rig's default
-};
-void PrintTo(const Case& c, std::ostream* out) { *out << c.rig; }
-
 const std::map<std::string, double> kSurcharge = {{"surcharge-pa", 2000}, {"settlement", 0.08}, {"speed", 0.02}};
 
-class ToolGates : public testing::TestWithParam<Case> {};
+const std::map<std::string, double> kActive = {{"travel", -0.03}};
+const std::map<std::string, double> kHeavy = {{"mass", 1400}, {"shell-mass", 700}};
+const std::map<std::string, double> kHeavyHalfStep = {{"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}};
+const SoilChange kPhi30 = {.phi_degrees = 30}, kPhi40 = {.phi_degrees = 40};
 
-TEST_P(ToolGates, MeetsItsGates) {
-  const Case& c = GetParam();
-  const Report report = run_rig(c.rig, c.geometry, [&](lab::Setup& s) {
-    if (c.cell > 0) s.cell = c.cell;
-    if (c.phi_degrees >= 0) s.soil.friction_angle = radians(c.phi_degrees);
-    if (c.cohesion >= 0) s.soil.cohesion = s.soil.residual_cohesion = c.cohesion;
-    if (c.young > 0) s.soil.young_modulus = c.young;
-  });
-  validation::expect_gates(report);
-}
+class ToolGates : public testing::TestWithParam<RigCase> {};
+
+TEST_P(ToolGates, MeetsItsGates) { expect_gates(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Rigs, ToolGates,
     testing::Values(Case{"Blade", "blade", {}, 0.05}, Case{"Passive", "wall", {}},
-                    Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Active", "wall", {{"travel", -0.03}}},
-                    Case{"ActiveHalf", "wall", {{"travel", -0.03}}, 0.05}, Case{"Footing", "footing", {}},
-                    Case{"Surcharge20", "footing", kSurcharge, 0.1, 20, 0, 4e6},
-                    Case{"Surcharge30", "footing", kSurcharge, 0.1, 30, 0, 4e6}, Case{"Cut", "cut", {}},
-                    Case{"Shear", "box", {}}, Case{"ShearHalf", "box", {{"length", 48}, {"height", 8}}, 0.05},
-                    Case{"Hold", "hold", {}}, Case{"HoldHeavy", "hold", {{"mass", 1400}, {"shell-mass", 700}}},
-                    Case{"HoldHeavyHalfStep", "hold", {{"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}}},
-                    Case{"LightTool", "light-tool", {}}, Case{"Bucket", "bucket", {{"refine", 1}}},
-                    Case{"Scrape", "scrape", {}}, Case{"Cycle", "cycle", {{"cycles", 5}}}),
-    [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
+                    Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Passive30", "wall", {}, lab::kNone, kPhi30},
+                    Case{"Passive40", "wall", {}, lab::kNone, kPhi40}, Case{"Passive40Half", "wall", {}, 0.05, kPhi40},
+                    Case{"Active", "wall", kActive}, Case{"ActiveHalf", "wall", kActive, 0.05},
+                    Case{"Active30", "wall", kActive, lab::kNone, kPhi30},
+                    Case{"Active40", "wall", kActive, lab::kNone, kPhi40}, Case{"Footing", "footing", {}},
+                    Case{"Surcharge20", "footing", kSurcharge, 0.1, {.phi_degrees = 20, .cohesion = 0, .young = 4e6}},
+                    Case{"Surcharge30", "footing", kSurcharge, 0.1, {.phi_degrees = 30, .cohesion = 0, .young = 4e6}},
+                    Case{"Cut", "cut", {}}, Case{"Shear", "box", {}},
+                    Case{"ShearHalf", "box", {{"length", 48}, {"height", 8}}, 0.05}, Case{"Hold", "hold", {}},
+                    Case{"HoldHeavy", "hold", kHeavy}, Case{"HoldHeavyHalfStep", "hold", kHeavyHalfStep},
+                    Case{"LightTool", "light-tool", {}}, Case{"LightToolHalf", "light-tool", {}, 0.05},
+                    Case{"LightToolFromAbove", "light-tool", {{"height", 0.2}}},
+                    Case{"LightToolFromAboveHalf", "light-tool", {{"height", 0.2}}, 0.05},
+                    Case{"Bucket", "bucket", {{"refine", 1}}}, Case{"Scrape", "scrape", {}},
+                    Case{"Cycle", "cycle", {{"cycles", 5}}}),
+    case_name);
 
 }  // namespace
-}  // namespace navvy::lab
+}  // namespace navvy::validation

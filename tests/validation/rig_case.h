@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// One run of a rig that must meet its gates: what the laboratory's parameterised cases are made of.
+#pragma once
+
+#include <map>
+#include <ostream>
+#include <string>
+
+#include "core/math.h"
+#include "lab/report.h"
+#include "validation/report.h"
+
+namespace navvy::validation {
+
+/// What a case changes in the rig's default soil; kNone keeps the default.
+struct SoilChange {
+  double phi_degrees = lab::kNone;   ///< friction angle [deg]
+  double cohesion = lab::kNone;      ///< the residual one too [Pa]
+  double young = lab::kNone;         ///< Young's modulus [Pa]
+  double swell = lab::kNone;         ///< loose volume / bank volume [-]
+  double bank_density = lab::kNone;  ///< [kg/m3]
+
+  void apply(scene::Soil& soil) const {
+    const auto set = [](double& value, double wanted) { value = std::isnan(wanted) ? value : wanted; };
+    set(soil.friction_angle, radians(phi_degrees));
+    set(soil.cohesion, cohesion);
+    set(soil.residual_cohesion, cohesion);
+    set(soil.young_modulus, young);
+    set(soil.swell, swell);
+    set(soil.bank_density, bank_density);
+  }
+};
+
+struct RigCase {
+  const char* name;  ///< of the test
+  const char* rig;
+  std::map<std::string, double> geometry;  ///< other than the rig's default
+  double cell = lab::kNone;                ///< kNone: the rig's default [m]
+  SoilChange soil = {};
+};
+
+inline void PrintTo(const RigCase& c, std::ostream* out) { *out << c.rig; }
+inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) { return tested.param.name; }
+
+/// Runs the rig and holds it against its gates.
+inline void expect_gates(const RigCase& c) {
+  expect_gates(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
+    if (!std::isnan(c.cell)) setup.cell = c.cell;
+    c.soil.apply(setup.soil);
+  }));
+}
+
+}  // namespace navvy::validation
