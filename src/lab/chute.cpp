@@ -49,6 +49,30 @@ scene::Shell blade_chute(const ChuteShape& c) {
   return s;
 }
 
+scene::Shell chute_sides(const ChuteShape& c) {
+  scene::Shell s;
+  s.name = "sides";
+  s.half_thickness = c.half;
+  s.friction_share = s.adhesion_share = 0;
+  add_pair(s, c, -c.back, c.bottom);
+  add_pair(s, c, -c.back, c.top);
+  add_pair(s, c, c.ahead, c.top);
+  add_pair(s, c, c.ahead, c.bottom);
+  add_sides(s, {{0, 1, 2}, {0, 2, 3}});
+  return s;
+}
+
+scene::Shell chute_blade(const ChuteShape& c) {
+  scene::Shell s;
+  s.name = "blade";
+  s.half_thickness = c.half;
+  const double x = -c.half / std::sin(c.rake);
+  add_pair(s, c, x, 0);
+  add_pair(s, c, x - c.height / std::tan(c.rake), c.height);
+  add_strip(s, 0, 1);
+  return s;
+}
+
 scene::Shell footing_chute(const ChuteShape& c, double breadth) {
   scene::Shell s;
   s.name = "footing";
@@ -70,6 +94,8 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
 }
 
 double chute_offset(double cell) { return 0.07 * cell; }
+
+double chute_width(double cell) { return 8 * cell; }
 
 double chute_half(double cell) { return 0.25 * cell; }
 

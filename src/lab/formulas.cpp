@@ -52,6 +52,28 @@ double mckyes_force(const BladeCase& s, double beta) {
                     s.surcharge * s.depth * n_surcharge);
 }
 
+/// Equilibrium of a body of cross-section `area` between the blade and a plane at beta.
+double body_force(const BladeCase& s, double beta, double area) {
+  return s.unit_weight * s.width * area * std::sin(beta + s.phi) / std::sin(s.rake + beta + s.delta + s.phi);
+}
+
+double riding_force(const BladeCase& s, double beta, double length) {
+  const double thickness = s.depth * std::sin(s.rake + beta) / std::sin(beta);
+  const double mean_length = length + s.depth + s.depth * std::cos(s.rake + beta) / (2 * std::sin(beta));
+  return body_force(s, beta, thickness * mean_length);
+}
+
+/// Between the blade, the plane at beta and the surface, in strips from the blade's upper edge on [m2].
+double area_over(const BladeCase& s, double beta, double height, const std::function<double(double)>& surface) {
+  const double edge = -height * cot(s.rake), step = height / 400;
+  double area = 0;
+  for (double x = edge + 0.5 * step;; x += step) {
+    const double high = surface(x) - (x < 0 ? -x * std::tan(s.rake) : x * std::tan(beta));
+    if (x > 0 && high <= 0) return area;
+    area += step * std::max(0.0, high);
+  }
+}
+
 template <class F>
 BladeForce least(const BladeCase& s, const F& force) {
   // The wedge exists while D > 0, that is for beta + phi + rake + delta < 180 degrees.
@@ -85,6 +107,13 @@ double rankine_passive_force(double phi, double cohesion, double unit_weight, do
 
 BladeForce reece_wedge(const BladeCase& blade) { return least(blade, reece_force); }
 BladeForce mckyes_ali(const BladeCase& blade) { return least(blade, mckyes_force); }
+BladeForce riding_layer(const BladeCase& blade, double length) {
+  return least(blade, [length](const BladeCase& s, double beta) { return riding_force(s, beta, length); });
+}
+BladeForce wedge_under(const BladeCase& blade, double height, const std::function<double(double)>& surface) {
+  return least(
+      blade, [&](const BladeCase& s, double beta) { return body_force(s, beta, area_over(s, beta, height, surface)); });
+}
 
 double bearing_nq(double phi) { return std::exp(kPi * std::tan(phi)) * tan_45_plus_half(phi) * tan_45_plus_half(phi); }
 double bearing_nc(double phi) { return std::tan(phi) > 1e-9 ? (bearing_nq(phi) - 1) / std::tan(phi) : kPi + 2; }

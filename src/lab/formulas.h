@@ -2,6 +2,8 @@
 // Closed forms and published formulas that rigs are held against. SI units, angles [rad], unit weights [N/m3].
 #pragma once
 
+#include <functional>
+
 namespace navvy::lab {
 
 // Earth pressure [Rankine 1857]: smooth vertical wall of height H.
@@ -26,6 +28,14 @@ struct BladeForce {
 BladeForce reece_wedge(const BladeCase& blade);
 /// Narrow blade with crescents at its sides [McKyes and Ali 1977].
 BladeForce mckyes_ali(const BladeCase& blade);
+/// Dry sand cut by a blade of `length` [m] along its face: the layer cut rides up the whole blade and by the depth of
+/// the cut beyond it, unsupported and unslumped. An estimate of the largest force, 2-D [Miedema 2015, chapter 5;
+/// without inertia, 0.3 N at 0.05 m/s]. Takes no cohesion, adhesion or surcharge.
+BladeForce riding_layer(const BladeCase& blade, double length);
+/// Coulomb's planar wedge under ground of any shape: `surface(x)` is its height over the blade's lip at x ahead of the
+/// lip, the blade's upper edge lies `height` over the lip [m]. For a rake of 90 degrees at most; takes no cohesion,
+/// adhesion or surcharge.
+BladeForce wedge_under(const BladeCase& blade, double height, const std::function<double(double)>& surface);
 
 // Bearing capacity of a strip footing on weightless soil [Prandtl 1920, Reissner 1924], associated flow.
 double bearing_nq(double phi);

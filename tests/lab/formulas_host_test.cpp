@@ -70,6 +70,34 @@ TEST(Formulas, NarrowBladeTendsToTheWedgeWhenWide) {
   EXPECT_GT(mckyes_ali(blade).force, 1.1 * reece_wedge(blade).force);
 }
 
+BladeCase dry_sand_cut(double rake_degrees, double depth) {
+  BladeCase blade;
+  blade.phi = radians(38);
+  blade.delta = radians(26.6);
+  blade.rake = radians(rake_degrees);
+  blade.depth = depth;
+  blade.width = 0.33;
+  blade.unit_weight = 1460 * kGravity;
+  return blade;
+}
+
+TEST(Formulas, RidingLayerReproducesTheNineValuesOfItsTable) {
+  const double rakes[] = {30, 45, 60}, depths[] = {0.05, 0.10, 0.15};
+  const double forces[3][3] = {{104, 259, 463}, {163, 400, 711}, {250, 605, 1064}};  // VALIDATION 3, blade 0.20 m long
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      // Printed to 1 N, and with 0.3 N of inertia.
+      EXPECT_NEAR(riding_layer(dry_sand_cut(rakes[i], depths[k]), 0.2).horizontal, forces[i][k], 0.8);
+}
+
+TEST(Formulas, WedgeUnderLevelGroundIsReeceAndGrowsWithThePile) {
+  const BladeCase blade = dry_sand_cut(60, 0.1);
+  const double level = reece_wedge(blade).horizontal;
+  // Strips 0.25 mm wide.
+  EXPECT_NEAR(wedge_under(blade, 0.1, [](double) { return 0.1; }).horizontal / level, 1, 0.01);
+  EXPECT_GT(wedge_under(blade, 0.173, [](double x) { return x < 0.1 ? 0.173 : 0.1; }).horizontal, 1.3 * level);
+}
+
 TEST(Formulas, BearingCapacityMatchesItsTable) {
   EXPECT_NEAR(bearing_nc(0), 5.14, 5e-3);
   EXPECT_NEAR(bearing_nq(radians(20)), 6.40, 5e-3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small siblings of the tool rigs; the full sizes and half cells run in tests/validation/lab_tools_test.cpp.
+#include "core/math.h"
 #include "lab/report.h"
 
 namespace navvy::lab {
@@ -25,6 +26,24 @@ TEST(LabBlade, FlatterBladeNeedsLessForce) {
   flat["rake-deg"] = 45;
   const double upright = measured(run_rig("blade", open), "horizontal force");
   EXPECT_LT(measured(run_rig("blade", flat), "horizontal force"), 0.9 * upright);
+}
+
+TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
+  const Report report = run_rig(
+      "blade",
+      {{"rake-deg", 60}, {"depth", 0.15}, {"length", 0.3}, {"gate-percent", 0}, {"from", 0.2}, {"travel", 0.25}},
+      [](lab::Setup& s) {
+        s.cell = 0.05;
+        s.soil.tool_friction_angle = radians(25);
+      });
+  const Quantity* force = report.find("horizontal force at the end");
+  ASSERT_NE(force, nullptr);
+  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // 6 cells of blade, 0.3 m/s
+  // All of the tool friction acts: the force leans by the rake's complement less delta, 5 deg.
+  const double down = measured(report, "vertical force on the blade, down");
+  EXPECT_NEAR(degrees(std::atan2(down, measured(report, "horizontal force"))), 5, 2);
+  EXPECT_EQ(measured(report, "particles through the blade"), 0);
+  EXPECT_EQ(report.ledger_error, 0);
 }
 
 TEST(LabFooting, BearsFiveTimesTheCohesion) {
