@@ -85,9 +85,9 @@ void check(const Rig& rig, const Setup& setup) {
   const auto is_choice = [](const Parameter& p) {
     return p.unit.empty() && (p.help.rfind("0:", 0) == 0 || p.help.rfind("1:", 0) == 0);
   };
-  const std::vector<std::string> may_be_zero = {"rest",   "wait",  "drop",  "offset", "beside",
-                                                "back",   "front", "ahead", "below",  "tilt-deg",
-                                                "search", "press", "turn",  "height", "slip"};
+  const std::vector<std::string> may_be_zero = {"rest",  "wait",   "drop",  "offset",      "beside", "back",
+                                                "front", "ahead",  "below", "tilt-deg",    "search", "press",
+                                                "turn",  "height", "slip",  "gate-percent"};
   std::vector<Fault> faults;
   for (const Parameter& p : rig.parameters) {
     const double value = setup[p.name];
