@@ -29,6 +29,21 @@ kernel void fma_peak(global float* out, const int rounds) {
 }
 )";
 
+/// Profiling for as long as it lives, also when the work throws.
+class Profiling {
+ public:
+  explicit Profiling(device::Device& device) : device_(device) {
+    device_.set_profile(true);
+    device_.clear_profile();
+  }
+  ~Profiling() { device_.set_profile(false); }
+  Profiling(const Profiling&) = delete;
+  Profiling& operator=(const Profiling&) = delete;
+
+ private:
+  device::Device& device_;
+};
+
 }  // namespace
 
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
@@ -60,12 +75,10 @@ double kernel_seconds(device::Device& device, const std::function<void()>& resto
   double least = 0;
   for (int run = 0; run < runs; ++run) {
     restore();
-    device.set_profile(true);
-    device.clear_profile();
+    const Profiling profiling(device);
     work();
     double sum = 0;
     for (const device::KernelTime& time : device.profile()) sum += time.seconds;
-    device.set_profile(false);
     least = run == 0 ? sum : std::min(least, sum);
   }
   return least;

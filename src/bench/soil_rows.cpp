@@ -65,10 +65,10 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
 }
 
 /// A block on level ground, falling apart; re-binning included.
-Row collapse(device::Device& device, double edge, int steps, const scene::Soil& soil = sand()) {
+Row collapse(device::Device& device, double edge, int steps) {
   lab::SiteOptions options;
   options.size = 20;
-  Site site(device, {soil}, 0.1, options);
+  Site site(device, {sand()}, 0.1, options);
   std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
@@ -76,7 +76,7 @@ Row collapse(device::Device& device, double edge, int steps, const scene::Soil& 
   return time_steps(device, site, steps);
 }
 
-/// The same with every option of the law in use: dilatancy, mu(I), compaction (LAW_EXTENDED).
+/// Sand with every option of the law in use: dilatancy, mu(I), compaction (LAW_EXTENDED).
 scene::Soil every_option() {
   scene::Soil soil = sand();
   soil.swell = 1.13;
@@ -101,12 +101,12 @@ Row held_bucket(device::Device& device, int steps) {
 }
 
 /// A tilted bucket with its lip in a bed of `length` x `width` x 0.6 m: what a trench costs.
-Row dig(device::Device& device, double length, double width, int steps) {
+Row dig(device::Device& device, double length, double width, int steps, const scene::Soil& what = sand()) {
   const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
   options.size = std::max(20.0, 2 * length + 4);
   options.surface = lab::pit(bed);
-  Site site(device, {sand()}, 0.1, options);
+  Site site(device, {what}, 0.1, options);
   std::vector<soil::Particle> soil = site.fill(bed);
   site.rest(soil, 0.0);
   site.solver().insert(soil);
@@ -146,13 +146,13 @@ std::vector<SoilCase> make_cases() {
       {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 2, 100); }},
       {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 2, 50); }},
       {"soil_dig:403k", "the same in a wide bed", false, [](Device& d) { return dig(d, 12, 7, 20); }},
+      {"soil_dig_extended_law:403k", "the same with dilatancy, mu(I) and compaction", false,
+       [](Device& d) { return dig(d, 12, 7, 20, every_option()); }},
       {"soil_collapse_no_tool:8k", "a block of 1 m falling apart", true,
        [](Device& d) { return collapse(d, 1.0, 100); }},
       {"soil_collapse_no_tool:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
       {"soil_collapse_no_tool:50k", "1.85 m", false, [](Device& d) { return collapse(d, 1.85, 50); }},
       {"soil_collapse_no_tool:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
-      {"soil_collapse_no_tool_extended_law:64k", "2 m, with dilatancy, mu(I) and compaction", false,
-       [](Device& d) { return collapse(d, 2.0, 50, every_option()); }},
       {"soil_collapse_no_tool:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
       {"soil_collapse_no_tool:1953k", "6.25 m", false, [](Device& d) { return collapse(d, 6.25, 5); }},

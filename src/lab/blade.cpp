@@ -74,7 +74,8 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
 }
 
 Report finish(Site& site, const ToolDriver& driver, Report report) {
-  report.note("particles through the blade", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.add("particles through the blade", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
+             "none may pass; summed over steps");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);
   site.finish(report);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "lab/formulas.h"
 #include "lab/tool_driver.h"
 #include "lab/tool_list.h"
@@ -74,6 +75,18 @@ struct Scoop {
 };
 
 Scoop scoop_of(const Setup& setup) {
+  std::vector<Fault> faults;
+  const auto within = [&](const char* name, double low, double high) {
+    const double value = setup[name];
+    if (value < low || value > high)
+      faults.push_back(
+          Fault{Fault::Severity::kError, "", 0, name, std::to_string(value),
+                std::to_string(static_cast<int>(low)) + " .. " + std::to_string(static_cast<int>(high)) + " degrees",
+                "30 and 50 are usual"});
+  };
+  within("attack-deg", 10, 80);
+  within("curl-deg", 1, 120);
+  if (!faults.empty()) throw InputError(faults);
   return {setup["depth"],
           setup["drag"],
           setup["speed"],
@@ -257,7 +270,7 @@ std::vector<Parameter> scoop_parameters() {
           {"speed", 0.8, "m/s", "of the lip"},
           {"attack-deg", 30, "deg", "of the floor as the lip goes in"},
           {"curl-deg", 50, "deg", "by which it turns up behind the drag"},
-          {"lift", 0.4, "m", "of the lip over the ground at the end"}};
+          {"lift", 0.4, "m", "behind the curl, over and above `depth`"}};
 }
 
 }  // namespace
@@ -268,7 +281,7 @@ Rig bucket() {
   rig.summary = "bucket filled along a path: force and load, against half the cell";
   rig.drawing =
       "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor at `attack-deg`, "
-      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, lifts by `lift` over the ground and "
+      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, goes up by `depth` and `lift` and "
       "holds. Refine 1 repeats it at half "
       "the cell and compares mean force of the drag and load.";
   rig.parameters = scoop_parameters();

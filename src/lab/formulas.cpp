@@ -74,12 +74,22 @@ double area_over(const BladeCase& s, double beta, double height, const std::func
   }
 }
 
+/// Angle of the least force. Under an uneven pile there may be several dips: a scan by degrees finds the lowest.
+template <class F>
+double lowest_angle(const F& force, double low, double high) {
+  const double step = radians(1);
+  double best = low;
+  for (double beta = low; beta < high; beta += step)
+    if (force(beta) < force(best)) best = beta;
+  return minimum_of(force, std::max(low, best - step), std::min(high, best + step));
+}
+
 template <class F>
 BladeForce least(const BladeCase& s, const F& force) {
   // The wedge exists while D > 0, that is for beta + phi + rake + delta < 180 degrees.
   const double high = kPi - s.phi - s.rake - s.delta;
   BladeForce out;
-  out.beta = minimum_of([&](double beta) { return force(s, beta); }, radians(2), high - radians(0.5));
+  out.beta = lowest_angle([&](double beta) { return force(s, beta); }, radians(2), high - radians(0.5));
   out.force = force(s, out.beta);
   out.horizontal = out.force * std::sin(s.rake + s.delta) + s.adhesion * s.depth * s.width * cot(s.rake);
   out.vertical = out.force * std::cos(s.rake + s.delta) - s.adhesion * s.depth * s.width;

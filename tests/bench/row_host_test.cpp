@@ -20,6 +20,7 @@ Row example() {
   row.particles = 1000;
   row.steps = 10;
   row.timing = {0.5, 0.6, 0.2, 3};
+  row.kernels = 0.4;
   row.bytes_per_particle = 200;
   row.flops_per_particle = 1300;
   row.simulated = 0.25;
@@ -41,13 +42,17 @@ TEST(BenchRow, RatesAndSharesFollowFromTheFastestRun) {
   EXPECT_EQ(cell(row, "share_of_copy_bandwidth"), "0.500");  // 2e4 x 200 / 8e6
   EXPECT_EQ(cell(row, "share_of_fma_peak"), "0.260");        // 2e4 x 1300 / 1e8
   EXPECT_EQ(cell(row, "real_time_factor"), "0.500");
+  EXPECT_EQ(cell(row, "kernel_ms"), "400.0000");
+  EXPECT_EQ(cell(row, "kernel_particle_steps_per_s"), "2.5e+04");
 }
 
 TEST(BenchRow, WhatWasNotMeasuredIsEmpty) {
   Row row = example();
   row.peak = {};
   row.simulated = 0;
-  for (const char* column : {"share_of_copy_bandwidth", "share_of_fma_peak", "real_time_factor", "site_m"})
+  row.kernels = 0;
+  for (const char* column : {"share_of_copy_bandwidth", "share_of_fma_peak", "real_time_factor", "site_m", "kernel_ms",
+                             "kernel_particle_steps_per_s"})
     EXPECT_EQ(cell(row, column), "") << column;
 }
 

@@ -39,6 +39,7 @@ TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
     EXPECT_EQ(row.driver, device.info().driver);
     EXPECT_GT(row.timing.best, 0);
     EXPECT_LE(row.timing.best, row.timing.median);
+    EXPECT_GT(row.kernels, 0);
     EXPECT_EQ(row.timing.runs, 3);
     EXPECT_GT(row.peak.copy_bandwidth, 0);
     EXPECT_GT(row.peak.flops, 0);

@@ -27,6 +27,9 @@ inline Environment threads(int count) {
   return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}};
 }
 
+/// Kernels for AVX2: PoCL compiles for the processor it is told, so a machine with AVX-512 shows both sides.
+inline Environment avx2() { return {{"POCL_LLVM_CPU_NAME", "haswell"}, {"POCL_KERNELLIB_NAME", "avx2"}}; }
+
 inline std::string text_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream out;

@@ -35,6 +35,14 @@ TEST(WheelFormula, SmoothWheelSinksByBekkersClosedForm) {
   EXPECT_NEAR(-force.drawbar, 0.5 * 1e6 * 0.2 * force.sinkage * force.sinkage, 0.01 * -force.drawbar);
 }
 
+TEST(WheelFormula, SinksByBekkersClosedFormInMeasuredSand) {
+  // z = (3 W / ((3 - n) b k sqrt(D)))^(2 / (2 n + 1)) [Bekker 1956], for small entry angles: 26.0 mm.
+  scene::Soil sand = plain();
+  sand.tool_friction_angle = 0;
+  sand.bekker_kphi = 1734000, sand.bekker_n = 1.34;
+  EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);  // entry angle 53 degrees
+}
+
 TEST(WheelFormula, SpinningWheelBearsTheRimsFriction) {
   scene::Soil soil = plain();
   soil.janosi_k = 1e-5;  // fully mobilised
