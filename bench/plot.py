@@ -90,7 +90,7 @@ def scaling(rows, path):
         color, label = "C%d" % index, device[:40]
         for prefix, mark in (("soil_collapse_no_tool", "o-"), ("soil_dig", "s--")):
             line = sorted((value(r, "particles"), value(r, "particle_steps_per_s") / 1e6) for r in own
-                          if r["bench"].startswith(prefix) and value(r, "particles") > 0)
+                          if r["bench"].split(":")[0] == prefix and value(r, "particles") > 0)
             if line:
                 left.plot(*zip(*line), mark, color=color, markersize=4, label="%s, %s" % (prefix, label))
         line = sorted((value(r, "site_m") ** 2 / 1e6, value(r, "min_ms") / max(value(r, "steps"), 1)) for r in own
@@ -104,7 +104,7 @@ def scaling(rows, path):
     right.set_xlabel("site [km$^2$] at 0.1 m")
     right.set_ylabel("ms a step of the same dig")
     for axes in (left, right):
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, 1.15 * axes.get_ylim()[1])
         axes.grid(True, which="major", alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(fontsize=7)
