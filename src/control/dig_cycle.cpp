@@ -12,7 +12,8 @@ namespace {
 
 // Of the heaped capacity, when the curl begins; the lip cuts on while it curls, which adds a tenth. Fuller buckets
 // carry more (0.55: loads of 520 kg instead of 400), but drip on the way, and heaps that go up rub the trench's walls.
-// tuned: on the trench, 0.45 / 0.50 / 0.55 lose 0.7 / 0.9 / 3.1 % on the way and over-dig 7.3 / 9.1 / 9.9 %.
+// tuned: on the trench, 0.45 / 0.50 lose 0.7 / 0.9 % on the way and over-dig 7.3 / 9.1 %; with half the patience for
+// drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
 constexpr double kFill = 0.45;
 constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing

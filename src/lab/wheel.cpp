@@ -105,10 +105,10 @@ class Carriage {
   std::vector<double> height_;
 };
 
-/// Means over the steps whose travel is at least `from`.
+/// Means over the steps from a time on.
 struct Steady {
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  double height = 0;
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< soil on wheel, moment about the axle [N], [N m]
+  double height = 0;                                 ///< of the axle over the level ground [m]
 };
 
 Steady steady_part(const Trace& trace, const std::vector<double>& height, double from_time) {
@@ -166,7 +166,8 @@ Report run(const Setup& setup) {
               "W", "what soil and slip take; above 0");
   report.note("first touched above the ground by", 1000 * (carriage.touched() - wheel.radius), "mm",
               "where it bore a fiftieth of the load: contact reaches a cell");
-  report.note("particles through the wheel", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.add("particles through the wheel", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
+             "none may pass; summed over steps");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);
   std::vector<double> torque;
@@ -185,16 +186,13 @@ Rig wheel() {
   rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
   rig.drawing =
       "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears `load-n`, then goes "
-      "ahead "
-      "at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster than it goes, -0.2 is "
-      "braked, "
-      "-1 locked. It is free to sink, its way and its turning are driven, as in a single-wheel test bed; a damper "
-      "bears "
-      "a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are means from `from` to `travel`; "
-      "sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's and Janosi's "
-      "laws give over the arc with the soil's own numbers (--set bekker_kphi_n_per_m_n2=..., bekker_n, janosi_k_m), "
-      "which the particles do not follow; those of the default soil were measured on its sand. Contact begins up to a "
-      "cell before the shell; `offset` makes up for it.";
+      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster than it goes, -0.2 is "
+      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a single-wheel test bed; a "
+      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are means from `from` to "
+      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's "
+      "and Janosi's laws give over the arc with the soil's own numbers (--set bekker_kphi_n_per_m_n2=..., bekker_n, "
+      "janosi_k_m), which the particles do not follow; those of the default soil were measured on its sand. Contact "
+      "begins up to a cell before the shell; `offset` makes up for it.";
   rig.parameters = {
       {"radius", 0.0625, "m", "of the wheel; at least 4 cells"},
       {"width", 0.06, "m", "of the wheel"},
