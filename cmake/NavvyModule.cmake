@@ -65,17 +65,19 @@ endfunction()
 add_custom_target(navvy_host_tests)
 add_custom_target(navvy_fuzzers)
 
-# navvy_tests(NAME LABEL host|device|slow [LIBS libs...] [PATTERN glob] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
-# One GoogleTest program of all *_test.cpp in this folder (or those matching PATTERN).
+# navvy_tests(NAME LABEL host|device|slow [LIBS libs...] [PATTERN globs...] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
+# One GoogleTest program of all *_test.cpp in this folder (or those matching PATTERN: wings of a module have folders of
+# their own).
 function(navvy_tests name)
-  cmake_parse_arguments(T "" "LABEL;PATTERN;TIMEOUT" "LIBS;EXTRA;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(T "" "LABEL;TIMEOUT" "LIBS;EXTRA;PROPERTIES;PATTERN" ${ARGN})
   if(NOT T_PATTERN)
     set(T_PATTERN *_test.cpp)
   endif()
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 300)
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${T_PATTERN})
+  list(TRANSFORM T_PATTERN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB sources CONFIGURE_DEPENDS ${T_PATTERN})
   if(NOT sources)
     return()
   endif()

@@ -11,7 +11,7 @@
 #include "bench.h"
 #include "core/hash.h"
 #include "native/native_soil.h"
-#include "soil/floor.h"
+#include "soil/particles/floor.h"
 #include "soil/rig.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "native/native_lanes.h"
-#include "soil/floor.h"
-#include "soil/soil_table.h"
+#include "soil/particles/floor.h"
+#include "soil/particles/soil_table.h"
 
 namespace navvy::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/soil.h"
-#include "soil/particle.h"
+#include "soil/particles/particle.h"
 
 namespace navvy::bench {
 

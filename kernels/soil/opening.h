@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean opening J / J0 of the soil in a cell. Included after soil/lanes.h.
+// Mean opening J / J0 of the soil in a cell. Included after soil/lanes/lanes.h.
 #ifndef NAVVY_KERNELS_SOIL_OPENING_H
 #define NAVVY_KERNELS_SOIL_OPENING_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes.h or soil/groups/group.h).
+// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or soil/groups/group.h).
 //
 // A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
 // distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of

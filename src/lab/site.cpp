@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "soil/soil_table.h"
+#include "soil/particles/soil_table.h"
 
 namespace navvy::lab {
 namespace {

@@ -13,7 +13,7 @@
 #include "lab/lab.h"
 #include "scene/machine.h"
 #include "scene/world.h"
-#include "soil/particle.h"
+#include "soil/particles/particle.h"
 #include "soil/solver.h"
 
 namespace navvy::lab {

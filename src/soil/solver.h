@@ -14,8 +14,8 @@
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "scene/world.h"
-#include "soil/particle.h"
-#include "soil/plan_grid.h"
+#include "soil/particles/particle.h"
+#include "soil/particles/plan_grid.h"
 
 namespace navvy::device {
 class Device;

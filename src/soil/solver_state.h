@@ -6,14 +6,14 @@
 #include <map>
 
 #include "device/device.h"
-#include "soil/contact.h"
-#include "soil/exchange.h"
-#include "soil/floor.h"
-#include "soil/mass_count.h"
-#include "soil/particle_store.h"
-#include "soil/soil_table.h"
+#include "soil/exchange/exchange.h"
+#include "soil/particles/floor.h"
+#include "soil/particles/mass_count.h"
+#include "soil/particles/particle_store.h"
+#include "soil/particles/soil_table.h"
+#include "soil/particles/transfer.h"
 #include "soil/solver.h"
-#include "soil/transfer.h"
+#include "soil/tools/contact.h"
 
 namespace navvy::soil {
 

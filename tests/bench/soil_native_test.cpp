@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/random.h"
-#include "soil/floor.h"
+#include "soil/particles/floor.h"
 #include "soil/reference/reference_solver.h"
 
 namespace navvy::bench {

@@ -10,7 +10,7 @@
 #include "lab/shapes.h"
 #include "lab/site.h"
 #include "lab/soils.h"
-#include "soil/soil_table.h"
+#include "soil/particles/soil_table.h"
 #include "values.h"
 
 namespace navvy::soil::rig {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/formulas.h"
+#include "lab/theory/formulas.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "soil/rig.h"
-#include "soil/shell_geometry.h"
+#include "soil/tools/shell_geometry.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 

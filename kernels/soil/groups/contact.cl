@@ -2,7 +2,7 @@
 // Contact of the two node fields with tools: schedule of work-groups.
 //
 // In, Out: as in soil/contact.cl. One work-group per near block, one node per work-item; sums over nodes and blocks are
-// halved pair by pair in a fixed order. Host: src/soil/contact.cpp.
+// halved pair by pair in a fixed order. Host: src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
 
 // Out: CONTACT_SUMS per near block.

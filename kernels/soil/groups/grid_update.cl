@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
 //
-// In, Out: as in soil/grid_update.cl. One work-group per active block, one node per work-item; tiles are added in the
-// order of soil/grid_update.cl, so that a node's sum has the same bits. Host: src/soil/transfer.cpp.
+// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added in the
+// order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host: src/soil/particles/transfer.cpp.
 #include "soil/groups/group.h"
 #include "soil/room.h"
 
@@ -44,7 +44,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }
 
-// Blocks near shells, see soil/grid_update.cl.
+// Blocks near shells, see soil/lanes/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
     global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,

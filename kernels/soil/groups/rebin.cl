@@ -2,7 +2,7 @@
 // Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of work-groups.
 //
 // In, Out: as in soil/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics, whose order
-// does not matter; the order inside a cell is found by one work-item per cell. Host: src/soil/particle_store.cpp.
+// does not matter; the order inside a cell is found by one work-item per cell. Host: src/soil/particles/particle_store.cpp.
 #include "soil/groups/group.h"
 
 #define MEMBERS 64

@@ -2,7 +2,7 @@
 // Where nodes and particles lie relative to the shells: schedule of work-groups.
 //
 // In, Out: as in soil/shell.cl. One work-group per near block, one node or particle per work-item; what a block reports
-// is found by integer atomics, which have no order. Host: src/soil/contact.cpp.
+// is found by integer atomics, which have no order. Host: src/soil/tools/contact.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 

@@ -7,7 +7,7 @@
 
 #include "scene/soil.h"
 #include "soil/layout.h"
-#include "soil/soil_table.h"
+#include "soil/particles/soil_table.h"
 
 namespace navvy::soil::reference {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "soil/floor.h"
+#include "soil/particles/floor.h"
 #include "soil/reference/double_law.h"
 
 namespace navvy::soil::reference {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/rigs/chute.h"
+
+#include <cmath>
+
+namespace navvy::lab {
+namespace {
+
+using Triangles = std::vector<std::array<int, 3>>;
+
+/// Appends a side plate: triangles over vertices that alternate between y = 0 (even) and y = gap (odd). `corners` are
+/// those at y = 0, in an order whose normal looks along +y.
+void add_sides(scene::Shell& s, const Triangles& corners) {
+  for (const auto& t : corners) {
+    s.triangles.push_back({2 * t[0], 2 * t[1], 2 * t[2]});
+    s.triangles.push_back({2 * t[0] + 1, 2 * t[2] + 1, 2 * t[1] + 1});
+  }
+}
+
+void add_pair(scene::Shell& s, const ChuteShape& c, double x, double z) {
+  s.vertices.emplace_back(x, -c.half, z);
+  s.vertices.emplace_back(x, c.gap + c.half, z);
+}
+
+/// The strip between corners a and b of both sides; its normal follows from their order.
+void add_strip(scene::Shell& s, int a, int b) {
+  s.triangles.push_back({2 * a, 2 * a + 1, 2 * b + 1});
+  s.triangles.push_back({2 * a, 2 * b + 1, 2 * b});
+}
+
+constexpr double kRoughBlocks = 4;  ///< in the middle of a chute with friction
+
+}  // namespace
+
+scene::Shell blade_chute(const ChuteShape& c) {
+  scene::Shell s;
+  s.name = "chute";
+  s.half_thickness = c.half;
+  const double lean = -c.height / std::tan(c.rake);
+  const double x = -c.half / std::sin(c.rake);  // of the lip's middle
+  add_pair(s, c, x, 0);                         // 0 lip
+  add_pair(s, c, x + lean, c.height);           // 1 the blade's upper edge
+  add_pair(s, c, c.ahead, c.top);
+  add_pair(s, c, c.ahead, c.bottom);
+  add_pair(s, c, -c.back, c.bottom);
+  add_pair(s, c, -c.back, 0.25 * c.height);
+  add_sides(s, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
+  add_strip(s, 0, 1);
+  return s;
+}
+
+scene::Shell chute_sides(const ChuteShape& c) {
+  scene::Shell s;
+  s.name = "sides";
+  s.half_thickness = c.half;
+  s.friction_share = s.adhesion_share = 0;
+  add_pair(s, c, -c.back, c.bottom);
+  add_pair(s, c, -c.back, c.top);
+  add_pair(s, c, c.ahead, c.top);
+  add_pair(s, c, c.ahead, c.bottom);
+  add_sides(s, {{0, 1, 2}, {0, 2, 3}});
+  return s;
+}
+
+scene::Shell chute_blade(const ChuteShape& c) {
+  scene::Shell s;
+  s.name = "blade";
+  s.half_thickness = c.half;
+  const double x = -c.half / std::sin(c.rake);
+  add_pair(s, c, x, 0);
+  add_pair(s, c, x - c.height / std::tan(c.rake), c.height);
+  add_strip(s, 0, 1);
+  return s;
+}
+
+scene::Shell footing_chute(const ChuteShape& c, double breadth) {
+  scene::Shell s;
+  s.name = "footing";
+  s.half_thickness = c.half;
+  const double half = breadth / 2;
+  add_pair(s, c, -half, 0);
+  add_pair(s, c, half, 0);
+  add_pair(s, c, half, c.top);
+  add_pair(s, c, c.ahead, c.top);
+  add_pair(s, c, c.ahead, c.bottom);
+  add_pair(s, c, -c.ahead, c.bottom);
+  add_pair(s, c, -c.ahead, c.top);
+  add_pair(s, c, -half, c.top);
+  add_sides(s, {{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}});
+  add_strip(s, 0, 1);  // looks down
+  add_strip(s, 1, 2);
+  add_strip(s, 7, 0);
+  return s;
+}
+
+double chute_offset(double cell) { return 0.07 * cell; }
+
+double chute_width(double cell) { return 8 * cell; }
+
+double chute_half(double cell) { return 0.25 * cell; }
+
+double chute_gap(const Setup& setup, double& share) {
+  const bool rough = setup.soil.tool_friction_angle > 0 || setup.soil.adhesion > 0;
+  const double block = soil::kBlockCells * setup.cell;
+  share = rough ? kRoughBlocks / (kRoughBlocks + 2) : 0;
+  return rough ? (kRoughBlocks + 2) * block : 5 * setup.cell;
+}
+
+std::vector<scene::Soil> chute_soils(const scene::Soil& soil) {
+  scene::Soil smooth = soil;
+  smooth.name += "-smooth";
+  smooth.tool_friction_angle = smooth.adhesion = 0;
+  return {soil, smooth};
+}
+
+SiteOptions chute_site(const Setup& setup, const ChuteBed& bed, double gap) {
+  const double cell = setup.cell, margin = 2 * cell;
+  SiteOptions out;
+  // Twice a whole number of blocks: a block begins at y = 0.
+  const double block = soil::kBlockCells * cell;
+  out.size = 2 * block * std::ceil((std::max(bed.back, std::max(bed.ahead, gap)) + 2 * block) / block);
+  out.depth = bed.below + 8 * cell;
+  out.surface = pit({Vec3(-bed.back, -margin, -bed.below), Vec3(bed.ahead, gap + margin, 0)});
+  return out;
+}
+
+std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, double gap, bool rough,
+                                       const std::function<bool(const Vec3&)>& keep,
+                                       const std::function<double(double, double)>& surface) {
+  const double cell = site.cell(), inset = chute_offset(cell), block = soil::kBlockCells * cell;
+  const Box box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
+  auto out = site.fill(box, keep, rough ? 0 : 1);
+  if (rough)
+    for (soil::Particle& p : out) {
+      const double y = site.position(p).y();
+      if (y < block || y > gap - block) p.soil = 1;
+    }
+  site.rest(out, surface);
+  return out;
+}
+
+}  // namespace navvy::lab

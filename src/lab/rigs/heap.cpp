@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/rigs/heap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace navvy::lab {
+namespace {
+
+using Cell = std::array<int, 3>;
+
+Cell cell_of(const Vec3& p, double cell) {
+  Cell out;
+  for (std::size_t a = 0; a < 3; ++a) out[a] = static_cast<int>(std::floor(p[static_cast<int>(a)] / cell));
+  return out;
+}
+
+/// Heights of a ball over its middle, on the surface's grid.
+struct Ball {
+  int reach = 0;
+  std::vector<double> height;  ///< (2 reach + 1)^2; negative outside the ball
+  Ball(double radius, double spacing) : reach(static_cast<int>(std::ceil(radius / spacing))) {
+    for (int j = -reach; j <= reach; ++j)
+      for (int i = -reach; i <= reach; ++i) {
+        const double rest = radius * radius - spacing * spacing * (i * i + j * j);
+        height.push_back(rest >= 0 ? std::sqrt(rest) : -1);
+      }
+  }
+  template <class F>
+  void each(const F& f) const {
+    std::size_t at = 0;
+    for (int j = -reach; j <= reach; ++j)
+      for (int i = -reach; i <= reach; ++i, ++at)
+        if (height[at] >= 0) f(i, j, height[at]);
+  }
+};
+
+/// Particles as the dilation sees them: the top of a ball around each.
+void dilate(Surface& s, const std::vector<Vec3>& positions, double radius) {
+  const int reach = static_cast<int>(std::ceil(radius / s.spacing));
+  for (const Vec3& p : positions) {
+    const int cx = static_cast<int>(std::lround((p.x() - s.origin.x()) / s.spacing)),
+              cy = static_cast<int>(std::lround((p.y() - s.origin.y()) / s.spacing));
+    for (int iy = std::max(0, cy - reach); iy <= std::min(s.ny - 1, cy + reach); ++iy)
+      for (int ix = std::max(0, cx - reach); ix <= std::min(s.nx - 1, cx + reach); ++ix) {
+        const double rest = radius * radius - (s.middle(ix, iy) - p.head<2>()).squaredNorm();
+        if (rest < 0) continue;
+        double& top = s.top[static_cast<std::size_t>(ix + s.nx * iy)];
+        top = std::max(top, p.z() + std::sqrt(rest));
+      }
+  }
+}
+
+void erode(Surface& s, double radius) {
+  const Ball ball(radius, s.spacing);
+  std::vector<double> out(s.top.size());
+  for (int iy = 0; iy < s.ny; ++iy)
+    for (int ix = 0; ix < s.nx; ++ix) {
+      double least = s.at(ix, iy) - radius;
+      ball.each([&](int i, int j, double height) {
+        const int x = ix + i, y = iy + j;
+        if (x < 0 || y < 0 || x >= s.nx || y >= s.ny) return;
+        least = std::min(least, s.at(x, y) - height);
+      });
+      out[static_cast<std::size_t>(ix + s.nx * iy)] = std::max(s.floor, least);
+    }
+  s.top.swap(out);
+}
+
+}  // namespace
+
+std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours) {
+  std::vector<Vec3> positions, out;
+  std::map<Cell, int> count;
+  for (const soil::Particle& p : particles) {
+    positions.push_back(site.position(p));
+    ++count[cell_of(positions.back(), site.cell())];
+  }
+  std::map<Cell, bool> touching;
+  for (const auto& [cell, here] : count) {
+    int around = -1;  // not oneself
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const auto found = count.find({cell[0] + i, cell[1] + j, cell[2] + k});
+          if (found != count.end()) around += found->second;
+        }
+    touching[cell] = around >= neighbours;
+  }
+  for (const Vec3& p : positions)
+    if (touching[cell_of(p, site.cell())]) out.push_back(p);
+  return out;
+}
+
+double Surface::over(const Vec3& p) const {
+  return at(static_cast<int>(std::lround((p.x() - origin.x()) / spacing)),
+            static_cast<int>(std::lround((p.y() - origin.y()) / spacing)));
+}
+
+double Surface::volume() const {
+  double sum = 0;
+  for (const double z : top) sum += z - floor;
+  return sum * spacing * spacing;
+}
+
+double Surface::highest() const { return top.empty() ? floor : *std::max_element(top.begin(), top.end()); }
+
+Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor) {
+  Surface s;
+  s.spacing = cell / 4;
+  s.floor = floor;
+  if (positions.empty()) return s;
+  Vec2 low = positions.front().head<2>(), high = low;
+  for (const Vec3& p : positions) {
+    low = low.cwiseMin(p.head<2>());
+    high = high.cwiseMax(p.head<2>());
+  }
+  low -= Vec2::Constant(1.5 * cell);
+  high += Vec2::Constant(1.5 * cell);
+  // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost grain lies.
+  s.origin = s.spacing * (low / s.spacing).array().floor().matrix();
+  s.nx = static_cast<int>((high.x() - s.origin.x()) / s.spacing) + 1;
+  s.ny = static_cast<int>((high.y() - s.origin.y()) / s.spacing) + 1;
+  s.top.assign(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny), floor);
+  dilate(s, positions, 0.75 * cell);
+  erode(s, 0.5 * cell);
+  return s;
+}
+
+Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
+  double sx = 0, sz = 0, sxx = 0, sxz = 0;
+  const double n = static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sx += x[i], sz += z[i];
+    sxx += x[i] * x[i], sxz += x[i] * z[i];
+  }
+  Line out;
+  out.b = (n * sxz - sx * sz) / (n * sxx - sx * sx);
+  out.a = (sz - out.b * sx) / n;
+  return out;
+}
+
+std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
+                                                     double cell) {
+  std::map<int, std::pair<double, int>> rings;
+  const double across = surface.spacing * surface.ny / 6;
+  for (int iy = 0; iy < surface.ny; ++iy)
+    for (int ix = 0; ix < surface.nx; ++ix) {
+      const Vec2 d = surface.middle(ix, iy) - axis;
+      if (!axisymmetric && std::abs(d.y()) > across) continue;
+      const double r = axisymmetric ? d.norm() : std::abs(d.x());
+      auto& [sum, count] = rings[static_cast<int>(r / (0.5 * cell))];
+      sum += surface.at(ix, iy) - surface.floor;
+      ++count;
+    }
+  std::vector<std::pair<double, double>> out;
+  out.reserve(rings.size());
+  for (const auto& [ring, entry] : rings) out.emplace_back((ring + 0.5) * 0.5 * cell, entry.first / entry.second);
+  return out;
+}
+
+double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
+  const auto profile = flank_profile(surface, axis, axisymmetric, cell);
+  double highest = 0, shoulder = 0;
+  for (const auto& [r, height] : profile) highest = std::max(highest, height);
+  // A stream leaves a dip in the middle: the flank begins outside the last ring that is higher than 80 %.
+  for (const auto& [r, height] : profile)
+    if (height > 0.8 * highest) shoulder = r;
+  std::vector<double> x, z;
+  for (const auto& [r, height] : profile) {
+    if (r <= shoulder || height < 0.2 * highest) continue;
+    x.push_back(r);
+    z.push_back(height);
+  }
+  return x.size() < 2 ? kNone : std::atan(-fit_line(x, z).b);
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return kNone;
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+}  // namespace navvy::lab

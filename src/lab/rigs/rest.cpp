@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rig `rest`: level ground under its own weight.
+#include <algorithm>
+#include <cmath>
+
+#include "lab/rigs/rig_list.h"
+#include "lab/site.h"
+#include "lab/soils.h"
+
+namespace navvy::lab {
+namespace {
+
+const char* const kSource = "closed form; VALIDATION 1";
+
+/// Sums over the particles of the middle third, one cell clear of the pit's floor and of the free surface.
+struct StressSums {
+  double zz = 0, zs = 0, error = 0, ratio = 0, count = 0;
+
+  void add(const Site& site, double half, double depth) {
+    const double weight_of = site.soil().bank_density * site.world().gravity.z();
+    for (const soil::Particle& p : site.solver().particles()) {
+      const Vec3 at = site.position(p);
+      if (std::max(std::abs(at.x()), std::abs(at.y())) > half / 3) continue;
+      if (at.z() < site.cell() - depth || at.z() > -site.cell()) continue;
+      const double pressure = site.pressure(p), weight = weight_of * at.z();
+      const double sz = static_cast<double>(p.s[2]) - pressure, sx = static_cast<double>(p.s[0]) - pressure;
+      zz += weight * weight;
+      zs -= weight * sz;
+      error += (sz + weight) * (sz + weight);
+      ratio += sx / sz;
+      count += 1;
+    }
+  }
+};
+
+void write_profile(const Site& site, double half, Report& report) {
+  Series height{"z", "m", {}}, vertical{"sigma_z", "Pa", {}}, horizontal{"sigma_x", "Pa", {}};
+  for (const soil::Particle& p : site.solver().particles()) {
+    const Vec3 at = site.position(p);
+    if (std::max(std::abs(at.x()), std::abs(at.y())) > half / 3) continue;
+    const double pressure = site.pressure(p);
+    height.values.push_back(at.z());
+    vertical.values.push_back(static_cast<double>(p.s[2]) - pressure);
+    horizontal.values.push_back(static_cast<double>(p.s[0]) - pressure);
+  }
+  report.series = {height, vertical, horizontal};
+}
+
+Report run(const Setup& setup) {
+  const double depth = setup["depth"], half = setup["width"] / 2, seconds = setup["time"];
+  const Box bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
+  SiteOptions options;
+  options.surface = pit(bed);
+  options.depth = depth + 1;
+  Site site(setup, options);
+  site.expect(seconds);
+  std::vector<soil::Particle> start = site.fill(bed);
+  if (setup.whole("stressed") != 0) site.rest(start, 0.0);
+  site.solver().insert(start);
+  site.run(seconds / 2);
+  StressSums sums;
+  const int samples = 12;
+  for (int i = 0; i < samples; ++i) {
+    site.run(seconds / 2 / samples);
+    sums.add(site, half, depth);
+  }
+  double farthest = 0;
+  const std::vector<soil::Particle> end = site.solver().particles();
+  for (std::size_t i = 0; i < end.size(); ++i)
+    farthest = std::max(farthest, (site.position(end[i]) - site.position(start[i])).norm());
+
+  Report report;
+  const double k0 = setup.soil.poisson / (1 - setup.soil.poisson);
+  report.add("sigma_z over rho g z", sums.zs / sums.zz, "", 1, 0.99, 1.01, kSource);
+  report.add("rms of sigma_z", 100 * std::sqrt(sums.error / sums.zz), "%", 0, 0, 4,
+             "VALIDATION 1; Chrono's SPH soil 3.8 %");
+  report.add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0, "nu / (1 - nu)");
+  report.add("farthest motion", 1000 * farthest, "mm", 0, 0, 1, "SOIL_SOLVER 6");
+  write_profile(site, half, report);
+  site.finish(report);
+  return report;
+}
+
+}  // namespace
+
+Rig rest() {
+  Rig rig;
+  rig.name = "rest";
+  rig.summary = "level ground at rest: vertical and horizontal stress against the weight above";
+  rig.drawing =
+      "A square pit, `width` wide and `depth` deep, in resting ground that holds its walls and floor. Particles fill "
+      "it "
+      "up to the surface, with the stress of level ground at rest (stressed 1) or without any (stressed 0: they "
+      "settle). Over the second half of `time` the stress of the middle third is fitted, sigma_z = slope x rho g z, "
+      "twelve "
+      "samples in all: sand at rest rings by a percent or two. The plane-strain "
+      "cone yields under K0 = nu / (1 - nu) when phi is below about 32 degrees (nu 0.3): then sigma_x is not K0 "
+      "sigma_z.";
+  rig.parameters = {{"width", 2.8, "m", "edge of the pit"},
+                    {"depth", 0.8, "m", "depth of the pit"},
+                    {"time", 1.0, "s", "simulated time"},
+                    {"stressed", 1, "", "1: particles start with the stress of rest, 0: without stress"}};
+  rig.default_soil = clean_sand(35);
+  rig.run = run;
+  return rig;
+}
+
+}  // namespace navvy::lab

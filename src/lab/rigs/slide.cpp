@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rig `slide`: a block on a plane with Coulomb friction, once the block is soil, once it is a rigid plate on soil.
+#include <cmath>
+
+#include "lab/rigs/heap.h"
+#include "lab/rigs/rig_list.h"
+#include "lab/shapes.h"
+#include "lab/site.h"
+#include "lab/soils.h"
+
+namespace navvy::lab {
+namespace {
+
+SiteOptions tilted(const Setup& setup) {
+  const double angle = radians(setup["tilt-deg"]);
+  SiteOptions out;
+  out.size = 80 * setup.cell;
+  out.depth = 10 * setup.cell;
+  out.gravity = kGravity * Vec3(std::sin(angle), 0, -std::cos(angle));
+  return out;
+}
+
+/// Slope of speed over time in the second half of the run, when the block has settled on its plane [m/s2].
+double acceleration(const std::vector<double>& time, const std::vector<double>& speed) {
+  const auto half = static_cast<std::ptrdiff_t>(time.size() / 2);
+  return fit_line({time.begin() + half, time.end()}, {speed.begin() + half, speed.end()}).b;
+}
+
+/// A block of cohesive soil on a steel plate that hangs above the ground.
+double slide_soil(const Setup& setup, Report& report) {
+  const double cell = setup.cell;
+  SiteOptions options = tilted(setup);
+  options.surface = [cell](double, double) { return -8 * cell; };
+  Site site(setup, options);
+  site.expect(2 * setup["time"]);
+  const int tool = site.add_tool(plate(70 * cell, 24 * cell), make_pose(0, 0.07 * cell, 0.03 * cell));
+  const double thick = 0.015 + 0.03 * cell, x = 20 * cell;
+  auto block = site.fill({Vec3(-x - 6 * cell, -4 * cell, thick), Vec3(-x + 6 * cell, 4 * cell, thick + 5 * cell)});
+  site.rest(block, thick + 5 * cell);
+  site.solver().insert(block);
+  Series time{"time", "s", {}}, speed{"speed of the soil block", "m/s", {}};
+  double friction = 0, normal = 0;
+  for (int i = 0; i < 20; ++i) {
+    site.run(setup["time"] / 20, [&] {
+      const soil::ToolImpulse& impulse = site.tool(tool).impulse;
+      if (site.time() < 0.5 * setup["time"]) return;
+      friction += impulse.J_W.x();
+      normal -= impulse.J_W.z();
+    });
+    double sum = 0, count = 0;
+    for (const soil::Particle& p : site.solver().particles()) sum += static_cast<double>(p.v[0]), count += 1;
+    time.values.push_back(site.time());
+    speed.values.push_back(sum / count);
+  }
+  const double adhesion = setup.soil.adhesion * 96 * cell * cell * 0.5 * setup["time"];  // on 12 x 8 cells
+  report.add("soil block, shear without adhesion x area over normal force", (friction - adhesion) / normal, "",
+             std::tan(setup.soil.tool_friction_angle), kNone, kNone, "tan delta");
+  report.series = {time, speed};
+  site.finish(report);
+  return acceleration(time.values, speed.values);
+}
+
+/// A rigid plate with the weight of a block on a bed of cohesive soil.
+double slide_plate(const Setup& setup, Report& report) {
+  const double cell = setup.cell, half = 34 * cell, wide = 9 * cell;
+  const Box bed{Vec3(-half, -wide, -5 * cell), Vec3(half, wide, 0)};
+  SiteOptions options = tilted(setup);
+  options.surface = pit(bed);
+  Site site(setup, options);
+  site.expect(2 * setup["time"]);
+  auto soil = site.fill(bed);
+  site.rest(soil, 0.0);
+  site.solver().insert(soil);
+  const double length = 12 * cell, width = 8 * cell;
+  const int tool = site.add_tool(plate(length, width), make_pose(-20 * cell, 0.07 * cell, 0.015 + 0.02 * cell));
+  Tool& block = site.tool(tool);
+  block.mass = setup["pressure"] * length * width / kGravity;
+  block.keep_attitude = true;
+  Series time{"time", "s", {}}, speed{"speed of the plate", "m/s", {}};
+  double shear = 0, normal = 0;  // [N s] in the second half
+  for (int i = 0; i < 20; ++i) {
+    site.run(setup["time"] / 20, [&] {
+      if (site.time() < 0.5 * setup["time"]) return;
+      shear -= block.impulse.J_W.x();
+      normal += block.impulse.J_W.z();
+    });
+    time.values.push_back(site.time());
+    speed.values.push_back(block.motion.v_WT.x());
+  }
+  const double bond = setup.soil.adhesion * length * width * 0.5 * setup["time"];
+  const double most = bond + std::tan(setup.soil.tool_friction_angle) * normal;
+  if (most > 0)
+    report.add("rigid plate, shear over adhesion x area + tan delta x normal force", shear / most, "", 1, 0.95, 1.05,
+               "Coulomb with adhesion");
+  report.note("plate, sunk by", 1000 * (0.015 + 0.02 * cell - block.motion.X_WT.translation().z()), "mm");
+  report.series.push_back(speed);
+  site.finish(report);
+  return acceleration(time.values, speed.values);
+}
+
+Report run(const Setup& setup) {
+  Report report;
+  const double angle = radians(setup["tilt-deg"]);
+  const double expected = kGravity * (std::sin(angle) - std::tan(setup.soil.tool_friction_angle) * std::cos(angle));
+  const double soil = slide_soil(setup, report), rigid = slide_plate(setup, report);
+  // Adhesion on the face slows by a A / m: the soil block is 5 cells high, the plate weighs `pressure`.
+  const double a = setup.soil.adhesion, soil_expected = expected - a / (setup.soil.bank_density * 5 * setup.cell),
+               plate_expected = expected - a * kGravity / setup["pressure"];
+  const char* source = a > 0 ? "g (sin - mu cos) - a A / m" : "g (sin - mu cos); VALIDATION 1";
+  const auto row = [&](const char* name, double measured, double right) {
+    report.add(name, measured, "m/s2", right, right - 0.02 * expected, right + 0.02 * expected, source);
+  };
+  row("soil block, acceleration", soil, soil_expected);
+  row("rigid plate, acceleration", rigid, plate_expected);
+  return report;
+}
+
+}  // namespace
+
+Rig slide() {
+  Rig rig;
+  rig.name = "slide";
+  rig.summary = "block on a plane with Coulomb friction: a block of soil on steel, a rigid plate on soil";
+  rig.drawing =
+      "Gravity is tilted by `tilt-deg`. First a block of strong cohesive soil, 12 x 8 x 5 cells, slides on a steel "
+      "plate; then a rigid plate of 12 x 8 cells that weighs `pressure` slides on a bed of the same soil, 5 cells "
+      "deep. "
+      "The friction angle of both is the soil's delta, the shear they bear without push its adhesion. The acceleration "
+      "is the slope of the speed in the second half "
+      "of `time`.";
+  rig.parameters = {{"tilt-deg", 30, "deg", "of gravity"},
+                    {"pressure", 2000, "Pa", "weight of the plate over its area"},
+                    {"time", 0.8, "s", "each"}};
+  rig.default_soil = cohesive(30, 20000);
+  rig.run = run;
+  return rig;
+}
+
+}  // namespace navvy::lab

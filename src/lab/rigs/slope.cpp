@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rig `slope`: the angle at which a long bed starts to flow, and the one at which a flowing bed stops.
+#include <cmath>
+
+#include "lab/rigs/rig_list.h"
+#include "lab/shapes.h"
+#include "lab/site.h"
+#include "lab/soils.h"
+#include "lab/theory/formulas.h"
+
+namespace navvy::lab {
+namespace {
+
+/// Mean speed above which a bed flows [m/s]. After 1.25 s a bed 2 degrees too flat reads 0.002 (its ends collapse), one
+/// 0.5 degrees too steep would have 0.1.
+constexpr double kFlows = 0.03;
+
+/// A bed under tilted gravity; the middle third is read, away from the ends.
+class Bed {
+ public:
+  Bed(const Setup& setup, double angle) : length_(setup["length"]), site_(smooth(setup), options(setup, angle)) {
+    const double cell = setup.cell, depth = setup["depth"], gap = setup["gap"] * cell;
+    scene::Shell walls = channel(1.6 * length_, gap, -6 * cell, depth + 8 * cell, false);
+    walls.half_thickness = 0.2 * cell;
+    site_.add_tool(walls, make_pose(-0.7 * length_, -gap / 2 + 0.07 * cell, 0));
+    const double y = gap / 2 - 0.25 * cell;
+    auto soil = site_.fill({Vec3(-length_ / 2, 0.07 * cell - y, 0), Vec3(length_ / 2, 0.07 * cell + y, depth)});
+    for (soil::Particle& p : soil) stress(p, depth);
+    site_.solver().insert(soil);
+  }
+
+  Site& site() { return site_; }
+  /// Mean velocity down the slope of the middle third [m/s].
+  double speed() const {
+    double sum = 0, count = 0;
+    for (const soil::Particle& p : site_.solver().particles()) {
+      if (std::abs(site_.position(p).x()) > length_ / 6) continue;
+      sum += static_cast<double>(p.v[0]);
+      count += 1;
+    }
+    return sum / count;
+  }
+
+ private:
+  static Setup smooth(Setup setup) {
+    setup.soil.tool_friction_angle = setup.soil.adhesion = 0;
+    setup.progress = {};
+    return setup;
+  }
+  static SiteOptions options(const Setup& setup, double angle) {
+    SiteOptions out;
+    out.size = 2 * setup["length"];
+    out.depth = 8 * setup.cell;
+    out.gravity = kGravity * Vec3(std::sin(angle), 0, -std::cos(angle));
+    return out;
+  }
+  /// The stress of an infinite slope with equal normal stresses, the state in which coaxial soil flows.
+  void stress(soil::Particle& p, double top) const {
+    const double depth = top - site_.position(p).z();
+    const scene::Soil& soil = site_.soil();
+    const double weight = soil.bank_density * depth;
+    const double bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
+    p.j = static_cast<float>(1 + weight * site_.world().gravity.z() / bulk);
+    p.s[5] = static_cast<float>(weight * site_.world().gravity.x());
+  }
+
+  double length_;
+  Site site_;
+};
+
+/// Whether a bed at rest at this angle [rad] flows.
+bool starts(const Setup& setup, double angle, Report& report) {
+  Bed bed(setup, angle);
+  bed.site().run(setup["time"]);
+  bed.site().finish(report);
+  return bed.speed() > kFlows;
+}
+
+/// Whether a bed that a steeper slope has set in motion goes on at this angle without slowing down.
+bool goes_on(const Setup& setup, double angle, double steep, Report& report) {
+  Bed bed(setup, steep);
+  bed.site().run(0.25 * setup["time"]);
+  bed.site().set_gravity(kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
+  bed.site().run(0.25 * setup["time"]);
+  const double before = bed.speed();
+  bed.site().run(0.5 * setup["time"]);
+  bed.site().finish(report);
+  return bed.speed() > before;
+}
+
+/// The angle where `flows` changes from false to true, by halving; [rad].
+template <class F>
+double critical(const F& flows, double low, double high, int halvings, const std::function<void(int)>& tick) {
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (flows(middle) ? high : low) = middle;
+    tick(i);
+  }
+  return 0.5 * (low + high);
+}
+
+Report run(const Setup& setup) {
+  Report report;
+  const double flow = flow_angle(setup.soil.friction_angle), width = radians(setup["search"]);
+  const int halvings = setup.whole("halvings");
+  const auto tick = [&](int done, int offset) {
+    if (setup.progress) setup.progress((offset + done + 1.0) / (2 * halvings));
+  };
+  const double start = critical([&](double angle) { return starts(setup, angle, report); }, flow - width, flow + width,
+                                halvings, [&](int i) { tick(i, 0); });
+  const double stop = critical([&](double angle) { return goes_on(setup, angle, flow + radians(12), report); },
+                               flow - width, flow + width, halvings, [&](int i) { tick(i, halvings); });
+  const double expected = degrees(flow);
+  const char* source = "atan(sin phi), zero dilatancy; VALIDATION 1";
+  report.add("starts to flow at", degrees(start), "deg", expected, expected - 1.5, expected + 1.5, source);
+  report.add("flowing bed stops at", degrees(stop), "deg", expected, expected - 1.5, expected + 1.5, source);
+  report.note("angles searched to", degrees(2 * width) / std::pow(2.0, halvings + 1), "deg");
+  return report;
+}
+
+}  // namespace
+
+Rig slope() {
+  Rig rig;
+  rig.name = "slope";
+  rig.summary = "long slope of sand: the angle at which it starts to flow, and at which it stops";
+  rig.drawing =
+      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` cells apart, both ends "
+      "free, so that nothing pushes it along but its weight; "
+      "gravity is tilted. It starts with the stress of an infinite slope. The mean velocity of the middle third of its "
+      "length is read after `time`: above 0.03 m/s it flows. For stopping, 12 degrees more set the bed in motion for a "
+      "quarter of `time`; then it flows on at the angle under test when it does not slow down. Both angles are found "
+      "by `halvings` halvings of +-`search` degrees around atan(sin phi).";
+  rig.parameters = {{"length", 16, "m", "of the bed; 30 depths keep the collapse of its ends out of the middle"},
+                    {"depth", 0.5, "m", "of the bed"},
+                    {"gap", 3, "cells", "between the side plates"},
+                    {"time", 1.25, "s", "of each trial"},
+                    {"search", 4, "deg", "half width of the search"},
+                    {"halvings", 4, "", "of the search, each"}};
+  rig.default_soil = clean_sand(35);
+  rig.run = run;
+  return rig;
+}
+
+}  // namespace navvy::lab

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip that is kept.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "lab/rigs/tool_list.h"
+#include "lab/shapes.h"
+#include "lab/theory/wheel_formula.h"
+#include "lab/tool_driver.h"
+
+namespace navvy::lab {
+namespace {
+
+constexpr double kLoading = 0.3;   // seconds in which the load comes on, at standstill, and half as many to start
+constexpr double kDashpot = 0.05;  // sinking speed at which the carriage's damper bears a tenth of the load [m/s]
+
+WheelCase wheel_of(const Setup& setup) { return {setup["radius"], setup["width"], setup["load-n"], setup["slip"]}; }
+
+/// Dry sand of a single-wheel test bed [Carnegie Mellon, robomechanics rig; VALIDATION 4]: its plate curve is 1734 kPa
+/// (z / m)^1.34, 20 degrees of friction on the rim are an estimate.
+scene::Soil wheel_bed_sand() {
+  scene::Soil soil = clean_sand(29);
+  soil.bank_density = 13000 / kGravity;
+  soil.tool_friction_angle = radians(20);
+  soil.bekker_kc = 0, soil.bekker_kphi = 1734000, soil.bekker_n = 1.34;
+  soil.janosi_k = 0.021;
+  return soil;
+}
+
+void check_wheel(const Setup& setup) {
+  std::vector<Fault> faults;
+  const auto refuse = [&faults](const char* name, double value, const char* rule, const char* remedy) {
+    faults.push_back(Fault{Fault::Severity::kError, "", 0, name, std::to_string(value), rule, remedy});
+  };
+  const double slip = setup["slip"], radius = setup["radius"];
+  if (slip < -1 || slip > 0.95) refuse("slip", slip, "-1 (locked) .. 0.95", "0 rolls, 0.2 pulls, -0.2 brakes");
+  if (radius < 4 * setup.cell) refuse("radius", radius, "at least 4 cells", "a finer --cell, or a larger wheel");
+  if (setup["width"] < 2 * setup.cell)
+    refuse("width", setup["width"], "at least 2 cells", "a finer --cell, or a wider wheel");
+  if (setup["from"] >= setup["travel"])
+    refuse("from", setup["from"], "less than the travel", "half the travel is usual");
+  if (!faults.empty()) throw InputError(faults);
+}
+
+/// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
+Box bed_of(const Setup& setup) {
+  const double cell = setup.cell, r = setup["radius"];
+  const auto whole = [cell](double x) { return cell * std::ceil(x / cell - 1e-9); };
+  const double side = whole(setup["width"] / 2 + setup["beside"] * r);
+  return {Vec3(-whole(2 * r), -side, -whole(setup["below"] * r)), Vec3(whole(setup["travel"] + 2.5 * r), side, 0)};
+}
+
+/// Loads the wheel slowly, then lets it go at its slip for the travel. Height of the axle over time in `height`.
+class Carriage {
+ public:
+  Carriage(const Setup& setup, ToolDriver& driver) : setup_(setup), driver_(driver), wheel_(wheel_of(setup)) {
+    Tool& tool = driver.site().tool(driver.tool());
+    tool.mass = wheel_.load / kGravity;
+    tool.only_sinks = true;
+  }
+
+  void run() {
+    load_up(kLoading);
+    const double speed = setup_["speed"];
+    run_for(kLoading / 2, [&](double share) { roll(share * speed); });
+    run_for(setup_["travel"] / speed, [&](double) { roll(speed); });
+  }
+
+  const std::vector<double>& height() const { return height_; }
+  double touched() const { return touched_; }
+
+ private:
+  Tool& tool() { return driver_.site().tool(driver_.tool()); }
+
+  void roll(double speed) {
+    const double rim = rim_speed(speed, wheel_.slip);
+    driver_.set_twist(Vec3(speed, 0, tool().motion.v_WT.z()), Vec3(0, rim / wheel_.radius, 0));
+  }
+
+  void load_up(double seconds) {
+    run_for(seconds, [&](double share) { bearing_ = 1 - share; });
+    bearing_ = 0;
+  }
+
+  template <class Each>
+  void run_for(double seconds, const Each& each) {
+    const double dt = driver_.site().step_limit(rim_speed(setup_["speed"], std::max(0.0, wheel_.slip)) * 1.5);
+    const int steps = std::max(1, static_cast<int>(std::ceil(seconds / dt)));
+    for (int i = 0; i < steps; ++i) {
+      each((i + 1.0) / steps);
+      const double damper = -0.1 * wheel_.load * tool().motion.v_WT.z() / kDashpot;
+      tool().force_W = Vec3(0, 0, bearing_ * wheel_.load + damper);
+      driver_.step(seconds / steps);
+      height_.push_back(driver_.pose().translation().z());
+      if (std::isnan(touched_) && driver_.trace().force.back().z() > 0.02 * wheel_.load) touched_ = height_.back();
+    }
+  }
+
+  const Setup& setup_;
+  ToolDriver& driver_;
+  WheelCase wheel_;
+  double bearing_ = 1;  ///< share of the load that the carriage still bears
+  double touched_ = kNone;
+  std::vector<double> height_;
+};
+
+/// Means over the steps from a time on.
+struct Steady {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< soil on wheel, moment about the axle [N], [N m]
+  double height = 0;                                 ///< of the axle over the level ground [m]
+};
+
+Steady steady_part(const Trace& trace, const std::vector<double>& height, double from_time) {
+  Steady out;
+  int count = 0;
+  for (std::size_t i = 0; i < trace.time.size(); ++i) {
+    if (trace.time[i] < from_time) continue;
+    out.force += trace.force[i];
+    out.moment += trace.moment[i];
+    out.height += height[i];
+    ++count;
+  }
+  out.force /= count, out.moment /= count, out.height /= count;
+  return out;
+}
+
+Report run(const Setup& setup) {
+  check_wheel(setup);
+  const WheelCase wheel = wheel_of(setup);
+  const Box bed = bed_of(setup);
+  SiteOptions options;
+  options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 4 * setup.cell);
+  options.depth = -bed.low.z() + 8 * setup.cell;
+  options.surface = pit(bed);
+  Site site(setup, options);
+  auto soil = site.fill(bed);
+  site.rest(soil, 0.0);
+  site.solver().insert(soil);
+
+  const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
+  scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
+  shell.half_thickness = half;  // faces stand at radius and width, less the offset
+  ToolDriver driver(site, shell, make_pose(0, 0.07 * setup.cell, wheel.radius + (1.5 - setup["offset"]) * setup.cell));
+  Carriage carriage(setup, driver);
+  const double travel_time = setup["travel"] / setup["speed"], start = 1.5 * kLoading;
+  site.expect(start + travel_time);
+  carriage.run();
+
+  const Trace& trace = driver.trace();
+  const Steady mean = steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
+  const WheelForce law = rigid_wheel(wheel, setup.soil);
+  const std::string source = law.carried ? "Bekker, Janosi and Hanamoto over the arc, the soil's own parameters"
+                                         : "none: by Bekker's law the soil does not carry this load";
+  const auto expected = [&law](double value) { return law.carried ? value : kNone; };
+  Report report;
+  report.add("drawbar pull", mean.force.x(), "N", expected(law.drawbar), kNone, kNone, source);
+  report.add("sinkage", 1000 * (wheel.radius - mean.height), "mm", expected(1000 * law.sinkage), kNone, kNone, source);
+  report.add("torque", -mean.moment.y(), "N m", expected(law.torque), kNone, kNone, source);
+  report.add("vertical force over the load", mean.force.z() / wheel.load, "", 1, 0.95, 1.05, "statics");
+  report.note("torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
+              "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
+                  " bears at most about this");
+  report.note("power in: torque x turning less pull x speed",
+              -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius - mean.force.x() * setup["speed"],
+              "W", "what soil and slip take; above 0");
+  report.note("first touched above the ground by", 1000 * (carriage.touched() - wheel.radius), "mm",
+              "where it bore a fiftieth of the load: contact reaches a cell");
+  report.add("particles through the wheel", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
+             "none may pass; summed over steps");
+  report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
+  driver.write(report, 20);
+  std::vector<double> torque;
+  for (const Vec3& moment : trace.moment) torque.push_back(-moment.y());
+  report.series.push_back({"torque", "N m", low_pass(trace.time, torque, 20)});
+  report.series.push_back({"axle_height", "m", carriage.height()});
+  site.finish(report);
+  return report;
+}
+
+}  // namespace
+
+Rig wheel() {
+  Rig rig;
+  rig.name = "wheel";
+  rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
+  rig.drawing =
+      "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears `load-n`, then goes "
+      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster than it goes, -0.2 is "
+      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a single-wheel test bed; a "
+      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are means from `from` to "
+      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's "
+      "and Janosi's laws give over the arc with the soil's own numbers (--set bekker_kphi_n_per_m_n2=..., bekker_n, "
+      "janosi_k_m), which the particles do not follow; those of the default soil were measured on its sand. Contact "
+      "begins up to a cell before the shell; `offset` makes up for it.";
+  rig.parameters = {
+      {"radius", 0.0625, "m", "of the wheel; at least 4 cells"},
+      {"width", 0.06, "m", "of the wheel"},
+      {"load-n", 24.6, "N", "on the axle, the wheel's own weight included"},
+      {"slip", 0.2, "", "that is kept, -1 .. 0.95"},
+      {"speed", 0.2, "m/s", "of the axle"},
+      {"travel", 0.25, "m", "of the axle"},
+      {"from", 0.12, "m", "where the means begin"},
+      {"offset", 0.5, "cells", "by which the shell is smaller than the wheel on every side: contact reaches farther"},
+      {"beside", 1.6, "radii", "of soil on either side"},
+      {"below", 2.2, "radii", "of soil"}};
+  rig.default_soil = wheel_bed_sand();
+  rig.default_cell = 0.01;
+  rig.run = run;
+  return rig;
+}
+
+}  // namespace navvy::lab

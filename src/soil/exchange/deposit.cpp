@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/exchange/deposit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "soil/layout.h"
+
+namespace navvy::soil {
+namespace {
+
+// At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [evidence, section 3: 10 and 60 mm/s; its 0.3
+// s asleep and 0.5 s more before deposit are one wait here].
+constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
+/// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake for good too [s].
+constexpr double kHollowRest = 5;
+/// A tool this far above the soil leaves it free to settle [cells] [evidence, section 4].
+constexpr double kToolAbove = 2;
+/// Where particles crowd into less room than their state asks for (beside plates the tracked volume misses up to half
+/// of it), a block may rise this much above its surface; the rest is stored as density, down to the limit below.
+/// tuned: a blade drawn 2 m through sand leaves every block but the three it stood in within 0.85 .. 1.15.
+constexpr double kMostRise = 1.15, kCrowded = 0.8;
+/// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
+constexpr double kLeastRoom = 4;
+/// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
+/// number of particles over a column scatters by 0.65.
+constexpr double kCliff = 1.5;
+/// Of the four neighbours so many at least are level with a column that belongs to a wall.
+constexpr int kInLine = 2;
+/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and more [-]. A wall may
+/// carry spoil: this share of a column is enough.
+constexpr double kBonded = 0.5, kBondedShare = 0.25;
+/// Columns' shares of a block's volume are counted in this fraction of a cell.
+constexpr double kShareUnit = 1.0 / (1 << 20);
+
+double square_speed(const Particle& p) {
+  double sum = 0;
+  for (const float v : p.v) sum += static_cast<double>(v) * static_cast<double>(v);
+  return sum;
+}
+
+bool at_rest(const ColumnIndex& index, int block) {
+  double mass = 0, sum = 0, most = 0;
+  for (const std::uint32_t i : index.block(block)) {
+    const double square = square_speed(index[i]);
+    mass += index[i].mass;
+    sum += index[i].mass * square;
+    most = std::max(most, square);
+  }
+  // Written so that a NaN is not at rest.
+  return sum < kRestRms * kRestRms * mass && most < kRestMost * kRestMost;
+}
+
+bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
+  const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
+  const auto meets = [&](const heightfield::CellRect& r) {
+    return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
+  };
+  for (const ToolZone& tool : zones) {
+    if (top + kToolAbove < tool.low) continue;
+    // What rule A would wake again at once is not booked back either.
+    if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
+  }
+  const int b = index.find(key);
+  for (const std::uint32_t i : index.block(b))
+    if (index[i].side != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
+  RestTimes now;
+  for (std::size_t b = 0; b < index.blocks().size(); ++b) {
+    if (!at_rest(index, static_cast<int>(b))) continue;
+    const auto found = rest.find(index.blocks()[b]);
+    now.emplace(index.blocks()[b], found == rest.end() ? 0.0 : found->second + elapsed);
+  }
+  rest.swap(now);
+}
+
+bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
+                 const RestTimes& rest, int block) {
+  const PlanKey key = index.blocks()[static_cast<std::size_t>(block)];
+  const auto found = rest.find(key);
+  if (found == rest.end() || found->second < kRestTime) return false;
+  const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
+  double top = 0;
+  for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+    const int ix = index.grid().column_x(key, c), iy = index.grid().column_y(key, c);
+    const auto column = index.column(ix, iy);
+    if (column.empty()) continue;
+    if (!ground.contains(ix, iy)) return false;
+    top = std::max(top, height_in_cells(index[column.back()]));
+  }
+  if (tool_holds_off(index, zones, key, top)) return false;
+  // Nothing may move in the columns around it either.
+  for (int iy = y0 - 1; iy <= y0 + kBlockCells; ++iy)
+    for (int ix = x0 - 1; ix <= x0 + kBlockCells; ++ix)
+      for (const std::uint32_t i : index.column(ix, iy))
+        if (!(square_speed(index[i]) < kRestMost * kRestMost)) return false;
+  return true;
+}
+
+std::vector<Depositor::Share> Depositor::shares(Grains grains) const {
+  std::vector<Share> out;
+  for (const std::uint32_t i : grains) {
+    const Particle& p = index_[i];
+    auto share = std::find_if(out.begin(), out.end(), [&](const Share& s) { return s.soil == p.soil; });
+    if (share == out.end()) {
+      out.push_back({p.soil});
+      share = out.end() - 1;
+    }
+    share->mass += p.mass;
+    share->volume += static_cast<double>(p.mass) * static_cast<double>(p.j0);
+    share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
+    share->height += static_cast<double>(p.mass) * height_in_cells(p);
+  }
+  std::sort(out.begin(), out.end(), [](const Share& a, const Share& b) {
+    const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
+    return za != zb ? za < zb : a.soil < b.soil;
+  });
+  return out;
+}
+
+/// Where a column's surface is with what lies on it [cells above datum].
+double Depositor::surface(int ix, int iy) const {
+  return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
+}
+
+/// Whether a good part of the soil over a column was hardly sheared.
+bool Depositor::bonded(int ix, int iy) const {
+  std::int64_t mass = 0, firm = 0;
+  for (const std::uint32_t i : index_.column(ix, iy)) {
+    mass += index_[i].mass;
+    if (static_cast<double>(index_[i].shear) < kBonded) firm += index_[i].mass;
+  }
+  return static_cast<double>(firm) >= kBondedShare * static_cast<double>(mass);
+}
+
+std::array<bool, 16> Depositor::cliffs(int block) const {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  std::array<bool, 16> out{};
+  for (int c = 0; c < 16; ++c) {
+    const int ix = index_.grid().column_x(key, c), iy = index_.grid().column_y(key, c);
+    if (!ground_.contains(ix, iy)) continue;
+    const double here = surface(ix, iy);
+    int drops = 0, level = 0;
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (!ground_.contains(ix + dx, iy + dy)) continue;
+      ++(std::abs(surface(ix + dx, iy + dy) - here) > kCliff ? drops : level);
+    }
+    out[static_cast<std::size_t>(c)] = drops > 0 && level >= kInLine && bonded(ix, iy);
+  }
+  return out;
+}
+
+// Integer shares of the block's columns that stand at no cliff; at least one is positive when soil lies over them.
+std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) const {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  std::array<std::int64_t, 16> out{};
+  std::int64_t sum = 0;
+  const PlanGrid& grid = index_.grid();
+  for (std::size_t c = 0; c < 16; ++c) {
+    const int place = static_cast<int>(c);
+    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place))) continue;
+    out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
+    sum += out[c];
+  }
+  if (sum > 0) return out;
+  // A few grains that do not show in the surface stay in their columns.
+  for (std::size_t c = 0; c < 16; ++c) {
+    if (plan.cliff[c]) continue;
+    const int place = static_cast<int>(c);
+    for (const std::uint32_t i : index_.column(grid.column_x(key, place), grid.column_y(key, place)))
+      out[c] += index_[i].mass;
+  }
+  return out;
+}
+
+std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes& rest) {
+  ShapeFinder finder(ground_, index_);
+  std::vector<int> taken;
+  std::vector<Plan> plans;
+  for (const int block : blocks) {
+    const PlanKey& key = index_.blocks()[static_cast<std::size_t>(block)];
+    const BlockShape shape = finder.find(key);
+    if (shape.hollow && rest.at(key) < kHollowRest) continue;
+    taken.push_back(block);
+    plans.push_back({shape, cliffs(block)});
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i) book(plans[i], taken[i]);
+  return taken;
+}
+
+// Volume of the soils' density states over that under the surface, cliffs left out.
+double Depositor::crowding(const std::vector<Share>& shares, const Plan& plan) const {
+  const double cell = ground_.cell();
+  double state = 0, room = 0;
+  for (const Share& share : shares)
+    state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
+  for (std::size_t c = 0; c < 16; ++c)
+    if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
+  // A few crumbs that the surface does not show are not crowded.
+  return room > kLeastRoom ? state / room : 1.0;
+}
+
+// The soil's layer, still without mass; `rise`: how much its state stands over its surface.
+heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
+  const double mass = static_cast<double>(share.mass);
+  heightfield::Layer layer;
+  layer.soil = share.soil;
+  double state = std::clamp(share.volume / mass, DENSEST_STATE, ground_.setup().soils[share.soil].swell);
+  if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
+  layer.specific_volume = static_cast<float>(state);
+  layer.plastic_shear = static_cast<float>(share.shear / mass);
+  return layer;
+}
+
+void Depositor::book_column(int ix, int iy) {
+  for (const Share& share : shares(index_.column(ix, iy))) {
+    heightfield::Layer layer = layer_of(share, 1);
+    layer.mass = share.mass;
+    ground_.put(ix, iy, layer);
+  }
+}
+
+void Depositor::book(const Plan& plan, int block) {
+  const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
+  const PlanGrid& grid = index_.grid();
+  const std::array<std::int64_t, 16> weight = weights(plan, block);
+  const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  std::int64_t sum = 0;
+  for (const std::int64_t w : weight) sum += w;
+
+  std::vector<std::uint32_t> pooled;
+  for (std::size_t c = 0; c < 16; ++c) {
+    const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
+    const Grains grains = index_.column(ix, iy);
+    if (plan.cliff[c])
+      book_column(ix, iy);
+    else
+      pooled.insert(pooled.end(), grains.begin(), grains.end());
+  }
+  const std::vector<Share> found = shares(pooled);
+  const double rise = crowding(found, plan);
+  for (const Share& share : found) {
+    heightfield::Layer layer = layer_of(share, rise);
+    std::array<std::int64_t, 16> part{};
+    std::int64_t left = share.mass;
+    for (std::size_t c = 0; c < 16; ++c) {
+      __extension__ using Wide = __int128;
+      part[c] = static_cast<std::int64_t>(static_cast<Wide>(share.mass) * weight[c] / sum);
+      left -= part[c];
+    }
+    part[largest] += left;
+    for (std::size_t c = 0; c < 16; ++c) {
+      layer.mass = part[c];
+      const int place = static_cast<int>(c);
+      if (layer.mass > 0) ground_.put(grid.column_x(key, place), grid.column_y(key, place), layer);
+    }
+  }
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/exchange/exchange.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "core/log.h"
+#include "soil/exchange/deposit.h"
+#include "soil/exchange/exchange_index.h"
+#include "soil/exchange/slump.h"
+#include "soil/exchange/wake.h"
+#include "soil/exchange/wake_rules.h"
+
+namespace navvy::soil {
+namespace {
+
+/// Deposited columns are left alone by the motion rule for this long [s], so that waking and booking back do
+/// not chase each other. tuned: ExchangeCycle tests
+constexpr double kRestAfterDeposit = 1.0;
+/// Tiles of changed ground looked at per check; the others wait, so that one check stays cheap. tuned: 48 tiles of flat
+/// ground cost about a millisecond.
+constexpr std::size_t kTilesPerCheck = 48;
+constexpr std::uint32_t kStateVersion = 1;
+
+// Squared distance in plan from a column to a tool's box [columns^2].
+double distance_to(const heightfield::CellRect& box, int ix, int iy) {
+  const double dx = std::max({box.x0 - ix, ix - (box.x1 - 1), 0}), dy = std::max({box.y0 - iy, iy - (box.y1 - 1), 0});
+  return dx * dx + dy * dy;
+}
+
+PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan::kTile}; }
+
+}  // namespace
+
+struct Exchange::State {
+  State(const scene::World& world, heightfield::Ground& ground_in)
+      : ground(ground_in),
+        grid(plan_grid(world, ground_in)),
+        waker(ground_in, grid, -world.gravity.z()),
+        table(ground_in.setup().soils, ground_in.cell(), -world.gravity.z()),
+        standing(grid),
+        scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
+        slump(ground_in, table),
+        max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
+        seen(ground_in.sequence()) {}
+
+  bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
+  std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
+  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
+  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
+  void fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan);
+  void wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result);
+  void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
+               Result& result);
+  int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
+
+  heightfield::Ground& ground;
+  PlanGrid grid;
+  Waker waker;
+  SlumpTable table;
+  StandingHeights standing;
+  SlumpScan scan;
+  Slump slump;
+  std::size_t max_particles;
+
+  // What lasts from check to check.
+  std::uint64_t seen;                   // ground sequence up to which changes were noticed
+  std::set<PlanKey> pending;            // changed tiles not looked at yet
+  PlanKey next_pending{0, 0};           // where the walk through them goes on
+  RestTimes rest;                       // [s] per block
+  std::map<PlanKey, double> deposited;  // time [s] of the last deposit, per block
+  bool over_budget = false;
+};
+
+Exchange::Exchange(const scene::World& world, heightfield::Ground& ground)
+    : state_(std::make_unique<State>(world, ground)) {}
+Exchange::~Exchange() = default;
+
+bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const {
+  const auto found = deposited.find(grid.block_of(ix, iy));
+  if (found == deposited.end() || time - found->second >= kRestAfterDeposit) return false;
+  return std::none_of(zones.begin(), zones.end(), [&](const ToolZone& tool) { return tool.touches(ix, iy); });
+}
+
+// Tiles whose slopes may have changed: those with particles, and changed ones as far as one check can carry.
+std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones) {
+  const auto insert_tiles = [&](const heightfield::CellRect& rect) {
+    if (rect.empty()) return;
+    const PlanKey first = tile_of(rect.x0, rect.y0), last = tile_of(rect.x1 - 1, rect.y1 - 1);
+    for (int ty = first.first; ty <= last.first; ++ty)
+      for (int tx = first.second; tx <= last.second; ++tx) pending.insert({ty, tx});
+  };
+  insert_tiles(ground.changed_since(seen));
+  seen = ground.sequence();
+  std::set<PlanKey> out;
+  for (const PlanKey& block : index.blocks()) {
+    for (const int c : {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
+      const int ix = grid.column_x(block, c), iy = grid.column_y(block, c);
+      if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
+    }
+  }
+  for (const PlanKey& tile : out) pending.erase(tile);
+  for (std::size_t n = 0; n < kTilesPerCheck && !pending.empty(); ++n) {
+    auto next = pending.lower_bound(next_pending);
+    if (next == pending.end()) next = pending.begin();
+    next_pending = *next;
+    out.insert(*next);
+    pending.erase(next);
+  }
+  // What a tool holds back now is looked at again when it has left.
+  for (const ToolZone& tool : zones)
+    if (tool.engaged) insert_tiles(tool.near);
+  return out;
+}
+
+// Rule C: over-steep columns wake where soil is awake or a tool works, and slide as columns elsewhere.
+void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan) {
+  std::vector<OverSteep> found;
+  for (const PlanKey& tile : tiles_to_scan(index, zones)) scan.scan(tile.second, tile.first, index, zones, found);
+  for (const OverSteep& slope : found) plan_slope(slope, index, zones, plan);
+}
+
+void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
+                                 WakePlan& plan) {
+  bool near = false;
+  for (int l = 0; l <= found.steps; ++l) {
+    const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
+    const PlanKey block = grid.block_of(ix, iy);
+    for (int by = -1; by <= 1; ++by)
+      for (int bx = -1; bx <= 1; ++bx) near = near || index.find({block.first + by, block.second + bx}) >= 0;
+    for (const ToolZone& tool : zones) near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
+  }
+  if (!near || over_budget) {
+    slump.fail(found);
+    return;
+  }
+  const double bottom = std::floor(found.low) - 1;
+  for (int l = 0; l < found.steps; ++l) {
+    const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
+    if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low) plan_wake(plan, ix, iy, bottom);
+  }
+}
+
+// Drops the requests farthest from tools until the particles to come fit the budget.
+void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan) {
+  const auto bound = [&](const WakePlan::value_type& entry) {
+    const double bottom = ground.datum() + entry.second * ground.cell();
+    return static_cast<std::size_t>(
+        waker.particle_bound(ground.height(entry.first.second, entry.first.first) - bottom));
+  };
+  std::size_t sum = awake;
+  for (const auto& entry : plan) sum += bound(entry);
+  if (sum <= max_particles) {
+    over_budget = false;
+    return;
+  }
+  struct Ranked {
+    double distance;
+    PlanKey column;
+  };
+  std::vector<Ranked> ranked;
+  for (const auto& entry : plan) {
+    double nearest = 0;
+    for (std::size_t t = 0; t < zones.size(); ++t) {
+      const double d = distance_to(zones[t].box, entry.first.second, entry.first.first);
+      nearest = t == 0 ? d : std::min(nearest, d);
+    }
+    ranked.push_back({nearest, entry.first});
+  }
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.column < b.column;
+  });
+  const std::size_t wanted = plan.size();
+  while (!ranked.empty() && sum > max_particles) {
+    const auto entry = plan.find(ranked.back().column);
+    sum -= bound(*entry);
+    plan.erase(entry);
+    ranked.pop_back();
+  }
+  if (!over_budget)
+    log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " + std::to_string(wanted) +
+                " to " + std::to_string(plan.size()) + " columns, or there would be more than " +
+                std::to_string(max_particles) + " particles");
+  over_budget = true;
+}
+
+void Exchange::State::wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result) {
+  for (const auto& [column, bottom] : plan) {
+    const std::size_t before = result.born.size();
+    waker.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
+               kilograms(index.pile(column.second, column.first).mass), result.born);
+    result.woken_columns += result.born.size() > before ? 1 : 0;
+  }
+}
+
+void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
+                              double time, Result& result) {
+  // New particles lie between the ground and those at rest in blocks that have just woken, or beside them.
+  for (const auto& [column, bottom] : plan)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) rest.erase(grid.block_of(column.second + dx, column.first + dy));
+  std::vector<int> ready;
+  for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
+    if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
+  std::set<PlanKey> done;
+  for (const int b : Depositor(ground, index).deposit(ready, rest)) {
+    const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
+    for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
+    rest.erase(key);
+    deposited[key] = time;
+    done.insert(key);
+    ++result.deposited_blocks;
+  }
+  standing.remember(ground, index, done);
+  std::erase_if(deposited, [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
+}
+
+int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
+                               double elapsed) {
+  const auto blocked = [&](int ix, int iy) {
+    if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
+    const double top = (ground.height(ix, iy) - ground.datum()) / ground.cell();
+    return std::any_of(zones.begin(), zones.end(),
+                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && tool.low < top; });
+  };
+  return slump.run(elapsed, blocked);
+}
+
+Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
+                                 double elapsed) {
+  State& s = *state_;
+  Result result;
+  result.removed.assign(particles.size(), 0);
+  const ColumnIndex index(particles, s.ground, s.grid);
+  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools);
+
+  WakePlan plan;
+  wake_ahead_of_tools(s.ground, zones, plan);
+  wake_around_motion(
+      s.ground, index, motion_threshold(zones), zones,
+      [&](int ix, int iy) { return !s.rests_since_deposit(ix, iy, zones, time); }, plan);
+  s.plan_slopes(index, zones, plan);
+  s.fit_budget(zones, particles.size(), time, plan);
+
+  update_rest(index, elapsed, s.rest);
+  s.deposit(index, zones, plan, time, result);
+  s.wake_planned(index, plan, result);
+  result.slumped_columns = s.run_slump(index, zones, plan, elapsed);
+  return result;
+}
+
+std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z_bottom,
+                                     std::span<const Particle> resting) {
+  State& s = *state_;
+  std::vector<Particle> born;
+  const ColumnIndex index(resting, s.ground, s.grid);
+  for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
+    for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
+      s.waker.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
+  return born;
+}
+
+void Exchange::hash(StateHash& hash) const {
+  const State& s = *state_;
+  const auto times = [&](const std::map<PlanKey, double>& map) {
+    hash.value(map.size());
+    for (const auto& [key, time] : map) {
+      hash.value(key.first);
+      hash.value(key.second);
+      hash.value(time);
+    }
+  };
+  times(s.rest);
+  times(s.deposited);
+  hash.value(s.pending.size());
+  for (const PlanKey& key : s.pending) {
+    hash.value(key.first);
+    hash.value(key.second);
+  }
+  hash.value(s.next_pending.first);
+  hash.value(s.next_pending.second);
+  hash.value(s.seen);
+  hash.value(s.over_budget);
+  s.standing.hash(hash);
+  s.slump.hash(hash);
+}
+
+void Exchange::save(StateWriter& writer) const {
+  const State& s = *state_;
+  const auto times = [&](const std::map<PlanKey, double>& map) {
+    writer.value(static_cast<std::uint64_t>(map.size()));
+    for (const auto& [key, time] : map) {
+      writer.value(key.first);
+      writer.value(key.second);
+      writer.value(time);
+    }
+  };
+  writer.begin("soil-exchange", kStateVersion);
+  times(s.rest);
+  times(s.deposited);
+  writer.value(static_cast<std::uint64_t>(s.pending.size()));
+  for (const PlanKey& key : s.pending) {
+    writer.value(key.first);
+    writer.value(key.second);
+  }
+  writer.value(s.next_pending.first);
+  writer.value(s.next_pending.second);
+  writer.value(s.seen);
+  writer.value(static_cast<std::uint8_t>(s.over_budget));
+  s.standing.save(writer);
+  s.slump.save(writer);
+  writer.end();
+}
+
+void Exchange::load(StateReader& reader) {
+  State& s = *state_;
+  const auto key = [&] {
+    const int y = reader.value<int>(), x = reader.value<int>();
+    return PlanKey{y, x};
+  };
+  const auto times = [&](std::map<PlanKey, double>& map) {
+    map.clear();
+    for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
+      const PlanKey block = key();
+      map[block] = reader.value<double>();
+    }
+  };
+  reader.begin("soil-exchange", kStateVersion);
+  times(s.rest);
+  times(s.deposited);
+  s.pending.clear();
+  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) s.pending.insert(key());
+  s.next_pending = key();
+  s.seen = reader.value<std::uint64_t>();
+  s.over_budget = reader.value<std::uint8_t>() != 0;
+  s.standing.load(reader);
+  s.slump.load(reader);
+  reader.end();
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/exchange/slump.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::soil {
+namespace {
+
+/// Sweeps per simulated second: a 1 m cliff needs about 90 [evidence, section 5] and real soil about a second.
+constexpr double kSweepRate = 100;
+/// Drops are evened out to this [m] [evidence, section 5].
+constexpr double kEnough = 0.001;
+/// Sweeps without motion after which a column rests again. tuned: ExchangeSlump.ACliffOfSandStopsNearItsFrictionAngle.
+constexpr int kMostStill = 8;
+/// Plastic shear of fallen soil, in remoulding strains: a hundredth of the bond is left.
+constexpr float kRemoulded = 9;
+
+}  // namespace
+
+void Slump::fail(const OverSteep& found) {
+  const double base = found.low * ground_.cell() + ground_.datum();
+  for (int l = 0; l < found.steps; ++l) {
+    const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
+    if (ground_.height(ix, iy) <= base + kEnough) continue;
+    const auto [place, is_new] = sliding_.emplace(PlanKey{iy, ix}, Sliding{base, 0});
+    if (!is_new && place->second.base > base) place->second = {base, 0};
+  }
+}
+
+int Slump::due(double elapsed) {
+  if (idle()) debt_ = 0;
+  debt_ += elapsed * kSweepRate;
+  const double whole = std::floor(debt_);
+  debt_ -= whole;
+  return static_cast<int>(whole);
+}
+
+bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
+  const double ha = ground_.height(a.second, a.first), hb = ground_.height(b.second, b.first);
+  const PlanKey& high = ha >= hb ? a : b;
+  const PlanKey& low = ha >= hb ? b : a;
+  const double top = std::max(ha, hb), drop = std::abs(ha - hb);
+  const auto found = sliding_.find(high);
+  if (found == sliding_.end()) return false;
+  const double stop = table_.stop(ground_.surface_soil(high.second, high.first));
+  if (drop <= stop + kEnough) return false;
+
+  // Loosening on the way, soil raises the low column by more than it lowers the high one.
+  const auto& soils = ground_.setup().soils;
+  const auto loose = [&](const heightfield::Layer& layer) {
+    return std::max(layer.specific_volume, static_cast<float>(soils[layer.soil].swell));
+  };
+  ground_.column(high.second, high.first, taken_);
+  if (taken_.empty()) return false;
+  const double ratio = static_cast<double>(loose(taken_.back())) / static_cast<double>(taken_.back().specific_volume);
+  const double depth = std::min((drop - stop) / (1 + ratio), top - found->second.base);
+  if (depth < 0.5 * kEnough) return false;
+
+  taken_.clear();
+  ground_.take_above(high.second, high.first, top - depth, taken_);
+  for (heightfield::Layer& layer : taken_) {
+    layer.specific_volume = loose(layer);
+    layer.plastic_shear =
+        std::max(layer.plastic_shear, kRemoulded * static_cast<float>(soils[layer.soil].remoulding_strain));
+    ground_.put(low.second, low.first, layer);
+  }
+  found->second.still = 0;
+  // Only what fell onto a resting column slides on.
+  sliding_.emplace(low, Sliding{std::min(ha, hb), 0}).first->second.still = 0;
+  return true;
+}
+
+void Slump::forget_still() {
+  std::erase_if(sliding_, [](const auto& entry) { return entry.second.still >= kMostStill; });
+}
+
+void Slump::hash(StateHash& hash) const {
+  hash.value(debt_);
+  for (const auto& [key, sliding] : sliding_) {
+    hash.value(key.first);
+    hash.value(key.second);
+    hash.value(sliding.base);
+    hash.value(sliding.still);
+  }
+}
+
+void Slump::save(StateWriter& writer) const {
+  writer.value(debt_);
+  writer.value(static_cast<std::uint64_t>(sliding_.size()));
+  for (const auto& [key, sliding] : sliding_) {
+    writer.value(key.first);
+    writer.value(key.second);
+    writer.value(sliding.base);
+    writer.value(sliding.still);
+  }
+}
+
+void Slump::load(StateReader& reader) {
+  sliding_.clear();
+  debt_ = reader.value<double>();
+  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
+    const int iy = reader.value<int>(), ix = reader.value<int>();
+    Sliding sliding;
+    sliding.base = reader.value<double>();
+    sliding.still = reader.value<std::int32_t>();
+    sliding_.emplace(PlanKey{iy, ix}, sliding);
+  }
+}
+
+}  // namespace navvy::soil

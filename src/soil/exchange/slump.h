@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets over-steep resting columns slide without particles: exact exchange between neighbours.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "soil/exchange/slump_scan.h"
+
+namespace navvy::soil {
+
+/// Columns that slide, and the sweeps that move them.
+///
+/// A column that failed slides down to the height of what it failed over; what it sheds lies loose and remoulded on its
+/// neighbours and slides on. Pairs of neighbours exchange soil in four colours, in integers, until no pair that slides
+/// is steeper than phi - 1 deg [evidence/columns-and-particles, 5]. Sweeps follow simulated time, so that nothing
+/// jumps. Costs the sliding columns only.
+class Slump {
+ public:
+  Slump(heightfield::Ground& ground, const SlumpTable& table) : ground_(ground), table_(table) {}
+
+  /// Lets the columns from the high to the low one slide.
+  void fail(const OverSteep& found);
+  /// Runs the sweeps of `elapsed` seconds. `blocked` answers for a column whether it must stay as it is now. Returns
+  /// the number of columns that changed.
+  template <class Blocked>
+  int run(double elapsed, const Blocked& blocked);
+
+  bool idle() const { return sliding_.empty(); }
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  struct Sliding {
+    double base = 0;         ///< soil above this W height slides [m]
+    std::int32_t still = 0;  ///< sweeps since it last moved
+  };
+  /// Whole sweeps that are due.
+  int due(double elapsed);
+  /// Soil from the higher of two neighbours to the lower; false when nothing had to move.
+  bool exchange(const PlanKey& a, const PlanKey& b);
+  void forget_still();
+
+  heightfield::Ground& ground_;
+  const SlumpTable& table_;
+  std::map<PlanKey, Sliding> sliding_;
+  double debt_ = 0;  ///< share of a sweep carried to the next check
+  std::vector<heightfield::Layer> taken_;
+};
+
+template <class Blocked>
+int Slump::run(double elapsed, const Blocked& blocked) {
+  std::set<PlanKey> changed;
+  for (int sweeps = due(elapsed); sweeps > 0 && !idle(); --sweeps) {
+    std::vector<PlanKey> keys;
+    for (const auto& [key, sliding] : sliding_) keys.push_back(key);
+    for (auto& [key, sliding] : sliding_) ++sliding.still;
+    // Colours: pairs along x that start on even, odd columns, then along y.
+    for (int colour = 0; colour < 4; ++colour) {
+      const int step_x = colour < 2 ? 1 : 0, step_y = 1 - step_x;
+      for (const PlanKey& key : keys) {
+        const int along = step_x != 0 ? key.second : key.first;
+        PlanKey a = key;
+        if ((along & 1) != (colour & 1)) {
+          a = {key.first - step_y, key.second - step_x};
+          if (sliding_.count(a) != 0) continue;  // that one brings the pair
+        }
+        const PlanKey b{a.first + step_y, a.second + step_x};
+        if (!ground_.contains(a.second, a.first) || !ground_.contains(b.second, b.first)) continue;
+        if (blocked(a.second, a.first) || blocked(b.second, b.first)) continue;
+        if (!exchange(a, b)) continue;
+        changed.insert(a);
+        changed.insert(b);
+      }
+    }
+    forget_still();
+  }
+  return static_cast<int>(changed.size());
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/exchange/slump_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::soil {
+namespace {
+
+/// A drop must have grown by this since the start to count on ground that holds [cells]. tuned: above the mass
+/// quantum's and the float heights' rounding, below the shallowest rut that matters.
+constexpr double kGrown = 0.01;
+/// The same where the low side is awake: where its highest particle lies jumps by half a cell.
+constexpr double kGrownAwake = 0.5;
+constexpr int kDirections[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+
+}  // namespace
+
+void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIndex& index,
+                               const std::set<PlanKey>& deposited) {
+  std::set<PlanKey> seen;
+  for (const PlanKey& block : deposited)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) seen.insert({block.first + dy, block.second + dx});
+  for (const PlanKey& key : seen) {
+    auto& block = blocks_[key];
+    const bool awake = deposited.count(key) == 0;
+    for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+      const int ix = grid_.column_x(key, c), iy = grid_.column_y(key, c);
+      const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
+      block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (awake ? index.pile_height(ix, iy) : 0.0));
+    }
+  }
+}
+
+bool StandingHeights::find(int ix, int iy, double& height) const {
+  const auto found = blocks_.find(grid_.block_of(ix, iy));
+  if (found == blocks_.end()) return false;
+  height = static_cast<double>(found->second[static_cast<std::size_t>(grid_.place(ix, iy))]);
+  return true;
+}
+
+void StandingHeights::hash(StateHash& hash) const {
+  for (const auto& [key, heights] : blocks_) {
+    hash.value(key.first);
+    hash.value(key.second);
+    hash.bytes(heights.data(), sizeof heights);
+  }
+}
+
+void StandingHeights::save(StateWriter& writer) const {
+  writer.value(static_cast<std::uint64_t>(blocks_.size()));
+  for (const auto& [key, heights] : blocks_) {
+    writer.value(key.first);
+    writer.value(key.second);
+    writer.value(heights);
+  }
+}
+
+void StandingHeights::load(StateReader& reader) {
+  blocks_.clear();
+  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
+    const int y = reader.value<int>(), x = reader.value<int>();
+    blocks_[{y, x}] = reader.value<std::array<float, kBlockCells * kBlockCells>>();
+  }
+}
+
+bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const {
+  double high = 0, low = 0;
+  const bool high_known = standing_.find(ix, iy, high), low_known = standing_.find(lx, ly, low);
+  if (!hold_ && !(high_known && low_known)) return false;
+  if (!high_known) high = (ground_.start_height(ix, iy) - ground_.datum()) / ground_.cell();
+  if (!low_known) low = (ground_.start_height(lx, ly) - ground_.datum()) / ground_.cell();
+  const bool awake = top_[at(lx, ly)] > rest_[at(lx, ly)];
+  return drop <= high - low + (awake ? kGrownAwake : kGrown);
+}
+
+void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
+  x0_ = tx * kTile - SlumpTable::kReach;
+  y0_ = ty * kTile - SlumpTable::kReach;
+  ground_.copy_heights({x0_, y0_, x0_ + kSide, y0_ + kSide}, rest_);
+  for (float& h : rest_) h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
+  top_ = rest_;
+  const PlanGrid& grid = index.grid();
+  const PlanKey first = grid.block_of(x0_, y0_), last = grid.block_of(x0_ + kSide - 1, y0_ + kSide - 1);
+  for (int by = first.first; by <= last.first; ++by)
+    for (int bx = first.second; bx <= last.second; ++bx) {
+      if (index.find({by, bx}) < 0) continue;
+      for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+        const int ix = grid.column_x({by, bx}, c), iy = grid.column_y({by, bx}, c);
+        if (ix < x0_ || ix >= x0_ + kSide || iy < y0_ || iy >= y0_ + kSide) continue;
+        top_[at(ix, iy)] += static_cast<float>(index.pile_height(ix, iy));
+      }
+    }
+}
+
+bool SlumpScan::held_by_tool(const OverSteep& found, std::span<const ToolZone> zones, double high) const {
+  for (const ToolZone& tool : zones) {
+    if (tool.low >= high || tool.high <= found.low) continue;
+    for (int l = 0; l <= found.steps; ++l)
+      if (tool.touches(found.ix + l * found.dx, found.iy + l * found.dy)) return true;
+  }
+  return false;
+}
+
+// Whether the resting column (ix, iy) stands too high above the one `steps` away.
+bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
+                     std::vector<OverSteep>& out) {
+  const int lx = ix + dx * steps, ly = iy + dy * steps;
+  const bool diagonal = dx != 0 && dy != 0;
+  const double high = static_cast<double>(rest_[at(ix, iy)]), low = static_cast<double>(top_[at(lx, ly)]);
+  if (high - low <= limit_[diagonal][steps]) return false;
+  if (!ground_.contains(ix, iy) || !ground_.contains(lx, ly)) return false;
+  const double cell = ground_.cell();
+  if (stood_before(ix, iy, lx, ly, high - low)) return false;
+  ground_.column(ix, iy, layers_);
+  if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal)) return false;
+  const OverSteep found{ix, iy, dx, dy, steps, low};
+  if (held_by_tool(found, zones, high)) return false;
+  out.push_back(found);
+  return true;
+}
+
+void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
+                     std::vector<OverSteep>& out) {
+  read_window(tx, ty, index);
+  const auto [least, unused] = std::minmax_element(top_.begin(), top_.end());
+  const double range = static_cast<double>(*std::max_element(rest_.begin(), rest_.end()) - *least);
+  int reach = 0;
+  for (int l = 1; l <= SlumpTable::kReach; ++l)
+    for (const bool diagonal : {false, true}) {
+      limit_[diagonal][l] = table_.weakest(l, diagonal) / ground_.cell();
+      if (range > limit_[diagonal][l]) reach = l;
+    }
+  if (reach == 0) return;
+
+  const int tile_x = tx * kTile, tile_y = ty * kTile;
+  const auto inside = [&](int ix, int iy) {
+    return ix >= tile_x && ix < tile_x + kTile && iy >= tile_y && iy < tile_y + kTile;
+  };
+  for (int iy = tile_y; iy < tile_y + kTile; ++iy)
+    for (int ix = tile_x; ix < tile_x + kTile; ++ix)
+      for (const auto& direction : kDirections) {
+        const int dx = direction[0], dy = direction[1];
+        for (int l = 1; l <= reach; ++l)
+          if (look(ix, iy, dx, dy, l, zones, out)) break;
+        // From outside, this column being the low one.
+        for (int l = 1; l <= reach; ++l)
+          if (!inside(ix - l * dx, iy - l * dy) && look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out)) break;
+      }
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which columns must wake because of a tool (rule A) or because soil moves beside them (rule B).
+// [evidence/columns-and-particles, sections 1, 2 and 7]
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "soil/exchange/exchange.h"
+#include "soil/exchange/exchange_index.h"
+
+namespace navvy::soil {
+
+/// A tool as columns see it. Rectangles lie inside the site and may be empty.
+struct ToolZone {
+  heightfield::CellRect box;   ///< columns under the tool's box
+  heightfield::CellRect near;  ///< and those within kToolGuard of it
+  heightfield::CellRect zone;  ///< columns to wake: two dig depths ahead, one to the sides
+  double low = 0, high = 0;    ///< of the box [cells above datum]
+  double speed = 0;            ///< [m/s]
+  bool engaged = false;        ///< some column of the zone, with the soil on it, reaches up to it
+
+  bool touches(int ix, int iy) const { return contains(box, ix, iy); }
+  static bool contains(const heightfield::CellRect& r, int ix, int iy) {
+    return ix >= r.x0 && ix < r.x1 && iy >= r.y0 && iy < r.y1;
+  }
+};
+
+/// Height [cells above datum] each column shall wake down to.
+using WakePlan = std::map<PlanKey, double>;
+
+/// Where every tool is. Costs the columns of the zones.
+std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const ColumnIndex& index,
+                                 std::span<const ToolRegion> tools);
+
+/// Rule A: columns of the zone that reach within a cell of the tool's lowest point wake to one or two cells below it.
+void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const ToolZone> zones, WakePlan& plan);
+
+/// Speed above which soil counts as moving: 5 % of the slowest working tool's [m/s].
+double motion_threshold(std::span<const ToolZone> zones);
+
+/// Rule B: a particle faster than `threshold` wakes the 3 x 3 columns around it that reach up to its cell. `may_wake`
+/// answers for a column whether this rule applies to it now. In a working tool's zone it goes three cells below the
+/// tool and no deeper.
+template <class MayWake>
+void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
+                        std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan);
+
+void plan_wake(WakePlan& plan, int ix, int iy, double bottom);
+
+// ---- implementation of the template
+
+/// Lowest cell that holds a moving particle of the column; false when there is none.
+bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> column, double threshold, int& cell);
+/// Height the column must wake to because soil moves in `cell` next to it; false when it need not.
+bool wakes_beside(const heightfield::Ground& ground, std::span<const ToolZone> zones, int ix, int iy, int cell,
+                  double& bottom);
+
+template <class MayWake>
+void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
+                        std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan) {
+  for (const PlanKey& block : index.blocks())
+    for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
+      const int ix = index.grid().column_x(block, c), iy = index.grid().column_y(block, c);
+      int cell = 0;
+      if (!lowest_motion(index, index.column(ix, iy), threshold, cell)) continue;
+      for (int y = iy - 1; y <= iy + 1; ++y)
+        for (int x = ix - 1; x <= ix + 1; ++x) {
+          double bottom = 0;
+          if (ground.contains(x, y) && wakes_beside(ground, zones, x, y, cell, bottom) && may_wake(x, y))
+            plan_wake(plan, x, y, bottom);
+        }
+    }
+}
+
+}  // namespace navvy::soil

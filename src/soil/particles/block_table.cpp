@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/block_table.h"
+
+#include <algorithm>
+
+namespace navvy::soil {
+namespace {
+
+std::size_t scatter_bits(const BlockKey& key) {
+  std::uint64_t h = static_cast<std::uint32_t>(key.x) * 0x9e3779b97f4a7c15ULL;
+  h ^= static_cast<std::uint32_t>(key.y) * 0xc2b2ae3d27d4eb4fULL;
+  h ^= static_cast<std::uint32_t>(key.z) * 0x165667b19e3779f9ULL;
+  return static_cast<std::size_t>(h ^ (h >> 29));
+}
+
+}  // namespace
+
+void BlockIndex::build(const std::vector<BlockKey>& keys) {
+  keys_ = keys;
+  std::size_t size = 16;
+  while (size < 3 * keys.size()) size *= 2;
+  mask_ = size - 1;
+  slots_.assign(size, -1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::size_t at = scatter_bits(keys[i]) & mask_;
+    while (slots_[at] >= 0) at = (at + 1) & mask_;
+    slots_[at] = static_cast<int>(i);
+  }
+}
+
+int BlockIndex::find(const BlockKey& key) const {
+  if (slots_.empty()) return -1;
+  for (std::size_t at = scatter_bits(key) & mask_; slots_[at] >= 0; at = (at + 1) & mask_)
+    if (keys_[static_cast<std::size_t>(slots_[at])] == key) return slots_[at];
+  return -1;
+}
+
+void BlockTable::build(std::vector<BlockKey> sorted_homes) {
+  homes = std::move(sorted_homes);
+  home_index.build(homes);
+  active.clear();
+  active.reserve(homes.size() * 4);
+  for (const BlockKey& home : homes)
+    for (int n = 0; n < 27; ++n) active.push_back(home + neighbour_offset(n));
+  std::sort(active.begin(), active.end());
+  active.erase(std::unique(active.begin(), active.end()), active.end());
+  active_index.build(active);
+
+  neighbours.resize(27 * homes.size());
+  for (std::size_t h = 0; h < homes.size(); ++h)
+    for (int n = 0; n < 27; ++n)
+      neighbours[27 * h + static_cast<std::size_t>(n)] = active_index.find(homes[h] + neighbour_offset(n));
+  // Neighbour n of a home sees that home as its neighbour 26 - n.
+  around.assign(27 * active.size(), -1);
+  for (std::size_t h = 0; h < homes.size(); ++h)
+    for (std::size_t n = 0; n < 27; ++n)
+      around[27 * static_cast<std::size_t>(neighbours[27 * h + n]) + 26 - n] = static_cast<int>(h);
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which nodes resting ground holds: nodes at or below the highest of the four columns around them plus a quarter cell.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "heightfield/ground.h"
+#include "soil/layout.h"
+#include "soil/particles/block_table.h"
+#include "soil/particles/plan_grid.h"
+
+namespace navvy::soil {
+
+/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
+inline constexpr double kHeldMargin = 0.25;
+
+/// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
+class Floor {
+ public:
+  Floor(const heightfield::Ground& ground, PlanGrid grid) : ground_(&ground), grid_(grid) {}
+
+  /// Brings the list up to date for these active blocks; true when it changed since the last call.
+  bool update(const std::vector<BlockKey>& active, bool blocks_changed);
+  /// FLOOR_WORDS per active block: see kernels/soil/layout.h.
+  const std::vector<float>& heights() const { return heights_; }
+
+ private:
+  /// One block's words with heights from the datum.
+  using Patch = std::array<float, FLOOR_WORDS>;
+  Patch make_patch(int bx, int by) const;
+
+  const heightfield::Ground* ground_;
+  PlanGrid grid_;
+  std::map<std::pair<int, int>, Patch> patches_;
+  std::uint64_t sequence_ = 0;
+  bool first_ = true;
+  std::vector<float> heights_;
+};
+
+}  // namespace navvy::soil

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/mass_count.h"
+
+#include <utility>
+
+#include "soil/particles/schedule.h"
+#include "soil/particles/transfer.h"
+
+namespace navvy::soil {
+
+MassCount::MassCount(device::Device& device, std::size_t soils)
+    : device_(device),
+      soils_(soils),
+      program_(device, kernel_path(device, "mass_count")),
+      kernel_(program_, "mass_count") {}
+
+void MassCount::queue(ParticleStore& store) {
+  sums_.reset();
+  ensure(device_, masses_, store.homes().size() * soils_);
+  kernel_.args(store.state(), store.capacity(), store.homes_buffer(), masses_, static_cast<int>(soils_))
+      .enqueue_groups(store.homes().size());
+  sums_.emplace(masses_.map_read_later(0, store.homes().size() * soils_));
+}
+
+std::vector<std::int64_t> MassCount::take() {
+  std::vector<std::int64_t> out(soils_, 0);
+  if (!sums_) return out;
+  const device::Mapped<const std::int64_t> sums = std::move(*sums_);
+  sums_.reset();
+  for (std::size_t i = 0; i < sums.size(); ++i) out[i % soils_] += sums[i];
+  return out;
+}
+
+}  // namespace navvy::soil

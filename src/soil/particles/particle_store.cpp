@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/particle_store.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "soil/layout.h"
+#include "soil/particles/schedule.h"
+
+namespace navvy::soil {
+namespace {
+
+int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
+
+/// Moves a particle's block to that of its base node floor(x - 0.5).
+void find_home(Particle& p) {
+  for (int a = 0; a < 3; ++a) {
+    const int base = static_cast<int>(std::floor(p.x[a] - 0.5f));
+    const int d = base >= 0 ? base / kBlockCells : -((-base + kBlockCells - 1) / kBlockCells);
+    p.block[a] += d;
+    p.x[a] -= static_cast<float>(kBlockCells * d);
+  }
+}
+
+BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}; }
+
+/// Cell of the base node inside its home, x fastest.
+int cell_of(const Particle& p) {
+  int cell = 0;
+  for (int a = 2; a >= 0; --a) cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
+  return cell;
+}
+
+void put_record(const Particle& p, float* state, std::size_t capacity, std::size_t slot) {
+  float* at = state + slot;
+  for (std::size_t a = 0; a < 3; ++a) at[(FIELD_X + a) * capacity] = p.x[a];
+  for (std::size_t a = 0; a < 3; ++a) at[(FIELD_V + a) * capacity] = p.v[a];
+  for (std::size_t a = 0; a < 9; ++a) at[(FIELD_C + a) * capacity] = p.c[a];
+  for (std::size_t a = 0; a < 6; ++a) at[(FIELD_S + a) * capacity] = p.s[a];
+  at[FIELD_J * capacity] = p.j;
+  at[FIELD_J0 * capacity] = p.j0;
+  at[FIELD_SHEAR * capacity] = p.shear;
+  at[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
+  at[FIELD_TAG * capacity] =
+      std::bit_cast<float>(static_cast<std::int32_t>(p.soil) | static_cast<std::int32_t>(p.side) << 16);
+  at[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
+}
+
+Particle get_record(const float* state, std::size_t capacity, std::size_t slot) {
+  const float* at = state + slot;
+  Particle p;
+  for (std::size_t a = 0; a < 3; ++a) p.x[a] = at[(FIELD_X + a) * capacity];
+  for (std::size_t a = 0; a < 3; ++a) p.v[a] = at[(FIELD_V + a) * capacity];
+  for (std::size_t a = 0; a < 9; ++a) p.c[a] = at[(FIELD_C + a) * capacity];
+  for (std::size_t a = 0; a < 6; ++a) p.s[a] = at[(FIELD_S + a) * capacity];
+  p.j = at[FIELD_J * capacity];
+  p.j0 = at[FIELD_J0 * capacity];
+  p.shear = at[FIELD_SHEAR * capacity];
+  p.mass = std::bit_cast<std::int32_t>(at[FIELD_MASS * capacity]);
+  const auto tag = std::bit_cast<std::uint32_t>(at[FIELD_TAG * capacity]);
+  p.soil = static_cast<std::uint16_t>(tag & 0xffff);
+  p.side = static_cast<std::uint16_t>(tag >> 16);
+  p.id = std::bit_cast<std::uint32_t>(at[FIELD_ID * capacity]);
+  return p;
+}
+
+int slots_of(const std::vector<int>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
+}
+
+/// What a lane without a particle holds: inside its tile, no mass, no stress.
+Particle empty_lane() {
+  Particle p;
+  p.x[0] = p.x[1] = p.x[2] = 2.0f;
+  return p;
+}
+
+template <class T>
+void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
+  if (buffer.empty()) {
+    buffer = device::Buffer<T>(device, std::max<std::size_t>(size, 1));
+  } else if (buffer.size() < size) {
+    buffer.resize(size + size / 2);
+  }
+}
+
+}  // namespace
+
+ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
+                             const std::vector<float>& soils)
+    : device_(device),
+      site_(site),
+      program_(device, kernel_path(device, "rebin")),
+      count_kernel_(program_, "rebin_count"),
+      gather_kernel_(program_, "rebin_gather"),
+      move_kernel_(program_, "rebin_move"),
+      soils_(device, soils),
+      soils_host_(soils) {
+  assign({});
+}
+
+int ParticleStore::lay_out(const std::vector<int>& counts) {
+  homes_.assign(table_.homes.size(), Home{});
+  int slot = 0;
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    homes_[h].start = slot;
+    homes_[h].count = counts[h];
+    homes_[h].tile = static_cast<int>(h);
+    slot += padded(counts[h]);
+  }
+  count_ = std::accumulate(counts.begin(), counts.end(), 0);
+  return slot;
+}
+
+void ParticleStore::upload_homes() {
+  fit(device_, homes_buffer_, homes_.size());
+  homes_buffer_.write(homes_);
+  std::vector<std::array<std::int32_t, 4>> keys(homes_.size());
+  for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z, 0};
+  fit(device_, home_keys_, keys.size());
+  home_keys_.write(keys);
+  fit(device_, home_surface_, 4 * homes_.size());
+}
+
+int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
+  int tile = 0;
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    homes_[h].tile = tile;
+    homes_[h].near = near[h];
+    tile += near[h] != 0 ? 3 : 1;
+  }
+  homes_buffer_.write(homes_);
+  return tile;
+}
+
+std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, bool homes_given) {
+  if (!homes_given)
+    for (Particle& p : particles) find_home(p);
+  // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in. Sorted are small keys: moving
+  // whole particles about takes three times as long.
+  struct Place {
+    BlockKey home;
+    int cell;
+    std::uint32_t from;
+  };
+  std::vector<Place> places(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    places[i] = {key_of(particles[i]), homes_given ? 0 : cell_of(particles[i]), static_cast<std::uint32_t>(i)};
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    if (!(a.home == b.home)) return a.home < b.home;
+    return a.cell != b.cell ? a.cell < b.cell : a.from < b.from;
+  });
+  std::vector<Particle> out;
+  out.reserve(particles.size());
+  for (const Place& place : places) out.push_back(particles[place.from]);
+  return out;
+}
+
+void ParticleStore::make_room(int side, int slots, int wanted) {
+  if (slots <= capacity_[side] && !state_[side].empty()) return;
+  const int capacity = padded(std::max(wanted, 1024));
+  state_[side] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity) * FIELD_COUNT);
+  capacity_[side] = capacity;
+}
+
+void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_given) {
+  const std::vector<Particle> sorted = ParticleStore::sorted(particles, homes_given);
+  std::vector<BlockKey> keys;
+  std::vector<int> counts;
+  for (const Particle& p : sorted) {
+    if (keys.empty() || !(keys.back() == key_of(p))) {
+      keys.push_back(key_of(p));
+      counts.push_back(0);
+    }
+    ++counts.back();
+  }
+  table_.build(std::move(keys));
+  const int slots = lay_out(counts);
+  make_room(at_, slots, slots + slots / 2);
+  {
+    const auto view = state_[at_].map_update();
+    const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+    std::size_t next = 0;
+    for (const Home& home : homes_) {
+      const auto start = static_cast<std::size_t>(home.start), n = static_cast<std::size_t>(home.count);
+      for (std::size_t i = 0; i < n; ++i) put_record(sorted[next++], view.data(), capacity, start + i);
+      for (std::size_t i = n; i < static_cast<std::size_t>(padded(home.count)); ++i)
+        put_record(empty_lane(), view.data(), capacity, start + i);
+    }
+  }
+  upload_homes();
+  home_surface_.write(surfaces(sorted));
+}
+
+std::vector<float> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
+  // The same sums in the same order as in rebin_move.
+  constexpr std::array<std::size_t, 3> kWords{SOIL_TOOL_FRICTION, SOIL_ADHESION, SOIL_INV_DENSITY};
+  std::vector<float> out(4 * homes_.size(), 0.0f);
+  std::size_t next = 0;
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    const auto count = static_cast<std::size_t>(homes_[h].count);
+    for (std::size_t w = 0; w < kWords.size(); ++w) {
+      const auto value = [&](std::size_t i) {
+        return soils_host_[sorted[i].soil * std::size_t{SOIL_WORDS} + kWords[w]];
+      };
+      float more = 0;
+      for (std::size_t i = next; i < next + count; ++i) more += value(i) - value(next);
+      out[4 * h + w] = value(next) + more / static_cast<float>(count);
+    }
+    next += count;
+  }
+  return out;
+}
+
+std::vector<Particle> ParticleStore::records() const {
+  std::vector<Particle> out;
+  out.reserve(static_cast<std::size_t>(count_));
+  if (count_ == 0) return out;
+  const auto view = state_[at_].map_read();
+  for (std::size_t h = 0; h < homes_.size(); ++h)
+    for (int i = 0; i < homes_[h].count; ++i) {
+      Particle p = get_record(view.data(), static_cast<std::size_t>(capacity_[at_]),
+                              static_cast<std::size_t>(homes_[h].start + i));
+      p.block[0] = table_.homes[h].x;
+      p.block[1] = table_.homes[h].y;
+      p.block[2] = table_.homes[h].z;
+      out.push_back(p);
+    }
+  return out;
+}
+
+std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
+  // From half a cell above its key on a home holds what re-bins found there; between them it drifts by less than a
+  // cell.
+  constexpr double kFrom = -1, kTo = kBlockCells + 2;
+  std::vector<PointMass> out;
+  if (count_ == 0) return out;
+  const auto view = state_[at_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    const Vec3 corner = kBlockCells * Vec3(table_.homes[h].x, table_.homes[h].y, table_.homes[h].z);
+    if (((corner.array() + kFrom) > high.array()).any() || ((corner.array() + kTo) < low.array()).any()) continue;
+    for (int i = 0; i < homes_[h].count; ++i) {
+      const float* at = view.data() + homes_[h].start + i;
+      PointMass point;
+      for (std::size_t a = 0; a < 3; ++a)
+        point.grid[static_cast<int>(a)] =
+            corner[static_cast<int>(a)] + static_cast<double>(at[(FIELD_X + a) * capacity]);
+      point.mass = std::bit_cast<std::int32_t>(at[FIELD_MASS * capacity]);
+      out.push_back(point);
+    }
+  }
+  return out;
+}
+
+double ParticleStore::densest() const {
+  double out = 0;
+  for (std::size_t i = 0; i < soils_host_.size(); i += SOIL_WORDS)
+    out = std::max(out, 1 / static_cast<double>(soils_host_[i + SOIL_INV_DENSITY]));
+  return out;
+}
+
+std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
+  std::vector<std::int64_t> out(soils, 0);
+  if (count_ == 0) return out;
+  const auto view = state_[at_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  std::vector<float> sums;
+  for (const Home& home : homes_) {
+    const auto n = static_cast<std::size_t>(home.count);
+    const float* first = view.data() + home.start;
+    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the run is lost anyway.
+    sums.assign(n, 0.0f);
+    for (std::size_t f = 0; f < FIELD_MASS; ++f)
+      for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!std::isfinite(sums[i])) continue;
+      const auto tag = std::bit_cast<std::uint32_t>(first[FIELD_TAG * capacity + i]);
+      out.at(tag & 0xffff) += std::bit_cast<std::int32_t>(first[FIELD_MASS * capacity + i]);
+    }
+  }
+  return out;
+}
+
+std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts) {
+  const std::vector<Particle> all = records();
+  const std::vector<std::uint8_t> codes = codes_.read();
+  std::vector<Particle> stay, left;
+  std::size_t next = 0;
+  for (std::size_t h = 0; h < homes_.size(); ++h)
+    for (int i = 0; i < homes_[h].count; ++i) {
+      const bool out = counts[28 * h + 27] > 0 && codes[static_cast<std::size_t>(homes_[h].start + i)] == 27;
+      (out ? left : stay).push_back(all[next++]);
+    }
+  assign(stay);
+  return left;
+}
+
+std::vector<Particle> ParticleStore::rebin() {
+  if (count_ == 0) return {};
+  const std::size_t old_homes = homes_.size();
+  fit(device_, codes_, static_cast<std::size_t>(capacity_[at_]));
+  fit(device_, cells_, static_cast<std::size_t>(capacity_[at_]));
+  fit(device_, counts_, 28 * old_homes);
+  count_kernel_.args(state_[at_], capacity_[at_], homes_buffer_, home_keys_, codes_, cells_, counts_, site_)
+      .enqueue_groups(old_homes);
+  std::vector<int> counts(28 * old_homes);
+  counts_.read(counts);
+  for (std::size_t h = 0; h < old_homes; ++h)
+    if (counts[28 * h + 27] > 0) return drop_outside(counts);
+
+  // New homes: wherever a flow leads.
+  std::vector<BlockKey> keys;
+  for (std::size_t h = 0; h < old_homes; ++h)
+    for (std::size_t n = 0; n < 27; ++n)
+      if (counts[28 * h + n] > 0) keys.push_back(table_.homes[h] + neighbour_offset(static_cast<int>(n)));
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+
+  std::vector<int> sources(27 * keys.size(), -1), new_counts(keys.size(), 0);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    for (std::size_t n = 0; n < 27; ++n) {
+      const BlockKey d = neighbour_offset(static_cast<int>(n));
+      const int old = table_.home_index.find({keys[k].x - d.x, keys[k].y - d.y, keys[k].z - d.z});
+      const int flow = old < 0 ? 0 : counts[28 * static_cast<std::size_t>(old) + n];
+      if (flow == 0) continue;
+      sources[27 * k + n] = old;
+      new_counts[k] += flow;
+    }
+  // Room first: without it the old order still stands.
+  const int other = 1 - at_;
+  const int slots = slots_of(new_counts);
+  make_room(other, slots, std::max(slots + slots / 4, capacity_[at_]));
+  fit(device_, old_homes_buffer_, keys.size());
+  fit(device_, home_keys_, keys.size());
+  fit(device_, home_surface_, 4 * keys.size());
+  fit(device_, sources_, sources.size());
+  fit(device_, from_, static_cast<std::size_t>(slots));
+  std::swap(homes_buffer_, old_homes_buffer_);
+  if (!(keys == table_.homes)) table_.build(std::move(keys));
+  lay_out(new_counts);
+  upload_homes();
+  sources_.write(sources);
+  gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
+      .enqueue_groups(homes_.size());
+  move_kernel_
+      .args(state_[at_], capacity_[at_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
+            home_surface_)
+      .enqueue_groups(homes_.size());
+  at_ = other;
+  return {};
+}
+
+void ParticleStore::hash(StateHash& hash) const {
+  const auto view = state_[at_].map_read();
+  for (std::size_t h = 0; h < homes_.size(); ++h) {
+    hash.value(table_.homes[h].x);
+    hash.value(table_.homes[h].y);
+    hash.value(table_.homes[h].z);
+    hash.value(homes_[h].count);
+    for (std::size_t f = 0; f < FIELD_COUNT; ++f)
+      hash.bytes(view.data() + f * static_cast<std::size_t>(capacity_[at_]) + homes_[h].start,
+                 sizeof(float) * static_cast<std::size_t>(homes_[h].count));
+  }
+}
+
+}  // namespace navvy::soil

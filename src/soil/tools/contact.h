@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tools in the soil: who is near, the side of particles, and the nodal contact solved together with the tool.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "device/buffer.h"
+#include "device/program.h"
+#include "soil/particles/particle_store.h"
+#include "soil/particles/transfer.h"
+#include "soil/solver.h"
+#include "soil/tools/marks.h"
+#include "soil/tools/shell_geometry.h"
+
+namespace navvy::soil {
+
+/// Lengths in cells [SOIL_SOLVER section 5, thin-tools.md section 7].
+struct ContactSettings {
+  double band = 2.5;          ///< how far from a shell particles keep a side
+  double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
+  double ramp = 1.0;          ///< over which their weight falls to zero
+  double edge = 0.8;          ///< nodes closer than this to a free edge do not act
+  double edge_ramp = 1.0;     ///< over which their weight falls along the plate
+  double reference = 0.4;     ///< the step for which the weights hold, as a share of cell / sound speed
+  double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
+  double longest_push = 0.2;  ///< position correction per step
+  int sweeps = 3;             ///< of the two-way solve
+  double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
+};
+
+/// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
+/// plates with corners, at most 2.
+double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
+
+/// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
+class Contact {
+ public:
+  Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound);
+
+  int add_tool(const scene::Shell& shell);
+  const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
+
+  /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
+  /// lays out tiles again (near_homes, near_slot).
+  bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
+  /// Builds the near lists for the poses they were last built for (after `load`).
+  void list_near(const BlockTable& table);
+  const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
+  const std::vector<int>& near_slot() const { return near_slot_; }
+  NearNodes& nodes() { return nodes_; }
+
+  /// Queues: signed distances of nodes, sides of particles, particles pushed out of plates (the push and the crossings
+  /// go into the transfer's report).
+  void classify(ParticleStore& store, Transfer& transfer);
+  /// Queues the two-way solve and the impulses on the nodes. What the books say of it is an identity up to rounding:
+  /// the tool's impulse is minus the nodes' change. That the machine got it, Momentum.* measures.
+  void solve(Transfer& transfer, double dt);
+  /// Queues reading what the tools felt.
+  void read_later();
+  /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
+  void book(std::span<ToolImpulse> impulses);
+
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  /// Results of contact_apply and shell_nodes, mapped for the host.
+  struct Books {
+    device::Mapped<const std::int32_t> touched, tool_of;
+    device::Mapped<const float> nodes;
+  };
+  struct Tool {
+    std::unique_ptr<ShellGeometry> geometry;
+    int first_triangle = 0;
+    double area_factor = 1;            ///< plate area / what nodes stand for
+    bool present = false;              ///< has a motion this step
+    bool listed = false;               ///< near lists hold it
+    Pose X_listed = Pose::Identity();  ///< where it was then
+    Pose X = Pose::Identity();
+    BlockKey window;  ///< block its float coordinates count from
+  };
+  Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
+  bool moved_far() const;
+  void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
+  void upload_frame();
+  void append_tool(std::size_t tool, std::vector<float>& words) const;
+  template <class... Tail>
+  void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
+
+  device::Device& device_;
+  double cell_;
+  Vec3 origin_;
+  ContactSettings settings_;
+  double reference_step_;
+  std::vector<Tool> tools_;
+  std::vector<ToolMotion> motions_;
+  device::Program shell_program_, contact_program_;
+  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
+  std::vector<std::uint8_t> near_homes_;
+  std::vector<int> near_slot_, near_home_list_;
+  std::vector<BlockKey> near_keys_;
+  NearNodes nodes_;
+  std::array<float, 7> reach_{};
+  device::Buffer<float> frame_, sums_, shell_, books_;
+  device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
+      touched_;
+  int first_rim_ = 0, first_tool_ = 0;  ///< float4 numbers in the frame
+  std::vector<float> frame_words_;      ///< what the device may still be reading
+  std::optional<Books> results_;
+};
+
+}  // namespace navvy::soil

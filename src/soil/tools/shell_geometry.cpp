@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/tools/shell_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+
+namespace navvy::soil {
+namespace {
+
+/// Longest edge of a piece [cells]: shorter ones fit the near zone tighter, longer ones cost fewer look-ups.
+constexpr double kPieceCells = 3;
+
+[[noreturn]] void refuse(const scene::Shell& shell, const std::string& value, const std::string& rule) {
+  Fault fault;
+  fault.element = "shell[" + shell.name + "]/triangles";
+  fault.value = value;
+  fault.rule = rule;
+  fault.remedy = "correct the shell's mesh";
+  throw InputError(fault);
+}
+
+/// Folds of a closed body that turn by more than this act like edges [cos]: 30 degrees.
+constexpr double kSharp = 0.866;
+
+struct EdgeUse {
+  int count = 0;
+  Vec3 normal = Vec3::Zero();
+  bool sharp = false;  ///< folds away from the front
+};
+
+std::pair<int, int> edge_key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b, double& t) {
+  const Vec3 ab = b - a;
+  t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+  return a + t * ab;
+}
+
+}  // namespace
+
+ShellGeometry::ShellGeometry(const scene::Shell& shell, double cell) : shell_(shell) {
+  if (shell.triangles.empty()) refuse(shell, "0", "at least one triangle");
+  for (const auto& t : shell.triangles)
+    for (const int v : t)
+      if (v < 0 || v >= static_cast<int>(shell.vertices.size()))
+        refuse(shell, std::to_string(v), "vertex indices below " + std::to_string(shell.vertices.size()));
+  find_normals();
+  cut_pieces(kPieceCells * cell);
+  build_hull();
+}
+
+void ShellGeometry::find_normals() {
+  std::map<std::pair<int, int>, EdgeUse> edges;
+  std::map<int, Vec3> corner_normals;
+  std::map<int, bool> corner_free;
+  for (const auto& index : shell_.triangles) {
+    Triangle t;
+    for (std::size_t i = 0; i < 3; ++i) t.corner[i] = shell_.vertices[static_cast<std::size_t>(index[i])];
+    const Vec3 area = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+    if (!(area.norm() > 1e-10)) refuse(shell_, "a triangle without area", "an area above 1e-10 m2");
+    t.normal = area.normalized();
+    t.radius = 0;
+    t.centre = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    for (const Vec3& corner : t.corner) t.radius = std::max(t.radius, (corner - t.centre).norm());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EdgeUse& use = edges[edge_key(index[i], index[(i + 1) % 3])];
+      const bool away = use.normal.dot(t.corner[(i + 2) % 3] - t.corner[i]) < 0;
+      use.sharp = use.count == 1 && away && use.normal.dot(t.normal) < kSharp;
+      ++use.count;
+      use.normal += t.normal;
+      // A corner's pseudo-normal weighs each face by its angle there.
+      const Vec3 u = (t.corner[(i + 1) % 3] - t.corner[i]).normalized();
+      const Vec3 w = (t.corner[(i + 2) % 3] - t.corner[i]).normalized();
+      const double angle = std::acos(std::clamp(u.dot(w), -1.0, 1.0));
+      corner_normals.try_emplace(index[i], Vec3::Zero()).first->second += angle * t.normal;
+    }
+    triangles_.push_back(t);
+  }
+  // A body without free edges: nodes reach round its sharp edges as far as round a plate's free ones, and count less
+  // near them likewise; else it would act a cell larger on every side. Its particles stay outside as of any fold.
+  const bool closed = std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 1; });
+  for (const auto& [key, use] : edges) {
+    const bool free = use.count == 1;
+    if (free) corner_free[key.first] = corner_free[key.second] = true;
+    if (free || (closed && use.sharp))
+      rims_.push_back({shell_.vertices[static_cast<std::size_t>(key.first)],
+                       shell_.vertices[static_cast<std::size_t>(key.second)]});
+  }
+  for (std::size_t n = 0; n < triangles_.size(); ++n) {
+    const auto& index = shell_.triangles[n];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const EdgeUse& use = edges[edge_key(index[i], index[(i + 1) % 3])];
+      triangles_[n].edge_normal[i] = use.normal;
+      triangles_[n].edge_free[i] = use.count == 1;
+      triangles_[n].corner_normal[i] = corner_normals[index[i]];
+      triangles_[n].corner_free[i] = corner_free.count(index[i]) != 0;
+    }
+  }
+}
+
+void ShellGeometry::cut_pieces(double longest) {
+  std::vector<Piece> open;
+  for (std::size_t t = triangles_.size(); t-- > 0;) open.push_back({triangles_[t].corner, static_cast<int>(t)});
+  while (!open.empty()) {
+    const Piece piece = open.back();
+    open.pop_back();
+    std::size_t worst = 0;
+    double length = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double l = (piece.corner[(i + 1) % 3] - piece.corner[i]).norm();
+      if (l > length) {
+        length = l;
+        worst = i;
+      }
+    }
+    if (length <= longest) {
+      pieces_.push_back(piece);
+      continue;
+    }
+    // Halve the longest edge.
+    const Vec3 a = piece.corner[worst], b = piece.corner[(worst + 1) % 3], c = piece.corner[(worst + 2) % 3];
+    const Vec3 middle = 0.5 * (a + b);
+    open.push_back({{middle, b, c}, piece.triangle});
+    open.push_back({{a, middle, c}, piece.triangle});
+  }
+}
+
+void ShellGeometry::build_hull() {
+  // The mouth opens to where the faces look on the whole; a heap may stand a quarter of the shell's size over it.
+  Vec3 mouth = Vec3::Zero();
+  Vec3 low = shell_.vertices[0], high = low;
+  for (const Triangle& t : triangles_) mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+  for (const Vec3& v : shell_.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const double heap = mouth.norm() > 1e-9 ? 0.25 * (high - low).norm() : 0;
+  std::vector<Vec3> points;
+  for (const Triangle& t : triangles_) points.insert(points.end(), t.corner.begin(), t.corner.end());
+  if (heap > 0)
+    for (const auto& rim : rims_)
+      for (const Vec3& p : rim) points.push_back(p + heap * mouth.normalized());
+  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+
+  // Every triple whose plane has all points on one side is a face of the hull; merged when equal.
+  const double tiny = 1e-7 * (high - low).norm();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size(); ++j)
+      for (std::size_t k = j + 1; k < points.size(); ++k) {
+        Vec3 n = (points[j] - points[i]).cross(points[k] - points[i]);
+        if (n.norm() < tiny * tiny) continue;
+        n.normalize();
+        double least = 0, most = 0;
+        for (const Vec3& p : points) {
+          const double d = n.dot(p - points[i]);
+          least = std::min(least, d);
+          most = std::max(most, d);
+          if (least < -tiny && most > tiny) break;
+        }
+        if (least < -tiny && most > tiny) continue;
+        if (most > tiny) n = -n;
+        const double offset = n.dot(points[i]);
+        const bool known = std::any_of(hull_.begin(), hull_.end(), [&](const Plane& plane) {
+          return (plane.normal - n).norm() < 1e-6 && std::abs(plane.offset - offset) < tiny * 10;
+        });
+        if (!known) hull_.push_back({n, offset});
+      }
+  hull_points_ = std::move(points);
+}
+
+double ShellGeometry::distance(const Vec3& p) const {
+  int closest = 0;
+  return distance(p, closest);
+}
+
+double ShellGeometry::distance(const Vec3& p, int& closest) const {
+  double best = 1e300, sign = 1;
+  const auto offer = [&](const Vec3& c, const Vec3& normal, int triangle) {
+    const double d2 = (p - c).squaredNorm();
+    if (d2 >= best) return;
+    best = d2;
+    sign = (p - c).dot(normal) >= 0 ? 1 : -1;
+    closest = triangle;
+  };
+  const auto look = [&](int n) {
+    const Triangle& t = triangles_[static_cast<std::size_t>(n)];
+    // A triangle whose plane or sphere is farther than what was found has nothing to offer; the margin covers rounding.
+    const double height = t.normal.dot(p - t.corner[0]);
+    if (height * height > best * (1 + 1e-9)) return;
+    const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);
+    if ((p - t.centre).squaredNorm() > reach * reach) return;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 along = t.corner[(i + 1) % 3] - t.corner[i];
+      inside = inside && t.normal.cross(along).dot(p - t.corner[i]) >= 0;
+      double share = 0;
+      const Vec3 c = closest_on_segment(p, t.corner[i], t.corner[(i + 1) % 3], share);
+      offer(c, share <= 0 ? t.corner_normal[i] : share >= 1 ? t.corner_normal[(i + 1) % 3] : t.edge_normal[i], n);
+    }
+    if (inside) offer(p - height * t.normal, t.normal, n);
+  };
+  const int guess = closest;
+  look(guess);
+  for (int n = 0; n < static_cast<int>(triangles_.size()); ++n)
+    if (n != guess) look(n);
+  return sign * std::sqrt(best);
+}
+
+bool ShellGeometry::holds(const Vec3& p) const {
+  int closest = 0;
+  return holds(p, closest);
+}
+
+bool ShellGeometry::holds(const Vec3& p, int& closest) const {
+  for (const Plane& plane : hull_)
+    if (plane.normal.dot(p) > plane.offset) return false;
+  return distance(p, closest) > 0;
+}
+
+}  // namespace navvy::soil
