@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/archives.h"
 #include "core/error.h"
+#include "core/saved_state.h"
 
 namespace navvy::test {
 

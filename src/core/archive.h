@@ -21,9 +21,8 @@
 //    the scene sets is `fixed`. Checks of ranges become `ranged` or `require`, which names the field.
 // 4. What lives in a foreign object (a Bullet body, a device buffer) goes through `property(name, get, set)`.
 // 5. Virtual interfaces take `virtual void visit(Archive& a) = 0`. A class behind a pointer to its state visits that.
-// 6. Delete hash(), save() and load(); callers use `hash_of`, `saved` and `load_saved` of core/archives.h. While a
-// caller
-//    still has a StateHash, StateWriter or StateReader: `HashArchive(hash).read(x)`, `writer.vector(saved(x))`,
+// 6. Delete hash(), save() and load(); callers use `hash_of`, `saved` and `load_saved` of core/saved_state.h. While a
+//    caller still has a StateHash, StateWriter or StateReader: `add_to_hash(hash, x)`, `writer.vector(saved(x))`,
 //    `load_saved(reader.vector<char>(), x)`.
 // 7. Test the class with `flip_every_byte` of tests/flip_bytes.h.
 #pragma once
@@ -39,8 +38,6 @@
 #include "core/math.h"
 
 namespace navvy {
-
-class Archive;
 
 /// A type that may be taken as one run of bytes, also many side by side. True of a struct only by a specialisation of
 /// your own, which must assert that its members leave no gaps (padding would be saved and hashed as noise).

@@ -25,6 +25,7 @@ concept VisitableBeside = requires(T& object, Archive& archive) {
   visit(archive, object);
 };
 
+/// Names are string literals or as long-lived: only the pointer is kept.
 class Archive::Scope {
  public:
   Scope(Archive& archive, const char* name) : archive_(archive) { archive_.places_.push_back({name, 0}); }
@@ -37,6 +38,7 @@ class Archive::Scope {
   Archive& archive_;
 };
 
+/// They nest: what lies inside stays out of the hash until the outermost ends.
 class Archive::Unhashed {
  public:
   Unhashed(Archive& archive, const char* reason) : archive_(archive), before_(archive.reason_) {
@@ -101,6 +103,7 @@ struct ArchiveParts {
     if (a.loading_) X.makeAffine();
   }
 
+  /// As bytes, whatever they spell.
   static void part(Archive& a, std::string& text) {
     text.resize(count(a, text.size()));
     a.block(text.data(), text.size());
@@ -140,6 +143,7 @@ struct ArchiveParts {
     }
   }
 
+  /// Without names of their own: "first" would tell a reader nothing.
   template <class A, class B>
   static void part(Archive& a, std::pair<A, B>& v) {
     part(a, v.first);
@@ -233,6 +237,7 @@ void Archive::ranged(const char* name, T& field, const std::type_identity_t<T>& 
 template <class T>
 void Archive::fixed(const char* name, std::vector<T>& field) {
   const Scope scope(*this, name);
+  // The length is hashed like any other, although it cannot differ.
   if (ArchiveParts::count(*this, field.size()) != field.size()) fail("has another length than in the scene");
   ArchiveParts::elements(*this, field);
 }
@@ -250,6 +255,7 @@ void Archive::constant(const char* name, const T& value, const std::string& rule
 template <class Get, class Set>
 void Archive::property(const char* name, const Get& get, const Set& set) {
   const Scope scope(*this, name);
+  // A loading archive must not ask for what may not exist yet.
   std::decay_t<decltype(get())> value{};
   if (!loading_) value = get();
   ArchiveParts::part(*this, value);
@@ -266,6 +272,7 @@ template <class Body>
 void Archive::section(const char* tag, std::uint32_t version, const Body& body) {
   const Scope scope(*this, tag);
   begin_section(tag, version);
+  // An exception leaves the section open; the archive is of no use then.
   body();
   end_section();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/archives.h"
+#include "core/archive.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "core/saved_state.h"
 #include "flip_bytes.h"
 
 namespace navvy {
-
 namespace {
 
 /// A struct that lists its fields beside itself, as one of another room would.
