@@ -84,7 +84,7 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   const double run_out = (front - x0 - length) / length;
   print_value("plane collapse a = 1, run-out / L0", run_out, "1.0 .. 1.8",
               "[Lube 2005], lower end for 20 cells [docs/validation.md, Columns and collapse]");
-  // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short (SOIL_SOLVER 3).
+  // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short.
   EXPECT_GT(run_out, 1.0);
   EXPECT_LT(run_out, 1.8);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);

@@ -139,7 +139,7 @@ TEST(SoilSolver, ConservesMomentumInInnerMotion) {
   const double t = 0.05;
   rig.run(t);
   const Vec3 change = momentum(ignored) - before - mass * rig.world().gravity * t;
-  EXPECT_LT(change.norm(), 1e-4 * scale);  // VALIDATION 1: 1e-4 relative on the float device
+  EXPECT_LT(change.norm(), 1e-4 * scale);  // rounding of floats
 }
 
 TEST(SoilSolver, RepeatsBitForBitAndASingleBitMatters) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trench: the shipped scene from start to end, measured on the ground it leaves (issue 2, "How it is shown").
+// The trench: the shipped scene from start to end, measured on the ground it leaves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
