@@ -19,6 +19,8 @@ std::string Archive::path() const {
   return out;
 }
 
+// A state that does not fit is bad input, not a bug: it may come from an older version or a broken disk, so the message
+// says what to do about it and where in the state the visit stood.
 void Archive::fail(const std::string& rule) const {
   throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, path(), "", rule,
                          "it was written by another version of Navvy, for another scene, or damaged; record it again"});

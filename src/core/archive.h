@@ -114,6 +114,7 @@ class Archive {
   void require(bool good, const char* field, const std::string& rule);
 
  protected:
+  // Which of the three an archive is shows in `loading()` and in the virtual functions below, nowhere else.
   explicit Archive(bool loading) : loading_(loading) {}
 
   // What the kinds of archive do with bytes. `data` is only read unless the archive loads.

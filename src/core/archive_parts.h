@@ -15,7 +15,8 @@
 
 namespace navvy {
 
-/// A type that lists its own fields, as a member or as a function beside it.
+/// A type that lists its own fields, as a member or as a function beside it. The member wins where a type has both, so
+/// a class may hide a free function of its base.
 template <class T>
 concept Visitable = requires(T& object, Archive& archive) {
   object.visit(archive);
@@ -25,7 +26,9 @@ concept VisitableBeside = requires(T& object, Archive& archive) {
   visit(archive, object);
 };
 
-/// Names are string literals or as long-lived: only the pointer is kept.
+/// Names are string literals or as long-lived: only the pointer is kept. A scope is an element of the path that an
+/// error or a byte map names, and costs a push and a pop: no text is put together unless somebody asks for it. It must
+/// end in reverse order of its beginning, which is why it can only live on the stack and cannot be copied.
 class Archive::Scope {
  public:
   Scope(Archive& archive, const char* name) : archive_(archive) { archive_.places_.push_back({name, 0}); }
@@ -38,7 +41,9 @@ class Archive::Scope {
   Archive& archive_;
 };
 
-/// They nest: what lies inside stays out of the hash until the outermost ends.
+/// They nest: what lies inside stays out of the hash until the outermost ends. The reason that is in force is that of
+/// the innermost, and the outer one comes back when it ends. Nothing else is switched: fields under it are saved and
+/// loaded like any other.
 class Archive::Unhashed {
  public:
   Unhashed(Archive& archive, const char* reason) : archive_(archive), before_(archive.reason_) {
@@ -58,16 +63,19 @@ class Archive::Unhashed {
 };
 
 /// One function `part` a kind of field. A struct of static members, so that each sees all others whatever their order:
-/// containers hold containers.
+/// containers hold containers. The order of the overloads does not matter to the format; what each writes does, and is
+/// part of every saved state: change one and every section's version has to rise.
 struct ArchiveParts {
-  /// A length. Every element takes a byte at least, so a longer one than the bytes left is a lie.
+  /// A length. Every element takes a byte at least, so a longer one than the bytes left is a lie. Hashed as well, so
+  /// that a list of two and a list of one followed by a number of the same value differ.
   static std::uint64_t count(Archive& a, std::uint64_t present) {
     a.scalar(&present, sizeof present);
     if (a.loading_ && present > a.left()) a.fail("a length is beyond the end of the section");
     return present;
   }
 
-  /// Numbers, enums and classes.
+  /// Numbers, enums and classes. The branches go from the special to the general: a class that has a visit is visited
+  /// even where it could be taken as bytes, since its author said which members count.
   template <class T>
   static void part(Archive& a, T& v) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -89,26 +97,33 @@ struct ArchiveParts {
     }
   }
 
+  // A matrix goes in one run, in its own storage order. The order is part of the type, so two fields of one type agree.
   template <class T, int R, int C, int O>
   static void part(Archive& a, Eigen::Matrix<T, R, C, O, R, C>& v) {
     static_assert(kPlain<Eigen::Matrix<T, R, C, O, R, C>>, "matrices of fixed size only");
     a.block(v.data(), sizeof(T) * R * C);
   }
-  /// x y z w, as it lies in memory; not normalised, bits stay.
+  /// x y z w, as it lies in memory; not normalised, bits stay. Normalising here would change the last bit of a turn at
+  /// every load, and a run continued from a snapshot would leave the run it came from.
   static void part(Archive& a, Eigen::Quaterniond& q) { a.block(q.coeffs().data(), 4 * sizeof(double)); }
-  /// Column by column: three of the turn, then the place; the last row is always 0 0 0 1.
+  /// Column by column: three of the turn, then the place; the last row is always 0 0 0 1. `makeAffine` sets that row
+  /// again, which loading did not touch.
   static void part(Archive& a, Pose& X) {
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 3; ++r) a.scalar(&X.matrix()(r, c), sizeof(double));
     if (a.loading_) X.makeAffine();
   }
 
-  /// As bytes, whatever they spell.
+  /// As bytes, whatever they spell. No encoding is assumed: whoever shows the text decides what it means.
   static void part(Archive& a, std::string& text) {
     text.resize(count(a, text.size()));
     a.block(text.data(), text.size());
   }
 
+  // Two ways to load. Plain elements come in one copy, with the length checked in bytes before memory is taken. Others
+  // are visited one by one and may be of any size, so the vector grows as they arrive: a lie about the length runs into
+  // the end of the section after as many elements as there are bytes. What was in the vector before is gone in both
+  // cases.
   template <class T>
   static void part(Archive& a, std::vector<T>& v) {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no elements to refer to; use std::uint8_t");
@@ -126,6 +141,7 @@ struct ArchiveParts {
       }
     }
   }
+  // The length is in the type, so it is not written.
   template <class T, std::size_t N>
   static void part(Archive& a, std::array<T, N>& v) {
     elements(a, v);
@@ -143,14 +159,16 @@ struct ArchiveParts {
     }
   }
 
-  /// Without names of their own: "first" would tell a reader nothing.
+  /// Without names of their own: "first" would tell a reader nothing. The pair is written as two fields in a row, which
+  /// is also what a struct of two members would write.
   template <class A, class B>
   static void part(Archive& a, std::pair<A, B>& v) {
     part(a, v.first);
     part(a, v.second);
   }
 
-  /// An empty one writes no value: nothing stale is saved or hashed.
+  /// An empty one writes no value: nothing stale is saved or hashed. Loading makes the value anew by its default
+  /// constructor first, so nothing of what the object held before survives.
   template <class T>
   static void part(Archive& a, std::optional<T>& v) {
     bool held = v.has_value();
@@ -159,7 +177,8 @@ struct ArchiveParts {
     if (v) part(a, *v);
   }
 
-  /// Which alternative, then that one; loading makes it anew.
+  /// Which alternative, then that one; loading makes it anew. The number counts the alternatives in the order of the
+  /// type's list, so that order is part of the format: add new ones at the end.
   template <class... T>
   static void part(Archive& a, std::variant<T...>& v) {
     auto index = static_cast<std::uint32_t>(v.index());
@@ -168,11 +187,15 @@ struct ArchiveParts {
     if (a.loading_) emplace(v, index, std::index_sequence_for<T...>());
     std::visit([&a](auto& held) { part(a, held); }, v);
   }
+  // The only way to choose an alternative by a number known at run time; folds into a chain of comparisons.
   template <class Variant, std::size_t... I>
   static void emplace(Variant& v, std::uint32_t index, std::index_sequence<I...>) {
     ((index == I ? static_cast<void>(v.template emplace<I>()) : void()), ...);
   }
 
+  // Keys are written with their values, in the order of the map. The key is copied because an archive takes fields by
+  // reference and keys are constant; keys are numbers or short names, so the copy is cheap. Each key and its value
+  // share one place in the path, the entry's number.
   template <class K, class V>
   static void part(Archive& a, std::map<K, V>& v) {
     if (a.loading_) {
@@ -188,6 +211,8 @@ struct ArchiveParts {
       part(a, value);
     }
   }
+  // The same without values. A set holds its own order, so two sets of equal content write equal bytes, whatever the
+  // order in which they were filled; the same holds for a map. Unordered containers have no part here for that reason.
   template <class K>
   static void part(Archive& a, std::set<K>& v) {
     if (a.loading_) {
@@ -202,7 +227,8 @@ struct ArchiveParts {
     }
   }
   /// Loads a sorted container; `add` takes each key and reads what belongs to it. Only one order is ours: a state with
-  /// another one, or with a key twice, was not written by a SaveArchive.
+  /// another one, or with a key twice, was not written by a SaveArchive. The order of keys also keeps `emplace_hint` at
+  /// the end from ever searching, and makes what is loaded the same container that was saved, bit for bit.
   template <class K, class Container, class Add>
   static void load_keys(Archive& a, Container& v, const Add& add) {
     v.clear();
@@ -219,6 +245,8 @@ struct ArchiveParts {
   }
 };
 
+// What follows are the members of Archive that know types. Each opens the field's scope first, so that everything that
+// goes wrong below it is told with the field's name.
 template <class T>
 void Archive::operator()(const char* name, T& field) {
   const Scope scope(*this, name);
@@ -238,6 +266,7 @@ template <class T>
 void Archive::fixed(const char* name, std::vector<T>& field) {
   const Scope scope(*this, name);
   // The length is hashed like any other, although it cannot differ.
+  // The answer differs from the length only when loading: other archives give back what they are handed.
   if (ArchiveParts::count(*this, field.size()) != field.size()) fail("has another length than in the scene");
   ArchiveParts::elements(*this, field);
 }
@@ -247,6 +276,7 @@ void Archive::constant(const char* name, const T& value, const std::string& rule
   const Scope scope(*this, name);
   // Two runs of one scene cannot differ in it, so it would tell a hash nothing.
   const Unhashed silent(*this, "");
+  // A copy, as the value of a scene is constant and a loading archive would write over it.
   T found = value;
   ArchiveParts::part(*this, found);
   if (loading_ && !(found == value)) fail(rule);
@@ -255,7 +285,8 @@ void Archive::constant(const char* name, const T& value, const std::string& rule
 template <class Get, class Set>
 void Archive::property(const char* name, const Get& get, const Set& set) {
   const Scope scope(*this, name);
-  // A loading archive must not ask for what may not exist yet.
+  // A loading archive must not ask for what may not exist yet. So the type behind a property has to be default
+  // constructible and cheap to copy.
   std::decay_t<decltype(get())> value{};
   if (!loading_) value = get();
   ArchiveParts::part(*this, value);
@@ -277,6 +308,7 @@ void Archive::section(const char* tag, std::uint32_t version, const Body& body) 
   end_section();
 }
 
+// Nothing but the length: the caller visits the elements by `item`, with names that it chooses.
 inline std::uint64_t Archive::size(const char* name, std::uint64_t present) {
   const Scope scope(*this, name);
   return ArchiveParts::count(*this, present);
@@ -288,6 +320,7 @@ void Archive::item(std::uint64_t number, const Body& body) {
   body();
 }
 
+// Out of line of the field itself: the rule may take several fields together, and `field` says which one to look at.
 inline void Archive::require(bool good, const char* field, const std::string& rule) {
   if (good || !loading_) return;
   const Scope scope(*this, field);

@@ -8,7 +8,9 @@
 
 namespace navvy {
 
-/// Least number of insertions, removals and replacements of characters that turn a into b [Levenshtein 1966].
+/// Least number of insertions, removals and replacements of characters that turn a into b [Levenshtein 1966]. Costs the
+/// product of the lengths. Bytes are compared, not letters: a name outside ASCII is a little further away than it
+/// looks.
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
 /// The one of `names` most like `wanted`, the first of equals; empty without names.

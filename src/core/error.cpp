@@ -6,6 +6,8 @@
 namespace navvy {
 
 std::string Fault::text() const {
+  // The layout of compilers, `file:line: error:`, which editors turn into links. Parts that are unknown leave no trace,
+  // not even a separator.
   std::string out;
   if (!file.empty()) {
     out += file;
@@ -23,6 +25,7 @@ std::string Fault::text() const {
 namespace {
 std::string join(const std::vector<Fault>& faults) {
   std::string out;
+  // A person sees every fault at once and mends them in one go.
   for (const Fault& fault : faults) {
     if (!out.empty()) out += "\n";
     out += fault.text();

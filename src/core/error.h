@@ -8,14 +8,18 @@
 
 namespace navvy {
 
-/// Base of every exception Navvy throws. `what()` is the complete message for a person.
+/// Base of every exception Navvy throws. `what()` is the complete message for a person. It holds what went wrong, where
+/// and what to do, so a program prints it as it is and adds nothing. Whoever catches it may go on with another scene;
+/// objects that were being built are gone.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// One fault of a file or of an input.
+/// One fault of a file or of an input. Fields that do not apply stay empty and leave no trace in the text. Loaders put
+/// faults into a list and throw them together, so that a person mends a file in one go and not a fault a run.
 struct Fault {
+  // A warning is told and the run goes on; an error ends it before the first step.
   enum class Severity { kError, kWarning };
   Severity severity = Severity::kError;
   std::string file;     ///< path as the user wrote it; empty when the fault is not in a file
@@ -29,9 +33,11 @@ struct Fault {
   std::string text() const;
 };
 
-/// Bad input; carries every fault that was found, `what()` lists them one per line.
+/// Bad input; carries every fault that was found, `what()` lists them one per line. Thrown by whatever reads a file, a
+/// command line or a call of the library, always on, in every build.
 class InputError : public Error {
  public:
+  // Give it one fault at least. Its order is that of discovery, which for a file is from the top down.
   explicit InputError(std::vector<Fault> faults);
   explicit InputError(Fault fault);
   const std::vector<Fault>& faults() const { return faults_; }
@@ -40,13 +46,15 @@ class InputError : public Error {
   std::vector<Fault> faults_;
 };
 
-/// A file could not be read or written (missing, permission, disk full).
+/// A file could not be read or written (missing, permission, disk full). The text names the path and the system's
+/// reason.
 class FileError : public Error {
  public:
   using Error::Error;
 };
 
-/// An invariant of a running simulation broke (ledger open, NaN, runaway); the run stops with step and time.
+/// An invariant of a running simulation broke (ledger open, NaN, runaway); the run stops with step and time. It is not
+/// the user's doing: what can be known from the scene is refused as InputError before a run starts.
 class SimulationError : public Error {
  public:
   using Error::Error;

@@ -14,15 +14,19 @@
 namespace navvy {
 namespace {
 
+// The code is handed in, as closing and unlinking on the way here may change errno.
 [[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
 
+// Until the rename of commit_file a reader of `path` sees the old content; whatever fails before it leaves no partial
+// file behind.
 void write_bytes(const std::string& path, const char* data, std::size_t size) {
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) fail("create", part, errno);
   while (size > 0) {
+    // A write may be interrupted by a signal or take a part only; neither is an error.
     const ssize_t n = ::write(fd, data, size);
     if (n < 0) {
       if (errno == EINTR) continue;
@@ -34,6 +38,7 @@ void write_bytes(const std::string& path, const char* data, std::size_t size) {
     data += n;
     size -= static_cast<std::size_t>(n);
   }
+  // Network file systems may report a full disk only here.
   if (::close(fd) != 0) {
     const int code = errno;
     ::unlink(part.c_str());
@@ -49,6 +54,8 @@ std::string partial_name(const std::string& path) { return path + ".part"; }
 void commit_file(const std::string& path) {
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  // Without the flush a crash of the machine could leave the new name on an empty file: the rename may reach the disk
+  // before the data does.
   if (fd < 0) fail("open", part, errno);
   const int flushed = ::fsync(fd);
   const int code = errno;
@@ -66,6 +73,7 @@ void commit_file(const std::string& path) {
 
 void require_writable(const std::string& path) {
   struct stat found = {};
+  // A folder of that name would let the partial file be made and only the rename at the end of the run fail.
   if (::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) fail("write", path, EISDIR);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
@@ -88,6 +96,7 @@ std::vector<char> read_file(const std::string& path) {
   char buffer[65536];
   std::size_t n;
   while ((n = std::fread(buffer, 1, sizeof buffer, file)) > 0) content.insert(content.end(), buffer, buffer + n);
+  // Asked for before fclose, after which the stream is gone and errno may be another.
   const bool bad = std::ferror(file) != 0;
   const int code = errno;
   std::fclose(file);

@@ -7,19 +7,25 @@
 
 namespace navvy {
 
-/// Replaces `path` by `content` atomically. @throws FileError naming path and cause (disk full, permission).
+/// Replaces `path` by `content` atomically. A crash or a kill in between leaves the old file or the new one. Waits for
+/// the disk, some milliseconds at least: not for use in a step. @throws FileError naming path and cause (disk full,
+/// permission).
 void write_file_atomically(const std::string& path, const std::string& content);
 void write_file_atomically(const std::string& path, const std::vector<char>& content);
 
-/// Tries, without touching `path`, whether it could be written: for what is known before a long run.
+/// Tries, without touching `path`, whether it could be written: for what is known before a long run. Whether there is
+/// room for the content is not known then.
 /// @throws FileError naming path and cause.
 void require_writable(const std::string& path);
 
-/// The name to write to before `commit_file`: `path` with ".part" appended.
+/// The name to write to before `commit_file`: `path` with ".part" appended. It lies in the same folder, as a rename
+/// across file systems is not atomic. Two processes that write one path at a time share this name and may spoil each
+/// other's file.
 std::string partial_name(const std::string& path);
 /// Flushes `partial_name(path)` to disk and renames it to `path`. @throws FileError; the partial file is removed then.
 void commit_file(const std::string& path);
 
+// The whole file as bytes, in memory at once. A file that does not exist is an error, never an empty answer.
 /// @throws FileError naming path and cause.
 std::vector<char> read_file(const std::string& path);
 

@@ -6,6 +6,7 @@
 namespace navvy {
 namespace {
 LogSink& sink() {
+  // Made at its first use, so that a line may be logged before main by the construction of another file's globals.
   static LogSink instance;
   return instance;
 }

@@ -22,6 +22,7 @@ using Tag = std::array<char, kTagSize>;
 Tag tag_of(const char* text) {
   Tag tag{};
   const std::size_t size = std::strlen(text);
+  // A tag fills at most all but one byte, so that the zero which ends it is always there when it is read back.
   if (size == 0 || size >= kTagSize) throw Error("archive: bad section '" + std::string(text) + "'");
   std::memcpy(tag.data(), text, size);
   return tag;
@@ -95,7 +96,8 @@ class LoadArchive final : public Archive {
   }
 
  private:
-  // The one place that reads: whatever a visit asks for, nothing beyond the innermost section is touched.
+  // The one place that reads: whatever a visit asks for, nothing beyond the innermost section is touched. Sections'
+  // heads come this way too.
   void scalar(void* data, std::size_t size) override {
     if (size > left()) fail("the section ends too early");
     if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
@@ -135,6 +137,7 @@ class LoadArchive final : public Archive {
 }  // namespace
 
 // The last field that begins at or before the byte; heads of sections lie between fields.
+// Fields lie in the order of their offsets, so a search by halves finds it.
 const ByteMap::Field* ByteMap::at(std::size_t offset) const {
   const auto after = std::upper_bound(fields.begin(), fields.end(), offset,
                                       [](std::size_t value, const Field& field) { return value < field.offset; });
@@ -155,6 +158,7 @@ std::vector<char> saved_state::save(const Visit& visit, ByteMap* map) {
 }
 
 void saved_state::load(std::vector<char> bytes, const Visit& visit) {
+  // When the visit throws, the object is half loaded, and the caller throws it away or loads it again.
   LoadArchive archive(std::move(bytes));
   visit(archive);
   archive.finish();
