@@ -6,6 +6,7 @@
 namespace navvy::device {
 
 struct RawBuffer::Memory {
+  // Keeps the context and the queue alive: a buffer may outlive its Device object.
   std::shared_ptr<Device::State> device;
   cl_mem memory = nullptr;
   std::size_t size = 0;
@@ -30,6 +31,7 @@ struct RawBuffer::Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() {
     clReleaseMemObject(memory);
+    // What was queued with it still runs: the driver lets the memory go after the last command that uses it.
     device->memory_used -= size;
   }
 };
@@ -45,6 +47,8 @@ RawBuffer::RawBuffer(Device& device, std::size_t bytes)
 
 void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
   if (!memory_) throw DeviceError("a buffer without a device cannot grow: construct it with one");
+  // Only what the caller counts as values is copied, on the device, behind what was queued before. The old memory may
+  // be released at once, as the queue holds it until the copy is done.
   auto bigger = std::make_shared<Memory>(memory_->device, bytes);
   if (keep > 0) {
     const Device::State& device = *memory_->device;
@@ -57,6 +61,8 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
 
 void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, bool wait) {
   if (bytes == 0) return;
+  // With `wait` the driver has taken its copy of the data when this returns, which need not mean that earlier work is
+  // done: the notice of a compiling driver stays.
   const Device::State& device = *memory_->device;
   check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset, bytes, data, 0, nullptr,
                              nullptr),
@@ -68,6 +74,7 @@ void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   Device::State& device = *memory_->device;
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
         "clEnqueueReadBuffer", device);
+  // A blocking read returns after everything queued before it, compiling included: the queue is in order.
   device.compiling.reset();
 }
 
@@ -88,7 +95,8 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
         "clEnqueueFillBuffer", device);
     return;
   }
-  // OpenCL fills with powers of two only; other structs are repeated by the host.
+  // OpenCL fills with powers of two only; other structs are repeated by the host. The write waits here, as the repeated
+  // values live in this call only.
   std::vector<char> values(bytes);
   const char* source = static_cast<const char*>(pattern);
   for (std::size_t at = 0; at < bytes; at += pattern_bytes) {
@@ -100,12 +108,14 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   Device::State& device = *memory_->device;
   cl_map_flags flags = CL_MAP_READ;
+  // What the region held is lost with this flag, which spares a copy to the host where memory is not shared.
   if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
   if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
   void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
                                 nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
+  // As with a blocking read, what was queued before is done now.
   if (wait) device.compiling.reset();
   return at;
 }

@@ -25,6 +25,8 @@ std::string lower(std::string text) {
   return text;
 }
 
+// The two texts come with a zero at their end that is part of the size. A driver that refuses a question answers
+// nothing: one broken platform must not hide the others.
 std::string platform_text(cl_platform_id platform, cl_platform_info what) {
   std::size_t size = 0;
   if (clGetPlatformInfo(platform, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
@@ -64,6 +66,7 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   info.memory = device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
   info.local_memory = device_value<cl_ulong>(device, CL_DEVICE_LOCAL_MEM_SIZE);
   info.max_work_group = device_value<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  // Drivers say so of CPUs and of graphics processors within them; there, mapping costs no copy.
   info.shares_memory = device_value<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;
   const auto floats = device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG);
   info.correct_divide_sqrt = (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
@@ -79,12 +82,15 @@ std::vector<Found> find_devices() {
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
+    // Two calls each, as OpenCL asks for the number first. A platform without devices reports an error instead of zero,
+    // so no error here ends the search.
     cl_uint count = 0;
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) continue;
     std::vector<cl_device_id> devices(count);
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS) continue;
     for (cl_device_id device : devices) {
       Found entry{platform, device, describe(platform, device)};
+      // The index counts over all platforms, in the order that the loader gives them; it is what a user types.
       entry.info.index = static_cast<int>(found.size());
       found.push_back(std::move(entry));
     }
@@ -100,6 +106,7 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   };
   const std::string wanted = lower(choice);
   const auto of_kind = [&](Kind kind) { return first([=](const Found& f) { return f.info.kind == kind; }); };
+  // A CPU first: it is the device that every machine can have.
   if (wanted.empty()) {
     if (const int cpu = of_kind(Kind::kCpu); cpu >= 0) return cpu;
     if (const int gpu = of_kind(Kind::kGpu); gpu >= 0) return gpu;
@@ -142,6 +149,8 @@ const char* kind_name(Kind kind) { return kind == Kind::kCpu ? "cpu" : kind == K
 
 }  // namespace
 
+// Every call whose failure matters goes through here. The message names the call as OpenCL's books do, so that it can
+// be looked up.
 void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel) {
   if (code == CL_SUCCESS) return;
   std::string text = std::string(call) + " failed: " + error_name(code);
@@ -163,6 +172,8 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device::State::~State() {
+  // Buffers, programs and kernels hold the state, so nothing of them is alive here; what is still queued is waited for,
+  // because releasing a queue does not.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
   if (queue != nullptr) clReleaseCommandQueue(queue);
@@ -172,6 +183,7 @@ Device::State::~State() {
 }
 
 void Device::State::open_queue() {
+  // A queue cannot be switched to profiling, so it is made anew. The caller has waited for the old one.
   if (queue != nullptr) clReleaseCommandQueue(queue);
   cl_int code = CL_SUCCESS;
   queue = clCreateCommandQueue(context, device, profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
@@ -186,9 +198,11 @@ void Device::State::finish() {
 
 void Device::State::collect() {
   for (auto& [name, event] : events) {
+    // The times are of the device's own clock, in nanoseconds. A driver that does not know one leaves zero.
     cl_ulong start = 0, end = 0;
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
+    // Every event holds memory of the driver until it is released.
     clReleaseEvent(event);
     KernelTime& time = times[name];
     time.name = name;
@@ -202,11 +216,13 @@ namespace {
 
 /// What the environment allows of a device's memory [bytes].
 std::uint64_t allowed_memory(std::uint64_t memory) {
+  // A bound below what the device has lets a test see the errors of full memory, and a run leave room for others.
   const char* variable = std::getenv("NAVVY_DEVICE_MEMORY_MIB");
   if (variable == nullptr || *variable == '\0') return memory;
   std::uint64_t mebibytes = 0;
   const std::string_view text(variable);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
+  // Refused rather than ignored: a run that was meant to be bounded must not take all memory because of a slip.
   if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 || mebibytes > (1ULL << 40))
     throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) + "': it must be a whole number of MiB");
   return std::min(memory, mebibytes << 20);
@@ -216,6 +232,7 @@ std::uint64_t allowed_memory(std::uint64_t memory) {
 
 Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   const char* variable = std::getenv("NAVVY_DEVICE");
+  // What the program was asked for goes before what the environment says.
   const bool from_environment = choice.empty() && variable != nullptr && *variable != '\0';
   const std::string wanted = from_environment ? variable : choice;
   const std::vector<Found> found = find_devices();
@@ -225,6 +242,7 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   state_->info = pick.info;
   state_->info.memory = allowed_memory(pick.info.memory);
   state_->device = pick.device;
+  // What a context without a named platform means is left to the driver.
   const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                               reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
@@ -244,6 +262,7 @@ void Device::flush() { check(clFlush(state_->queue), "clFlush", *state_); }
 
 void Device::set_profile(bool on) {
   if (on == state_->profiling) return;
+  // The events of the old queue are added up before it goes.
   state_->finish();
   state_->profiling = on;
   state_->open_queue();

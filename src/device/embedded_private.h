@@ -4,6 +4,7 @@
 
 namespace navvy::device {
 
+/// One file of kernels/ as the build found it. Both texts are literals and live as long as the program.
 struct EmbeddedFile {
   const char* path;  ///< relative to kernels/
   const char* text;

@@ -45,7 +45,8 @@ std::string hash_of(const fs::path& file) {
   return hash.hex();
 }
 
-/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at every use.
+/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at every use. Listed,
+/// they would make every program look damaged.
 bool is_listed(const fs::path& relative) {
   const std::string name = relative.filename().string();
   return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 && name != "last_accessed";
@@ -53,6 +54,8 @@ bool is_listed(const fs::path& relative) {
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
+  // A folder that cannot be listed to its end gives what was found: check() then misses files and takes their programs
+  // as spoiled, which is safe.
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code gone;  // a neighbour may rename its temporary file between the listing and the look at it
@@ -62,7 +65,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 }
 
 /// The part of the folder that is one compiled program: a changed file spoils the whole of it, as the driver takes the
-/// presence of some of its files as proof of the others.
+/// presence of some of its files as proof of the others. PoCL puts a program two folders deep, by the digits of its
+/// hash.
 fs::path program_of(const fs::path& relative) {
   fs::path out;
   int depth = 0;
@@ -76,9 +80,12 @@ fs::path program_of(const fs::path& relative) {
 }  // namespace
 
 KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
+  // Made with all its parents, as ~/.cache may not exist on a fresh account.
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) fail(folder_, "the folder cannot be made: " + error.message());
+  // The driver does not tell when it cannot write: it leaves files that are cut short, which is what this class is
+  // about.
   struct statvfs disk {};
   if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastRoom)
     fail(folder_, "its disk is full (less than 16 MiB left)");
@@ -94,6 +101,7 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   }
 }
 
+// The lock goes with its file descriptor, so a process that is killed leaves none behind.
 KernelCache::~KernelCache() {
   seal();
   ::close(lock_);
@@ -103,12 +111,15 @@ void KernelCache::lock() {
   const std::string path = (folder_ / kLockName).string();
   lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (lock_ < 0) fail(folder_, std::string("it cannot be written: ") + std::strerror(errno));
+  // Exclusive first: only who is alone may remove files that nobody listed.
   alone_ = flock(lock_, LOCK_EX | LOCK_NB) == 0;
   // A neighbour checks for milliseconds; a folder whose file system knows no locks is used as if alone.
   if (!alone_ && errno != EWOULDBLOCK) alone_ = true;
   if (!alone_) flock(lock_, LOCK_SH);
 }
 
+// A manifest that is missing, of another layout or damaged lists less than there is, and what is not listed is compiled
+// again: reading it needs no error of its own.
 KernelCache::Manifest KernelCache::read_manifest() const {
   Manifest out;
   std::string text;
@@ -134,6 +145,7 @@ KernelCache::Manifest KernelCache::read_manifest() const {
 void KernelCache::check(bool alone) {
   const Manifest manifest = read_manifest();
   const std::vector<fs::path> files = files_in(folder_);
+  // Three things are gathered: the programs of which one file is wrong, the files that were seen, and the size of all.
   std::uintmax_t bytes = 0;
   std::set<fs::path> bad;
   std::set<std::string> seen;
@@ -146,6 +158,8 @@ void KernelCache::check(bool alone) {
     bytes += error ? 0 : size;
     bool good = !error;
     if (entry == manifest.end()) {
+      // Nobody has vouched for the file. Alone, it is left over from a process that was killed and may be cut short;
+      // beside others, a neighbour may have just finished it.
       good = !alone;
     } else if (good) {
       try {
@@ -164,12 +178,14 @@ void KernelCache::check(bool alone) {
     const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
     ++(remove ? removed_ : whole_);
   }
+  // Programs go as a whole: the driver takes the presence of some files as proof of the others.
   for (const fs::path& program : bad) {
     std::error_code error;
     fs::remove_all(folder_ / program, error);
     // What cannot be removed would be loaded: such a folder is no cache.
     if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
   }
+  // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
   if (alone && bytes > kMostBytes) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
       if (entry.path().filename() != kLockName) fs::remove_all(entry.path());
@@ -178,8 +194,10 @@ void KernelCache::check(bool alone) {
 
 void KernelCache::seal() noexcept {
   try {
+    // Read again, as neighbours may have listed files of theirs since this process began.
     Manifest old = read_manifest(), now;
     for (const fs::path& file : files_in(folder_)) {
+      // PoCL writes to a file of this name first and renames it; half of one must not be vouched for.
       if (!is_listed(file) || file.filename().string().rfind("tempfile_", 0) == 0) continue;
       const std::string name = file.generic_string();
       const auto entry = old.find(name);
@@ -196,7 +214,8 @@ void KernelCache::seal() noexcept {
 
 namespace {
 
-/// The process's folder, and how it came about.
+/// The process's folder, and how it came about. The status is filled by the constructor and does not change afterwards,
+/// so references to it may be kept.
 struct ProcessCache {
   KernelCacheStatus status;
   std::unique_ptr<KernelCache> cache;
@@ -228,6 +247,7 @@ fs::path usual_folder() {
 bool ProcessCache::open(const fs::path& folder) {
   try {
     cache = std::make_unique<KernelCache>(folder);
+    // A folder that cannot be used is no reason to stop: the next one is tried, and all reasons are told together.
   } catch (const std::exception& error) {
     status.trouble += (status.trouble.empty() ? "" : "; ") + std::string(error.what());
     return false;
@@ -237,6 +257,7 @@ bool ProcessCache::open(const fs::path& folder) {
 }
 
 void ProcessCache::open_temporary() {
+  // /dev/shm is the last resort: what lies there takes memory from the run.
   std::vector<std::string> places = {environment("TMPDIR"), "/tmp", "/var/tmp", "/dev/shm"};
   for (const std::string& place : places) {
     if (place.empty()) continue;
@@ -262,22 +283,27 @@ ProcessCache::ProcessCache() {
                 "): set POCL_CACHE_DIR to one that can");
     return;
   }
+  // Loud where the user pays for it at every run, quiet where it happened once.
   if (status.temporary) log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
     status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " + status.folder +
                      " were damaged or left over from a killed run: they are compiled again";
     log_info(status.trouble);
   }
+  // From here on the driver uses this folder, and so do programs that this one starts.
   ::setenv("POCL_CACHE_DIR", status.folder.c_str(), 1);
 }
 
 ProcessCache::~ProcessCache() {
+  // The cache closes its lock before the folder of a temporary one is removed.
   cache.reset();
   std::error_code ignored;
   if (status.temporary) fs::remove_all(status.folder, ignored);
 }
 
 ProcessCache& process_cache() {
+  // Made by the first call and gone after every Device: devices call prepare_kernel_cache() in their construction, and
+  // what is constructed later is destroyed earlier.
   static ProcessCache cache;
   return cache;
 }

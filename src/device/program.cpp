@@ -9,6 +9,7 @@
 
 namespace navvy::device {
 
+// Shared by a program and its kernels, so that a kernel may outlive the Program it came from.
 struct Program::State {
   std::shared_ptr<Device::State> device;
   std::string name;
@@ -26,6 +27,7 @@ struct Kernel::State {
   std::shared_ptr<Program::State> program;
   std::string name;
   cl_kernel kernel = nullptr;
+  // What the kernel says of itself, asked once: a launch asks the driver nothing.
   cl_uint arguments = 0;
   std::size_t group[3] = {1, 1, 1};  ///< work-group the kernel asks for
   bool launched = false;             ///< at least once
@@ -49,6 +51,7 @@ std::unique_ptr<SlowCall> tell_if_slow(const Device::State& device, const std::s
       (folder.empty() ? "" : ", once: the result is kept in " + folder));
 }
 
+// Drivers end logs with zeros or empty lines, which would split an error's text.
 std::string build_log(cl_program program, const Device::State& device) {
   std::size_t size = 0;
   if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS) return "";
@@ -74,6 +77,7 @@ std::shared_ptr<Program::State> build(Device& device, const std::string& name, c
   std::string flags;
   for (const std::string& flag : compiler_flags(device.info())) flags += flag + " ";
   for (const std::string& option : options) flags += option + " ";
+  // The notice ends with this scope, also when the build fails.
   const auto slow = tell_if_slow(*state->device, "kernels/" + name);
   code = clBuildProgram(state->program, 1, &state->device->device, flags.c_str(), nullptr, nullptr);
   if (code != CL_SUCCESS) {
@@ -95,6 +99,7 @@ std::string define(const std::string& name, float value) {
   return "-D" + name + text;
 }
 
+// Text goes in as it is, so it must hold no blanks: flags are joined by them.
 std::string define(const std::string& name, const std::string& value) { return "-D" + name + "=" + value; }
 
 std::vector<std::string> compiler_flags(const DeviceInfo& device) {
@@ -125,6 +130,7 @@ Kernel::Kernel(const Program& program, const std::string& name) : state_(std::ma
   const Device::State& device = *state_->program->device;
   cl_int code = CL_SUCCESS;
   state_->kernel = clCreateKernel(state_->program->program, name.c_str(), &code);
+  // The message names the file, as a wrong name is mostly one that was renamed there.
   check(code, "clCreateKernel", device, name + " of kernels/" + state_->program->name);
   check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments, &state_->arguments, nullptr),
         "clGetKernelInfo", device, name);
@@ -157,6 +163,7 @@ void Kernel::set_buffer(unsigned index, const RawBuffer& buffer) {
 }
 
 void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes) {
+  // Set at every launch anew by some callers, so the text of an error is put together only when there is one.
   const cl_int code = clSetKernelArg(state_->kernel, index, bytes, data);
   if (code == CL_SUCCESS) return;
   check(code, "clSetKernelArg", *state_->program->device, state_->name + ", argument " + std::to_string(index));
@@ -167,6 +174,7 @@ void Kernel::enqueue(Range global) { launch(global, nullptr); }
 void Kernel::enqueue(Range global, Range local) {
   for (int axis = 0; axis < 3; ++axis) {
     if (local.n[axis] == 0) throw DeviceError("kernel " + state_->name + ": a work-group needs at least one work-item");
+    // The kernel guards its index against the work-items this adds.
     global.n[axis] = (global.n[axis] + local.n[axis] - 1) / local.n[axis] * local.n[axis];
   }
   launch(global, local.n);
@@ -181,8 +189,11 @@ void Kernel::launch(const Range& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
   Device::State& device = *state_->program->device;
   cl_event event = nullptr;
+  // The driver may compile a kernel's machine code at its first launch and not at the build; the notice ends at the
+  // next wait.
   if (!state_->launched && !device.compiling) device.compiling = tell_if_slow(device, "kernel " + state_->name);
   state_->launched = true;
+  // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
   check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0, nullptr,
                                device.profiling ? &event : nullptr),

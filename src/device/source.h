@@ -14,7 +14,7 @@ namespace navvy::device {
 /// @throws DeviceError when there is no such file.
 std::string kernel_source(const std::string& path);
 
-/// Paths of all embedded files in alphabetical order.
+/// Paths of all embedded files in alphabetical order. Headers that kernels include are among them.
 std::vector<std::string> kernel_paths();
 
 /// `text` of file `path` with every `#include "..."` (relative to kernels/) replaced by that file, each file once, and
