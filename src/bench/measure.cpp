@@ -29,7 +29,8 @@ kernel void fma_peak(global float* out, const int rounds) {
 }
 )";
 
-/// Profiling for as long as it lives, also when the work throws.
+/// Profiling for as long as it lives, also when the work throws. A profile left on would slow down the rows that
+/// follow.
 class Profiling {
  public:
   explicit Profiling(device::Device& device) : device_(device) {
@@ -48,10 +49,14 @@ class Profiling {
 
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs) {
+  // The run with number -1 warms up: drivers compile machine code and touch memory at the first use.
   std::vector<double> times, processor;
   for (int run = -1; run < runs; ++run) {
+    // Restoring queues copies; they must not run within the measured time.
     restore();
     device.finish();
+    // Time of all threads of the process, in which a CPU's driver runs its kernels: it hardly grows when other programs
+    // take the machine.
     const std::clock_t start = std::clock();
     const Stopwatch watch;
     work();
@@ -60,6 +65,7 @@ Timing measure(device::Device& device, const std::function<void()>& restore, con
     times.push_back(watch.seconds());
     processor.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
+  // The best run is the one that was disturbed least; noise only ever adds time.
   std::sort(times.begin(), times.end());
   Timing out;
   out.best = times.front();
@@ -75,6 +81,7 @@ double kernel_seconds(device::Device& device, const std::function<void()>& resto
   double least = 0;
   for (int run = 0; run < runs; ++run) {
     restore();
+    // After the restore, so that its copies and fills do not count.
     const Profiling profiling(device);
     work();
     double sum = 0;
@@ -91,18 +98,23 @@ double copy_bandwidth(device::Device& device, std::size_t bytes) {
                                  "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const std::size_t count = bytes / 16;
   device::Buffer<float> from(device, 4 * count), to(device, 4 * count);
+  // Written once before the clock starts, or the first touch of fresh pages would be measured.
   from.fill(1);
   to.fill(0);
   device::Kernel copy(program, "copy");
   copy.args(from, to);
+  // A group of 64 is a wavefront or two warps, and a CPU's driver makes vectors of it.
   const Timing timing = measure(
       device, [] {}, [&] { copy.enqueue(count, 64); });
+  // Read once and written once.
   return 2.0 * static_cast<double>(bytes) / timing.best;
 }
 
 double fma_peak(device::Device& device) {
   const device::Program program = device::Program::from_text(device, "fma_peak", kFmaSource);
   device::Kernel kernel(program, "fma_peak");
+  // A launch must take long enough for its own cost not to show, and short enough for a bench of seconds: a GPU takes
+  // many items, a CPU with few lanes takes more rounds of fewer items.
   const bool gpu = device.info().kind == device::Kind::kGpu;
   const std::size_t items = gpu ? std::size_t{1} << 20 : std::size_t{1} << 12;
   const int rounds = gpu ? 1 << 11 : 1 << 14;
@@ -110,6 +122,7 @@ double fma_peak(device::Device& device) {
   kernel.args(out, rounds);
   const Timing timing = measure(
       device, [] {}, [&] { kernel.enqueue(items, 64); });
+  // Operations: a fused multiply-add is two, on 16 lanes of 8 sums, for each round and item.
   return 2.0 * 16 * 8 * static_cast<double>(rounds) * static_cast<double>(items) / timing.best;
 }
 

@@ -15,7 +15,8 @@ class Device;
 namespace navvy::bench {
 
 /// Runs `restore` then `work` once to warm up and `runs` times for the clock; only `work` is timed, up to the end of
-/// what it queued on the device. Processor time is counted too: it tells on a busy machine.
+/// what it queued on the device. Processor time is counted too: it tells on a busy machine. The number of runs is
+/// small, so best, median and spread are kept, not a mean.
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs = 5);
 
@@ -28,7 +29,8 @@ double kernel_seconds(device::Device& device, const std::function<void()>& resto
 /// against.
 double copy_bandwidth(device::Device& device, std::size_t bytes = std::size_t{1} << 28);
 
-/// Single-precision operations per second of a kernel that does nothing but fused multiply-adds in registers.
+/// Single-precision operations per second of a kernel that does nothing but fused multiply-adds in registers. It bounds
+/// schedules that compute rather than move memory.
 double fma_peak(device::Device& device);
 
 /// Both.

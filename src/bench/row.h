@@ -8,6 +8,7 @@
 
 namespace navvy::bench {
 
+/// Wall times of the runs of one bench after its warm-up.
 struct Timing {
   double best = 0;    ///< [s]
   double median = 0;  ///< [s]; 0 = as best
@@ -43,6 +44,7 @@ const std::vector<std::string>& columns();
 /// The row's fields as text, empty where they do not apply.
 std::vector<std::string> cells(const Row& row);
 
+/// The first line of a CSV file, without its end.
 std::string csv_header();
 /// One line without its end; text is quoted.
 std::string csv_line(const Row& row);

@@ -24,15 +24,19 @@ constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.
 /// Operations of scatter (440), gather (500), law and weights (about 360) for a particle, counted from the lines of
 /// kernels/soil; the grid's share is small and left out.
 constexpr double kFlopsPerParticle = 1300;
+// Few, as the largest cases take long on two cores; the spread tells when that was too few.
 constexpr int kRuns = 3;
 
+// Dry sand of the validation cases, so that a bench measures what the tests check.
 scene::Soil sand() { return lab::clean_sand(35); }
 
 /// Times `steps` steps from the site's present state; tools go on at their speed.
 Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
+  // One saved state for every run, so that each starts from the same bits.
   StateWriter writer;
   site.ground().save(writer);
   site.solver().save(writer);
+  // The step that the stability limit allows for the fastest tool, taken once: runs must not differ in it.
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
   const double dt = site.solver().step_limit(fastest);
@@ -48,6 +52,7 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
     site.solver().load(reader);
   };
   const auto work = [&] {
+    // A copy each run, as the tools move with it.
     std::vector<soil::ToolMotion> now = motions;
     const std::uint64_t before = site.solver().stats().particle_steps;
     for (int i = 0; i < steps; ++i) {
@@ -57,7 +62,10 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
     row.particles = (site.solver().stats().particle_steps - before) / row.steps;  // their mean: ground may wake
   };
   row.timing = measure(device, restore, work, kRuns);
+  // In runs of its own, because the profile slows a run down.
   row.kernels = kernel_seconds(device, restore, work);
+  // Of the last run. All runs begin and end alike, so which one does not matter; a row with another hash simulated
+  // something else and its time is not compared.
   StateHash state;
   site.solver().hash(state);
   row.hash = state.hex();
@@ -69,6 +77,7 @@ Row collapse(device::Device& device, double edge, int steps) {
   lab::SiteOptions options;
   options.size = 20;
   Site site(device, {sand()}, 0.1, options);
+  // Particles lie at half a cell: 8 a cell, so 8000 in a block of 1 m.
   std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
@@ -93,6 +102,7 @@ Row held_bucket(device::Device& device, int steps) {
   motion.tool = site.solver().add_tool(open_box(1.0, 0.8, 0.6));
   motion.X_WT = make_pose(0.03, 0.02, 1.5, 0, radians(15), 0);
   std::vector<soil::Particle> load;
+  // At half a cell, as insertion makes them, and clear of the shell's sides at the start.
   for (double z = 0.04; z < 0.45; z += 0.05)
     for (double y = -0.36; y < 0.37; y += 0.05)
       for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
@@ -104,6 +114,7 @@ Row held_bucket(device::Device& device, int steps) {
 Row dig(device::Device& device, double length, double width, int steps, const scene::Soil& what = sand()) {
   const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
+  // Larger than the bed, so that no soil reaches the site's edge and the count stays.
   options.size = std::max(20.0, 2 * length + 4);
   options.surface = lab::pit(bed);
   Site site(device, {what}, 0.1, options);
@@ -113,6 +124,7 @@ Row dig(device::Device& device, double length, double width, int steps, const sc
   soil::ToolMotion motion;
   motion.tool = site.solver().add_tool(open_box(0.8, 0.8, 0.6));
   motion.v_WT = Vec3(0.5, 0, 0);
+  // Tilted as for digging; the odd figures keep it off the edges of cells.
   motion.X_WT = make_pose(1.01, 0.02, 0.1, 0, radians(110), 0);
   return time_steps(device, site, steps, {motion});
 }
@@ -130,6 +142,7 @@ Row site_dig(device::Device& device, double size, int steps) {
   motion.X_WT = make_pose(0.01, 0.02, 0.1, 0, radians(110), 0);
   const double dt = site.solver().step_limit(0.5);
   std::vector<soil::ToolImpulse> impulse(1);
+  // Until the zone before the tool is awake: what wakes at the first touch is no steady cost.
   for (int i = 0; i < 20; ++i) {
     site.solver().step(dt, std::span(&motion, 1), impulse);
     motion.X_WT.translation() += dt * motion.v_WT;
@@ -139,6 +152,8 @@ Row site_dig(device::Device& device, double size, int steps) {
   return row;
 }
 
+// Recorded results are compared by these names, so they stay. The number behind the colon is that of the particles,
+// rounded, or the site's area.
 std::vector<SoilCase> make_cases() {
   using Device = device::Device;
   return {
@@ -175,6 +190,7 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
   std::string names;
   for (const SoilCase& c : soil_cases()) {
     names += " " + c.name;
+    // Part of the name is enough, so one word picks a family.
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
