@@ -41,6 +41,8 @@ double square_speed(const Particle& p) {
 bool at_rest(const ColumnIndex& index, int block) {
   double mass = 0, sum = 0, most = 0;
   for (const std::uint32_t i : index.block(block)) {
+    // Squares are compared, so no root is taken for a particle; sums run in the index's order, which does not depend on
+    // the input's.
     const double square = square_speed(index[i]);
     mass += index[i].mass;
     sum += index[i].mass * square;
@@ -50,6 +52,8 @@ bool at_rest(const ColumnIndex& index, int block) {
   return sum < kRestRms * kRestRms * mass && most < kRestMost * kRestMost;
 }
 
+// A tool keeps a block awake when it is near, when its zone would wake the block again, or when it touches a particle
+// of it.
 bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
   const auto meets = [&](const heightfield::CellRect& r) {
@@ -62,6 +66,7 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
   }
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
+    // A particle that is on a side of a shell is near enough to touch it [docs/tools.md, sides].
     if (index[i].side != 0) return true;
   return false;
 }
@@ -69,10 +74,12 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
 }  // namespace
 
 void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
+  // The new list holds only blocks that rest now, so that one that was moved or has left starts from zero.
   RestTimes now;
   for (std::size_t b = 0; b < index.blocks().size(); ++b) {
     if (!at_rest(index, static_cast<int>(b))) continue;
     const auto found = rest.find(index.blocks()[b]);
+    // The first check at which a block rests counts as no time: it may have stopped just now.
     now.emplace(index.blocks()[b], found == rest.end() ? 0.0 : found->second + elapsed);
   }
   rest.swap(now);
@@ -84,11 +91,13 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
   const auto found = rest.find(key);
   if (found == rest.end() || found->second < kRestTime) return false;
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
+  // Lowest surface a block can have is the datum, so 0 is below all of them.
   double top = 0;
   for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
     const int ix = index.grid().column_x(key, c), iy = index.grid().column_y(key, c);
     const auto column = index.column(ix, iy);
     if (column.empty()) continue;
+    // Soil beyond the edge has no column to go to; the solver books it as left.
     if (!ground.contains(ix, iy)) return false;
     top = std::max(top, height_in_cells(index[column.back()]));
   }
@@ -102,6 +111,7 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 }
 
 std::vector<Depositor::Share> Depositor::shares(Grains grains) const {
+  // Few soils meet in a block, so the list is searched.
   std::vector<Share> out;
   for (const std::uint32_t i : grains) {
     const Particle& p = index_[i];
@@ -115,6 +125,8 @@ std::vector<Depositor::Share> Depositor::shares(Grains grains) const {
     share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
     share->height += static_cast<double>(p.mass) * height_in_cells(p);
   }
+  // What lay lower on average stays below; equal heights are told apart by the soil's number, so that the order is the
+  // same in every run.
   std::sort(out.begin(), out.end(), [](const Share& a, const Share& b) {
     const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
     return za != zb ? za < zb : a.soil < b.soil;
@@ -144,6 +156,7 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
     const int ix = index_.grid().column_x(key, c), iy = index_.grid().column_y(key, c);
     if (!ground_.contains(ix, iy)) continue;
     const double here = surface(ix, iy);
+    // Beyond the site's edge nothing is known, so such neighbours count neither as drops nor as level.
     int drops = 0, level = 0;
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (!ground_.contains(ix + dx, iy + dy)) continue;
@@ -163,6 +176,7 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   for (std::size_t c = 0; c < 16; ++c) {
     const int place = static_cast<int>(c);
     if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place))) continue;
+    // Whole numbers, so that shares of mass add up exactly whatever their order.
     out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
   }
@@ -183,6 +197,7 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
   std::vector<Plan> plans;
   for (const int block : blocks) {
     const PlanKey& key = index_.blocks()[static_cast<std::size_t>(block)];
+    // Shapes of all blocks are read from the ground as it is before the first of them is booked.
     const BlockShape shape = finder.find(key);
     if (shape.hollow && rest.at(key) < kHollowRest) continue;
     taken.push_back(block);
@@ -196,6 +211,7 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
 double Depositor::crowding(const std::vector<Share>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
   double state = 0, room = 0;
+  // In cells: kMassQuantum turns quanta into kilograms, the bank density into volume, and the cell's cube into cells.
   for (const Share& share : shares)
     state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
@@ -209,6 +225,7 @@ heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
   const double mass = static_cast<double>(share.mass);
   heightfield::Layer layer;
   layer.soil = share.soil;
+  // The clamp is wide on purpose: a tighter one turns noise into volume [docs/exchange.md, decisions].
   double state = std::clamp(share.volume / mass, DENSEST_STATE, ground_.setup().soils[share.soil].swell);
   if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
   layer.specific_volume = static_cast<float>(state);
@@ -216,6 +233,7 @@ heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
   return layer;
 }
 
+// At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared out.
 void Depositor::book_column(int ix, int iy) {
   for (const Share& share : shares(index_.column(ix, iy))) {
     heightfield::Layer layer = layer_of(share, 1);
@@ -228,10 +246,12 @@ void Depositor::book(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   const PlanGrid& grid = index_.grid();
   const std::array<std::int64_t, 16> weight = weights(plan, block);
+  // What rounding leaves is a few quanta of each soil; the column with the largest share takes them.
   const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   std::int64_t sum = 0;
   for (const std::int64_t w : weight) sum += w;
 
+  // Soil of columns at no cliff is mixed in one pool, as the iso-surface says where it goes.
   std::vector<std::uint32_t> pooled;
   for (std::size_t c = 0; c < 16; ++c) {
     const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
@@ -248,6 +268,7 @@ void Depositor::book(const Plan& plan, int block) {
     std::array<std::int64_t, 16> part{};
     std::int64_t left = share.mass;
     for (std::size_t c = 0; c < 16; ++c) {
+      // The product may need more than 64 bits; in doubles it would lose quanta.
       __extension__ using Wide = __int128;
       part[c] = static_cast<std::int64_t>(static_cast<Wide>(share.mass) * weight[c] / sum);
       left -= part[c];
@@ -256,6 +277,7 @@ void Depositor::book(const Plan& plan, int block) {
     for (std::size_t c = 0; c < 16; ++c) {
       layer.mass = part[c];
       const int place = static_cast<int>(c);
+      // Columns that get nothing are not touched, so that no empty layer is made.
       if (layer.mass > 0) ground_.put(grid.column_x(key, place), grid.column_y(key, place), layer);
     }
   }

@@ -13,14 +13,19 @@
 
 namespace navvy::soil {
 
-/// How long each block has been at rest [s], by block.
+/// How long each block has been at rest [s], by block. Blocks that are not in it do not rest, so the map is as long as
+/// the soil that came to rest since it woke.
 using RestTimes = std::map<PlanKey, double>;
 
 /// Times spent at rest, brought up to this check: `elapsed` is added where all particles of a block move slowly, other
-/// blocks start again. A pure function of the particles, so their order does not matter.
+/// blocks start again. A pure function of the particles, so their order does not matter. Rest is told by the
+/// mass-weighted rms and by the fastest particle [docs/exchange.md, rest]; a NaN speed is not at rest. Costs the
+/// particles.
 void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest);
 
 /// Whether a block may be booked back as far as rest, tools, neighbours and the site's edge say. Voids come later.
+/// `block` is an entry of the index. True of blocks that have rested for 0.8 s inside the site, with no tool near,
+/// touching or about to wake them, and nothing that moves in the columns around.
 bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
                  const RestTimes& rest, int block);
 
@@ -34,11 +39,14 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 /// that makes a wall with its neighbours, not a spike of loose soil.
 class Depositor {
  public:
+  /// Both must outlive it. The index is of the particles as they are before anything is deposited; the ground changes
+  /// under it, which its piles do not follow.
   Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
 
   /// Deposits those of `blocks`, entries of the index, that are not hollow, and returns them. A hollow one waits until
-  /// it has stood for 5 s; then its overhang or void, which columns cannot show, is booked as fallen in. All
-  /// shapes are found before anything changes, so the order of the blocks does not matter.
+  /// it has stood for 5 s; then its overhang or void, which columns cannot show, is booked as fallen in. All shapes are
+  /// found before anything changes, so the order of the blocks does not matter. The caller drops the particles of the
+  /// blocks returned; their mass is in the columns then, to the quantum.
   std::vector<int> deposit(std::span<const int> blocks, const RestTimes& rest);
 
  private:
@@ -52,7 +60,9 @@ class Depositor {
     BlockShape shape;
     std::array<bool, 16> cliff{};
   };
+  // Indices of particles: over a block, or over those of its columns that share.
   using Grains = std::span<const std::uint32_t>;
+  // What lies over some columns, one entry a soil, in the order of mean height from below.
   std::vector<Share> shares(Grains grains) const;
   std::array<std::int64_t, 16> weights(const Plan& plan, int block) const;
   std::array<bool, 16> cliffs(int block) const;

@@ -7,6 +7,7 @@
 namespace navvy::soil {
 namespace {
 
+// At a flat surface half of the spline's weight lies in soil, so it is found where it is.
 constexpr double kIso = 0.5;
 /// Samples per cell in height.
 constexpr int kSamples = 2;
@@ -25,6 +26,7 @@ double spline(double t) {
 // Its mean over the particles of a column `d` columns away.
 double column_weight(int d) { return 0.5 * (spline(d - 0.25) + spline(d + 0.25)); }
 
+// How much of the spline's weight lies below t: what a column that is full up to there adds to a sample.
 // Its integral from -infinity to t.
 double spline_sum(double t) {
   if (t <= -1.5) return 0;
@@ -39,6 +41,7 @@ double spline_sum(double t) {
 BlockShape ShapeFinder::find(const PlanKey& block) {
   x0_ = index_.grid().column_x(block, 0);
   y0_ = index_.grid().column_y(block, 0);
+  // The block's columns with a margin of one, as the spline reaches a column to each side.
   std::vector<float> heights;
   ground_.copy_heights({x0_ - 1, y0_ - 1, x0_ + 5, y0_ + 5}, heights);
   double lowest = 0, highest = 0;
@@ -47,11 +50,13 @@ BlockShape ShapeFinder::find(const PlanKey& block) {
     lowest = i == 0 ? around_[i] : std::min(lowest, around_[i]);
     highest = i == 0 ? around_[i] : std::max(highest, around_[i]);
   }
+  // Particles up to two columns away touch the samples. Only the highest of each column matters here.
   for (int iy = y0_ - 2; iy < y0_ + 6; ++iy)
     for (int ix = x0_ - 2; ix < x0_ + 6; ++ix) {
       const auto column = index_.column(ix, iy);
       if (!column.empty()) highest = std::max(highest, height_in_cells(index_[column.back()]));
     }
+  // Two cells below the lowest column and above the highest grain, so that the spline is whole everywhere.
   bottom_ = std::floor(lowest) - 2;
   const auto samples = static_cast<std::size_t>(std::ceil((highest + 2 - bottom_) * kSamples)) + 1;
 
@@ -71,6 +76,7 @@ BlockShape ShapeFinder::find(const PlanKey& block) {
 bool ShapeFinder::hangs(int ix, int iy) {
   const auto column = index_.column(ix, iy);
   if (column.empty()) return false;
+  // What is known to carry soil: the highest surface around, then each grain that lies on what is below it.
   double floor = bottom_;
   heights_.clear();
   for (int dy = -1; dy <= 1; ++dy)
@@ -80,6 +86,7 @@ bool ShapeFinder::hangs(int ix, int iy) {
     }
   std::sort(heights_.begin(), heights_.end());
   const double top = height_in_cells(index_[column.back()]);
+  // From the lowest up. One gap is enough, whatever lies above it.
   for (const double z : heights_) {
     if (z > top) break;
     if (z - floor > kHanging) return true;
@@ -111,11 +118,13 @@ void ShapeFinder::sample_particles(int ix, int iy) {
             static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]) - (ix - grid.x + 0.5);
         const double y =
             static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]) - (iy - grid.y + 0.5);
+        // The spline is a product of its three axes; in plan it is the same for all samples.
         const double plan = spline(x) * spline(y);
         if (plan == 0) continue;
         const double volume =
             kilograms(p.mass) * static_cast<double>(p.j0) / (soils[p.soil].bank_density * cell * cell * cell);
         const double z = (height_in_cells(p) - bottom_) * kSamples;
+        // Only samples within the spline's support of 1.5 cells.
         const int first = std::max(0, static_cast<int>(std::ceil(z - 1.5 * kSamples)));
         const int last =
             std::min(static_cast<int>(fraction_.size()) - 1, static_cast<int>(std::floor(z + 1.5 * kSamples)));
@@ -128,10 +137,13 @@ void ShapeFinder::read(BlockShape& shape, std::size_t c) const {
   const double h = around_[(c / 4 + 1) * 6 + c % 4 + 1];
   shape.ground[c] = shape.surface[c] = h;
   std::size_t k = fraction_.size() - 1;
+  // From the top, so that soil which hangs above a void gives the upper surface; the void is found below.
   while (k > 0 && fraction_[k] < kIso) --k;
   if (k + 1 >= fraction_.size() || fraction_[k] < kIso) return;
+  // The fraction falls towards the top, so the crossing lies between this sample and the next; linear in between.
   const double within = (fraction_[k] - kIso) / (fraction_[k] - fraction_[k + 1]);
   shape.surface[c] = std::max(h, bottom_ + (static_cast<double>(k) + within) / kSamples);
+  // Down to the column's own surface. A sample of little soil is a gap, as the ground below it counts as full.
   for (; k > 0 && bottom_ + static_cast<double>(k) / kSamples > h; --k)
     if (fraction_[k] < kHollow) shape.hollow = true;
 }

@@ -23,16 +23,20 @@ constexpr double kRestAfterDeposit = 1.0;
 constexpr std::size_t kTilesPerCheck = 48;
 constexpr std::uint32_t kStateVersion = 1;
 
-// Squared distance in plan from a column to a tool's box [columns^2].
+// Squared distance in plan from a column to a tool's box [columns^2]. Squares order distances as well as the roots do,
+// and stay exact.
 double distance_to(const heightfield::CellRect& box, int ix, int iy) {
   const double dx = std::max({box.x0 - ix, ix - (box.x1 - 1), 0}), dy = std::max({box.y0 - iy, iy - (box.y1 - 1), 0});
   return dx * dx + dy * dy;
 }
 
+// Keys are (y, x), as everywhere in the exchange.
 PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan::kTile}; }
 
 }  // namespace
 
+// Everything that lasts, and the parts that work on it. The order of the members is that of construction: the waker and
+// the table need the grid and the ground.
 struct Exchange::State {
   State(const scene::World& world, heightfield::Ground& ground_in)
       : ground(ground_in),
@@ -45,6 +49,8 @@ struct Exchange::State {
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
         seen(ground_in.sequence()) {}
 
+  // Whether the motion rule must leave a column alone, because its block was booked back within the last second. Where
+  // a tool stands it may wake at once.
   bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
   std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
   void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
@@ -64,7 +70,8 @@ struct Exchange::State {
   Slump slump;
   std::size_t max_particles;
 
-  // What lasts from check to check.
+  // What lasts from check to check. It is saved and hashed, together with `standing` and `slump`; the rest follows from
+  // the scene.
   std::uint64_t seen;                   // ground sequence up to which changes were noticed
   std::set<PlanKey> pending;            // changed tiles not looked at yet
   PlanKey next_pending{0, 0};           // where the walk through them goes on
@@ -91,16 +98,23 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
     for (int ty = first.first; ty <= last.first; ++ty)
       for (int tx = first.second; tx <= last.second; ++tx) pending.insert({ty, tx});
   };
+  // A rectangle round all changes since the last check: it may be larger than they are, which costs looking, never
+  // correctness.
   insert_tiles(ground.changed_since(seen));
   seen = ground.sequence();
   std::set<PlanKey> out;
   for (const PlanKey& block : index.blocks()) {
+    // A block lies across tiles at most at its corners, as a tile is eight blocks wide; the grid may be shifted against
+    // it.
     for (const int c : {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
       const int ix = grid.column_x(block, c), iy = grid.column_y(block, c);
       if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
     }
   }
+  // What is looked at anyway need not wait.
   for (const PlanKey& tile : out) pending.erase(tile);
+  // The rest in turns, from where the last check stopped: every changed tile is looked at within a bounded number of
+  // checks, in an order that depends on the tiles alone.
   for (std::size_t n = 0; n < kTilesPerCheck && !pending.empty(); ++n) {
     auto next = pending.lower_bound(next_pending);
     if (next == pending.end()) next = pending.begin();
@@ -123,6 +137,8 @@ void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const Tool
 
 void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
                                  WakePlan& plan) {
+  // Awake soil in the block of any column on the way, or in a block beside it, counts as near: there particles carry on
+  // what starts to slide.
   bool near = false;
   for (int l = 0; l <= found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
@@ -131,6 +147,8 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
       for (int bx = -1; bx <= 1; ++bx) near = near || index.find({block.first + by, block.second + bx}) >= 0;
     for (const ToolZone& tool : zones) near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
   }
+  // Over budget, as the last check left it, nothing more may wake: the slope slides as columns, which needs no
+  // particles.
   if (!near || over_budget) {
     slump.fail(found);
     return;
@@ -138,12 +156,14 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
   const double bottom = std::floor(found.low) - 1;
   for (int l = 0; l < found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
+    // Columns on the way that are lower already stay where they are.
     if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low) plan_wake(plan, ix, iy, bottom);
   }
 }
 
 // Drops the requests farthest from tools until the particles to come fit the budget.
 void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan) {
+  // An upper bound but for columns of many thin soils, so that the budget is rather missed from below.
   const auto bound = [&](const WakePlan::value_type& entry) {
     const double bottom = ground.datum() + entry.second * ground.cell();
     return static_cast<std::size_t>(
@@ -159,6 +179,8 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
     double distance;
     PlanKey column;
   };
+  // Farthest from every tool goes first; the soil at a tool is what a run is about. Without tools all are equally far
+  // and the order of the columns decides.
   std::vector<Ranked> ranked;
   for (const auto& entry : plan) {
     double nearest = 0;
@@ -168,6 +190,7 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
     }
     ranked.push_back({nearest, entry.first});
   }
+  // Ties by the column's key, so that the same columns are dropped in every run.
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.column < b.column;
   });
@@ -178,6 +201,7 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
     plan.erase(entry);
     ranked.pop_back();
   }
+  // Once, not at every check while it lasts.
   if (!over_budget)
     log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " + std::to_string(wanted) +
                 " to " + std::to_string(plan.size()) + " columns, or there would be more than " +
@@ -185,9 +209,11 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
   over_budget = true;
 }
 
+// Columns wake in the order of the map, so new particles come in the same order in every run.
 void Exchange::State::wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result) {
   for (const auto& [column, bottom] : plan) {
     const std::size_t before = result.born.size();
+    // What lies on a column as particles weighs on it, too; without that, woken soil would settle under them.
     waker.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
                kilograms(index.pile(column.second, column.first).mass), result.born);
     result.woken_columns += result.born.size() > before ? 1 : 0;
@@ -200,12 +226,14 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   for (const auto& [column, bottom] : plan)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) rest.erase(grid.block_of(column.second + dx, column.first + dy));
+  // All blocks are judged before any is booked: a deposit must not make its neighbour ready in the same check.
   std::vector<int> ready;
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
   std::set<PlanKey> done;
   for (const int b : Depositor(ground, index).deposit(ready, rest)) {
     const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
+    // Flagged, not erased: the solver compacts its arrays itself.
     for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
     rest.erase(key);
     deposited[key] = time;
@@ -213,11 +241,14 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
     ++result.deposited_blocks;
   }
   standing.remember(ground, index, done);
+  // Older entries forbid nothing any more; forgetting them keeps the list as short as a second of digging.
   std::erase_if(deposited, [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
 }
 
 int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
                                double elapsed) {
+  // A column moves only while nothing rests on it, nothing is to wake in it and no tool stands in it: particles and
+  // shells would not notice that the ground under them went.
   const auto blocked = [&](int ix, int iy) {
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
     const double top = (ground.height(ix, iy) - ground.datum()) / ground.cell();
@@ -235,6 +266,8 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   const ColumnIndex index(particles, s.ground, s.grid);
   const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools);
 
+  // The plan collects all three rules before anything changes. One column may be asked for by several; the deepest
+  // counts.
   WakePlan plan;
   wake_ahead_of_tools(s.ground, zones, plan);
   wake_around_motion(
@@ -244,6 +277,8 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   s.fit_budget(zones, particles.size(), time, plan);
 
   update_rest(index, elapsed, s.rest);
+  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not among them. Columns
+  // slide last, on ground that has both.
   s.deposit(index, zones, plan, time, result);
   s.wake_planned(index, plan, result);
   result.slumped_columns = s.run_slump(index, zones, plan, elapsed);
@@ -255,6 +290,7 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
   State& s = *state_;
   std::vector<Particle> born;
   const ColumnIndex index(resting, s.ground, s.grid);
+  // Rows of the ground's own order, so that new particles come alike in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
       s.waker.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
@@ -262,6 +298,7 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
 }
 
 void Exchange::hash(StateHash& hash) const {
+  // The order is that of save() below; a value added here has to be added there and in load().
   const State& s = *state_;
   const auto times = [&](const std::map<PlanKey, double>& map) {
     hash.value(map.size());
@@ -314,6 +351,7 @@ void Exchange::save(StateWriter& writer) const {
 }
 
 void Exchange::load(StateReader& reader) {
+  // Nothing is checked here but what the reader checks: lengths against the bytes that are left.
   State& s = *state_;
   const auto key = [&] {
     const int y = reader.value<int>(), x = reader.value<int>();

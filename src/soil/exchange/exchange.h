@@ -16,7 +16,8 @@
 
 namespace navvy::soil {
 
-/// Where a tool is, for waking ahead of it and for keeping soil near it awake.
+/// Where a tool is, for waking ahead of it and for keeping soil near it awake. The solver makes one a tool and check,
+/// from the tool's shell and its speed. A tool that hangs in the air costs the columns below it and wakes nothing.
 struct ToolRegion {
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< box of the shell in W [m]
   Vec3 velocity = Vec3::Zero();                 ///< of the box centre [m/s]
@@ -29,23 +30,33 @@ struct ToolRegion {
 /// at rest, what was deposited just now and which columns slide; all of it is saved and hashed.
 class Exchange {
  public:
-  /// The ground must outlive it. @throws InputError when particles of these soils would be too heavy.
+  /// The ground must outlive it. Neither the world nor the ground's columns are changed by it. `max_particles` and the
+  /// way steep ground is treated are taken from the world. @throws InputError when particles of these soils would be
+  /// too heavy.
   Exchange(const scene::World& world, heightfield::Ground& ground);
   ~Exchange();
 
+  /// What one check did. The counts are for progress and telemetry; the mass moved is in the ground and in these lists.
   struct Result {
     std::vector<Particle> born;         ///< to be added (ids are given by the solver)
     std::vector<std::uint8_t> removed;  ///< one flag per particle given: booked into columns
     int woken_columns = 0, deposited_blocks = 0, slumped_columns = 0;
   };
-  /// One check. `particles` in a repeatable order; `time` is simulated [s] and `elapsed` since the last check.
+  /// One check. `particles` in a repeatable order; `time` is simulated [s] and `elapsed` since the last check. The
+  /// ground has changed when it returns, particles have not: the caller adds and removes them before the next step. How
+  /// often it is called changes little, as the rules are written in simulated time. Costs the particles, the columns
+  /// near tools and what changed since.
   Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed);
   /// Turns columns above W height z_bottom into particles unconditionally. `resting` are the particles there are
-  /// already; those on the columns weigh on what wakes.
+  /// already; those on the columns weigh on what wakes. For scenes that start with soil awake and for tests; the budget
+  /// is not asked.
   std::vector<Particle> wake(const heightfield::CellRect& rect, double z_bottom,
                              std::span<const Particle> resting = {});
 
+  /// The state between checks: equal hashes go on alike with equal ground and particles.
   void hash(StateHash& hash) const;
+  /// One section, "soil-exchange". Loading needs an exchange made for the same scene. @throws InputError when the bytes
+  /// are of another version or cut short.
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
 

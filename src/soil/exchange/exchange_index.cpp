@@ -16,6 +16,8 @@ constexpr double kMostGap = 1.5;
 constexpr double kHalfParticle = 0.25;  // [cells]
 constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;
 
+// Both numbers may be negative; as 32 bits each they still tell blocks apart. The order of the packed key means
+// nothing.
 std::uint64_t packed(const PlanKey& key) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.first)) << 32 |
          static_cast<std::uint32_t>(key.second);
@@ -57,12 +59,15 @@ void ColumnIndex::group() {
     ++begin_[h + 1];
   }
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+  // Each column's particles stand together now, in the order of the input until sort_columns.
   order_.resize(particles_.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
   for (std::size_t i = 0; i < home.size(); ++i) order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 void ColumnIndex::sort_columns() {
+  // Two particles at one height are told apart by what they are, never by their place in the input. Ids tell a solver's
+  // particles apart; what follows only matters to callers that give none.
   const auto rank = [&](std::uint32_t i) {
     const Particle& p = particles_[i];
     return std::tuple(p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
@@ -90,6 +95,7 @@ void ColumnIndex::build_piles() {
     Pile& pile = piles_[c];
     const double surface = (ground_.height(ix, iy) - ground_.datum()) / cell;
     pile.top = surface;
+    // From the lowest up, until a gap: what hangs in the air above it is not part of the pile.
     for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o) {
       const Particle& p = particles_[order_[o]];
       const double z = height_in_cells(p);
@@ -98,6 +104,7 @@ void ColumnIndex::build_piles() {
       pile.mass += p.mass;
       pile.height += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
     }
+    // Particles may stand looser than their state says, and the surface is then where the highest ends.
     if (pile.mass > 0) pile.height = std::max(pile.height, pile.top + kHalfParticle - surface);
   }
 }

@@ -21,27 +21,33 @@ namespace navvy::soil {
 /// jumps. Costs the sliding columns only.
 class Slump {
  public:
+  /// Both must outlive it.
   Slump(heightfield::Ground& ground, const SlumpTable& table) : ground_(ground), table_(table) {}
 
-  /// Lets the columns from the high to the low one slide.
+  /// Lets the columns from the high to the low one slide. They start at the next `run`. What slides already goes on,
+  /// down to the lower of the two heights.
   void fail(const OverSteep& found);
   /// Runs the sweeps of `elapsed` seconds. `blocked` answers for a column whether it must stay as it is now. Returns
-  /// the number of columns that changed.
+  /// the number of columns that changed. Blocked columns neither give nor take, and wait: the soil of the ones above
+  /// stays until they are free or at rest.
   template <class Blocked>
   int run(double elapsed, const Blocked& blocked);
 
+  /// True when nothing slides: then `run` costs nothing.
   bool idle() const { return sliding_.empty(); }
 
+  /// What slides and how far, in the order of the columns. The owner opens the section that these are part of.
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
 
  private:
+  // A column that gives soil away while it is steep. A few sweeps without motion end it.
   struct Sliding {
     double base = 0;         ///< soil above this W height slides [m]
     std::int32_t still = 0;  ///< sweeps since it last moved
   };
-  /// Whole sweeps that are due.
+  /// Whole sweeps that are due. Carries the rest of a sweep on; drops it while nothing slides.
   int due(double elapsed);
   /// Soil from the higher of two neighbours to the lower; false when nothing had to move.
   bool exchange(const PlanKey& a, const PlanKey& b);
@@ -49,15 +55,21 @@ class Slump {
 
   heightfield::Ground& ground_;
   const SlumpTable& table_;
+  // Ordered by column, so that hash and save do not depend on when columns failed.
   std::map<PlanKey, Sliding> sliding_;
   double debt_ = 0;  ///< share of a sweep carried to the next check
+  // Scratch, kept for its memory.
   std::vector<heightfield::Layer> taken_;
 };
 
+// The four colours keep the pairs of one colour apart, so a sweep does not depend on the order within a colour; their
+// own order is fixed. A column that begins to slide during a sweep joins at the next one, as `keys` are those at its
+// start.
 template <class Blocked>
 int Slump::run(double elapsed, const Blocked& blocked) {
   std::set<PlanKey> changed;
   for (int sweeps = due(elapsed); sweeps > 0 && !idle(); --sweeps) {
+    // Copied, as exchange() adds columns while the sweep runs.
     std::vector<PlanKey> keys;
     for (const auto& [key, sliding] : sliding_) keys.push_back(key);
     for (auto& [key, sliding] : sliding_) ++sliding.still;

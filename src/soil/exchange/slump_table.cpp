@@ -19,6 +19,7 @@ constexpr double kHighest = 100;
 
 }  // namespace
 
+// Soil by soil, then level, distance and direction; `weakest_` is as long as one level.
 std::size_t SlumpTable::place(std::size_t soil, int level, int steps, bool diagonal) {
   return ((soil * kLevels + static_cast<std::size_t>(level)) * kReach + static_cast<std::size_t>(steps - 1)) * 2 +
          (diagonal ? 1 : 0);
@@ -28,11 +29,13 @@ double SlumpTable::critical_height(double cohesion, double friction_angle, doubl
   if (cohesion <= 0) return 0;
   const auto stands = [&](double h) {
     const double face = std::atan2(h, setback);
+    // A face that is no steeper than the friction angle stands without cohesion.
     if (face <= friction_angle) return true;
     return h * unit_weight * (1 - std::cos(face - friction_angle)) <=
            4 * cohesion * std::sin(face) * std::cos(friction_angle);
   };
   // The allowed height falls as the face steepens, so there is one crossing.
+  // 60 halvings of 100 m leave less than a double can tell apart.
   double low = 0, high = kHighest;
   if (stands(high)) return high;
   for (int i = 0; i < 60; ++i) (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
@@ -41,18 +44,22 @@ double SlumpTable::critical_height(double cohesion, double friction_angle, doubl
 
 SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, double gravity)
     : soils_(soils), cell_(cell) {
+  // Filled once for a scene: 256 entries a soil, each with a search.
   start_.resize(soils.size() * kLevels * kReach * 2);
   weakest_.assign(kReach * 2, kHighest);
   for (std::size_t s = 0; s < soils.size(); ++s) {
     const scene::Soil& soil = soils[s];
+    // Soil of less than a degree of friction stops on level ground.
     stop_.push_back(cell * std::tan(std::max(soil.friction_angle - kStopBelow, 0.0)));
     for (int level = 0; level < kLevels; ++level)
       for (int steps = 1; steps <= kReach; ++steps)
         for (const bool diagonal : {false, true}) {
           const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
           const double cohesion =
+              // From residual to intact, in equal steps; level 0 is soil that is fully remoulded.
               soil.residual_cohesion + (soil.cohesion - soil.residual_cohesion) * level / (kLevels - 1);
           const double dry = distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
+          // The face falls back by half a cell less than the columns' centres lie apart [docs/exchange.md, slump].
           const double cohesive =
               critical_height(cohesion, soil.friction_angle, soil.bank_density * gravity, distance - 0.5 * cell);
           const double drop = std::max(dry, cohesive);
@@ -72,10 +79,12 @@ double SlumpTable::start(std::uint16_t soil, float shear, int steps, bool diagon
 
 double SlumpTable::start(std::span<const heightfield::Layer> layers, double low, double high, int steps,
                          bool diagonal) const {
+  // From the datum up, as layers are stored.
   double least = kHighest, bottom = 0;
   for (const heightfield::Layer& layer : layers) {
     const double top = bottom + kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                                     (soils_[layer.soil].bank_density * cell_ * cell_);
+    // Only layers that the drop lays bare: what lies below the low column is held from the sides.
     if (top > low && bottom < high) least = std::min(least, start(layer.soil, layer.plastic_shear, steps, diagonal));
     bottom = top;
   }

@@ -24,19 +24,26 @@ class SlumpTable {
   /// `cell` [m], `gravity` [m/s2].
   SlumpTable(const std::vector<scene::Soil>& soils, double cell, double gravity);
 
-  /// Drop [m] at which soil remoulded by `shear` starts to slide over `steps` columns (1 .. kReach).
+  /// Drop [m] at which soil remoulded by `shear` starts to slide over `steps` columns (1 .. kReach). Soil between
+  /// intact and remoulded counts with the cohesion that is left, rounded down to one of eight levels: soil slides a
+  /// little early, never late.
   double start(std::uint16_t soil, float shear, int steps, bool diagonal) const;
   /// The least that the layers between two heights of a column allow. `layers` bottom first, heights in m above datum.
+  /// Layers that the drop does not lay bare have no say; 100 m when none is.
   double start(std::span<const heightfield::Layer> layers, double low, double high, int steps, bool diagonal) const;
-  /// No soil slides below this drop [m].
+  /// No soil slides below this drop [m]. The first question of every scan: it spares reading the layers of nearly all
+  /// columns.
   double weakest(int steps, bool diagonal) const { return weakest_[place(0, 0, steps, diagonal)]; }
-  /// Drop between neighbours [m] at which sliding soil stops.
+  /// Drop between neighbours [m] at which sliding soil stops. Lower than where sliding starts, so that what stopped
+  /// does not start again at the next look.
   double stop(std::uint16_t soil) const { return stop_[soil]; }
 
-  /// Culmann's critical height [m] of a face that falls back by `setback` [m]; 0 without cohesion.
+  /// Culmann's critical height [m] of a face that falls back by `setback` [m]; 0 without cohesion. `friction_angle`
+  /// [rad], `cohesion` [Pa], `unit_weight` [N/m3]; at most 100 m, which nobody asks beyond.
   static double critical_height(double cohesion, double friction_angle, double unit_weight, double setback);
 
  private:
+  // All drops of a soil lie together: level, then distance, then straight or diagonal.
   static std::size_t place(std::size_t soil, int level, int steps, bool diagonal);
 
   std::vector<scene::Soil> soils_;

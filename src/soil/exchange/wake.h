@@ -19,14 +19,18 @@ namespace navvy::soil {
 /// that of what lies on them, so untouched woken ground stays where it is [docs/exchange.md, wake].
 class Waker {
  public:
-  /// `gravity` [m/s2]. @throws InputError when a particle of these soils would not fit its integer mass.
+  /// `gravity` [m/s2]. Elastic constants of the soils are worked out once, here; the ground must outlive it. @throws
+  /// InputError when a particle of these soils would not fit its integer mass.
   Waker(heightfield::Ground& ground, PlanGrid grid, double gravity);
 
   /// Appends the particles of column (ix, iy) above W height `z_bottom` [m], from the lowest up, and takes them off the
-  /// column. `load` is the mass resting on the column [kg]. Nothing happens when the column is not higher.
+  /// column. `load` is the mass resting on the column [kg]. Nothing happens when the column is not higher. z_bottom
+  /// below the datum wakes the whole column. Ids and velocities are left at zero for the solver. Costs the layers of
+  /// the column and the particles it gives.
   void wake(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born);
 
-  /// At least the number of particles that waking the top `thickness` [m] of a column of few soils can give.
+  /// At least the number of particles that waking the top `thickness` [m] of a column of few soils can give. For the
+  /// budget, before anything wakes.
   int particle_bound(double thickness) const;
 
  private:
@@ -36,7 +40,9 @@ class Waker {
     double bottom, thickness;  // [m] above the cut
     float specific_volume, shear;
   };
+  // Layers [first, last) of `taken_`, all of one soil, into `slices_`.
   void slice(std::size_t first, std::size_t last, double bottom);
+  // What a resting particle of the slice bears, so that it does not move when it wakes.
   void stress(const Slice& slice, double weight, Particle& particle) const;
 
   heightfield::Ground& ground_;

@@ -36,7 +36,8 @@ double height_in_cells(const heightfield::Ground& ground, int ix, int iy) {
   return (ground.height(ix, iy) - ground.datum()) / ground.cell();
 }
 
-// Mean height of the soil, resting and on top, over a rectangle [cells above datum].
+// Mean height of the soil, resting and on top, over a rectangle [cells above datum]. A mean, as single columns beside a
+// tool stand high or low.
 double mean_surface(const heightfield::Ground& ground, const ColumnIndex& index, const heightfield::CellRect& rect) {
   double sum = 0;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
@@ -65,11 +66,15 @@ std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const Column
     const double depth = std::clamp(mean_surface(ground, index, around) - out.low, kLeastDepthCells, most);
     Vec2 ahead = Vec2::Zero();
     const Vec2 v = tool.velocity.head<2>();
+    // A tool that hardly moves has no ahead; it wakes the same distance to all sides.
     if (v.norm() > kSlowTool) ahead = v * (kAhead * depth * cell / v.norm());
     const Vec2 sides = Vec2::Constant(kSides * depth * cell);
+    // The box grows towards the motion by two depths, elsewhere by one, per axis, so that a tool that moves aslant gets
+    // both.
     const Vec2 zone_low = low - sides.cwiseMax(-ahead), zone_high = high + sides.cwiseMax(ahead);
     out.zone = columns_of(ground, zone_low, zone_high, 0);
 
+    // One column is enough. The search ends at the first, as most tools of a machine hang in the air.
     for (int iy = out.zone.y0; iy < out.zone.y1 && !out.engaged; ++iy)
       for (int ix = out.zone.x0; ix < out.zone.x1 && !out.engaged; ++ix)
         out.engaged = height_in_cells(ground, ix, iy) + index.pile_height(ix, iy) > out.low - 1;
@@ -79,6 +84,7 @@ std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const Column
 }
 
 void plan_wake(WakePlan& plan, int ix, int iy, double bottom) {
+  // Two rules may ask for one column: the deeper request holds.
   const auto [found, is_new] = plan.emplace(PlanKey{iy, ix}, bottom);
   if (!is_new) found->second = std::min(found->second, bottom);
 }
@@ -94,6 +100,7 @@ void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const Tool
 }
 
 double motion_threshold(std::span<const ToolZone> zones) {
+  // The slowest, so that soil before a slow blade wakes beside a fast one.
   double slowest = 0;
   for (const ToolZone& tool : zones)
     if (tool.engaged && tool.speed > kSlowTool) slowest = slowest == 0 ? tool.speed : std::min(slowest, tool.speed);
@@ -103,6 +110,8 @@ double motion_threshold(std::span<const ToolZone> zones) {
 bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> column, double threshold, int& cell) {
   for (const std::uint32_t i : column) {
     const Particle& p = index[i];
+    // In doubles, so that a speed at the threshold is judged alike everywhere. A NaN is not below it and counts as
+    // motion.
     const double square = static_cast<double>(p.v[0]) * p.v[0] + static_cast<double>(p.v[1]) * p.v[1] +
                           static_cast<double>(p.v[2]) * p.v[2];
     if (square <= threshold * threshold) continue;
@@ -114,11 +123,14 @@ bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> colu
 
 bool wakes_beside(const heightfield::Ground& ground, std::span<const ToolZone> zones, int ix, int iy, int cell,
                   double& bottom) {
+  // Two cells below the motion, and at least one below the column's own top, so that a thin crust wakes whole.
   const double h = height_in_cells(ground, ix, iy);
   bottom = std::min(static_cast<double>(cell) - 2, std::floor(h) - 1);
+  // A tool pulls soil along under it; without this end every check would wake a cell more.
   for (const ToolZone& tool : zones)
     if (tool.engaged && ToolZone::contains(tool.zone, ix, iy))
       bottom = std::max(bottom, std::floor(tool.low) - kDeepest);
+  // Columns that end more than a cell below the motion are not touched by it.
   return h > cell - 1 + kCutError && h > bottom + kCutError;
 }
 

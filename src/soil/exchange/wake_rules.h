@@ -12,7 +12,9 @@
 
 namespace navvy::soil {
 
-/// A tool as columns see it. Rectangles lie inside the site and may be empty.
+/// A tool as columns see it. Rectangles lie inside the site and may be empty. It is made anew at each check from the
+/// shell's box, so a tool that turned has another one. Cells are counted from the datum, columns from the site's
+/// corner.
 struct ToolZone {
   heightfield::CellRect box;   ///< columns under the tool's box
   heightfield::CellRect near;  ///< and those within kToolGuard of it
@@ -21,32 +23,38 @@ struct ToolZone {
   double speed = 0;            ///< [m/s]
   bool engaged = false;        ///< some column of the zone, with the soil on it, reaches up to it
 
+  /// Under the box in plan; says nothing about heights.
   bool touches(int ix, int iy) const { return contains(box, ix, iy); }
   static bool contains(const heightfield::CellRect& r, int ix, int iy) {
     return ix >= r.x0 && ix < r.x1 && iy >= r.y0 && iy < r.y1;
   }
 };
 
-/// Height [cells above datum] each column shall wake down to.
+/// Height [cells above datum] each column shall wake down to. A column that is not in it stays. It is ordered, as new
+/// particles come in its order.
 using WakePlan = std::map<PlanKey, double>;
 
-/// Where every tool is. Costs the columns of the zones.
+/// Where every tool is. Costs the columns of the zones. In the order of `tools`; no rule depends on that order.
 std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const ColumnIndex& index,
                                  std::span<const ToolRegion> tools);
 
 /// Rule A: columns of the zone that reach within a cell of the tool's lowest point wake to one or two cells below it.
+/// That a whole zone wakes, not what a tool touches alone, is because soil fails ahead of a blade in a wedge as long as
+/// it digs deep or longer [docs/exchange.md, wake].
 void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const ToolZone> zones, WakePlan& plan);
 
-/// Speed above which soil counts as moving: 5 % of the slowest working tool's [m/s].
+/// Speed above which soil counts as moving: 5 % of the slowest working tool's [m/s]. At least 0.05 m/s, also without a
+/// working tool: below, the elastic ringing of soil that has just woken would wake the site.
 double motion_threshold(std::span<const ToolZone> zones);
 
 /// Rule B: a particle faster than `threshold` wakes the 3 x 3 columns around it that reach up to its cell. `may_wake`
 /// answers for a column whether this rule applies to it now. In a working tool's zone it goes three cells below the
-/// tool and no deeper.
+/// tool and no deeper. Costs the particles and nine columns for each column that moves.
 template <class MayWake>
 void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
                         std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan);
 
+/// Adds a request; of two for one column the deeper one stays.
 void plan_wake(WakePlan& plan, int ix, int iy, double bottom);
 
 // ---- implementation of the template
