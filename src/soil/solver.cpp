@@ -159,7 +159,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
       contact.read_later();
       mass_count.queue(store);
     }
-    Transfer::Report report;
+    Transfer::Largest report;
     {
       StageClock clock(times, "particles");
       report = transfer.read_report(store.homes().size());
@@ -288,7 +288,7 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
     const int tiles = store.set_near(contact.near_homes());
     transfer.set_blocks(store, contact.near_slot(), tiles);
   }
-  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.heights());
+  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.blocks());
   blocks_changed = false;
 }
 

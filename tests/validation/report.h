@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "gates/gates.h"
-#include "lab/lab.h"
+#include "lab/report.h"
 
 namespace navvy::validation {
 
