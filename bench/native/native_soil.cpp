@@ -16,19 +16,13 @@ constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their dr
 constexpr std::size_t kCells = 216;
 constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
 
-/// Share of a node's kernel above level ground that ends `t` cells below it (kernels/soil/room.h).
-float room_above(float t) {
-  const float a = std::clamp(t, -0.5f, 0.5f), low = std::clamp(1.5f + t, 0.0f, 1.0f),
-              high = std::clamp(1.5f - t, 0.0f, 1.0f);
-  const float share = 0.5f + a * (0.75f - a * a / 3) + (low * low * low - high * high * high) / 6;
-  return std::max(share, 0.25f);
-}
-
 LawSoil law_of(const scene::Soil& soil, double cell) {
-  const soil::LawConstants k = soil::law_constants(soil, cell);
-  const auto all = [](double value) { return Lanes{} + static_cast<float>(value); };
-  return {all(k.bulk),        all(k.shear),       all(k.alpha),     all(k.k_residual), all(k.k_bond),
-          all(k.inv_remould), all(k.inv_opening), all(k.viscosity), all(k.swell),      all(k.loosening)};
+  const soil::LawConstants law = soil::law_constants(soil, cell);
+  LawSoil out;
+#define LANES_CONSTANT(name) out.name = Lanes{} + static_cast<float>(law.name);
+  LAW_CONSTANTS(LANES_CONSTANT)
+#undef LANES_CONSTANT
+  return out;
 }
 
 /// Home block, cell of the base node floor(x - 0.5) in it, then the order of ids.
@@ -56,7 +50,11 @@ SortKey sort_key(const soil::Particle& p, std::size_t index) {
 }  // namespace
 
 NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
-    : soil_(soil), cell_(static_cast<float>(cell)), ground_(static_cast<float>(ground)), sums_(kCells) {}
+    : soil_(soil),
+      cell_(static_cast<float>(cell)),
+      ground_(static_cast<float>(ground)),
+      sums_(kCells),
+      openings_(kCells) {}
 
 void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
   std::vector<soil::Particle> all = this->particles();
@@ -165,6 +163,19 @@ bool NativeSoil::sum_openings(const Home& home) {
     sum[1] += pack.mass[l] * pack.j0[l];
     if (pack.j[l] > pack.j0[l]) sum[2] = 1;
   }
+  // Sixteen cells at a time; sums in mass quanta, as the kernels have them.
+  constexpr float kQuanta = 1 / MASS_QUANTUM;
+  for (std::size_t first = 0; first < kCells; first += kLanes) {
+    const std::size_t cells = std::min(kLanes, kCells - first);
+    Lanes volume{}, bank{}, opened{};
+    for (std::size_t l = 0; l < cells; ++l) {
+      volume[l] = kQuanta * sums_[first + l][0];
+      bank[l] = kQuanta * sums_[first + l][1];
+      opened[l] = sums_[first + l][2];
+    }
+    const Lanes mean = mean_opening(volume, bank, opened);
+    for (std::size_t l = 0; l < cells; ++l) openings_[first + l] = mean[l];
+  }
   return true;
 }
 
@@ -177,29 +188,26 @@ void NativeSoil::scatter(const Home& home, float dt) {
   for (std::size_t first = 0; first < home.count; first += kLanes) {
     Pack& pack = packs_[home.first + first / kLanes];
     const std::size_t lanes = std::min(kLanes, home.count - first);
-    Lanes c[9], s[6], sigma[6];
+    Lanes c[9], v[3], sigma[6], opening{};
     for (int k = 0; k < 9; ++k) c[k] = load(pack.c[k]);
-    for (int k = 0; k < 6; ++k) s[k] = load(pack.s[k]);
+    for (int k = 0; k < 3; ++k) v[k] = load(pack.v[k]);
     if (open)
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const std::array<float, 3>& sum = sums_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
-        if (sum[2] > 0) pack.j[l] += mixing * (pack.j0[l] * (sum[0] / sum[1]) - pack.j[l]);
-      }
-    Lanes j = load(pack.j), j0 = load(pack.j0), shear = load(pack.shear);
-    law_update(c, Lanes{} + dt, &law, s, &j, &j0, &shear, sigma);
-    for (int k = 0; k < 6; ++k) store(s[k], pack.s[k]);
-    store(j, pack.j);
-    store(j0, pack.j0);
-    store(shear, pack.shear);
+      for (std::size_t l = 0; l < lanes; ++l) opening[l] = openings_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
+    LawState state;
+#define LOAD_ONE(NAME, member, rest) state.member = load(pack.member);
+#define LOAD_MANY(NAME, member, count, rest) \
+  for (int k = 0; k < (count); ++k) state.member[k] = load(pack.member[k]);
+    LAW_STATE_FIELDS(LOAD_ONE, LOAD_MANY)
+    advance_state(c, dt, &law, opening, mixing, &state, sigma);
+#define STORE_ONE(NAME, member, rest) store(state.member, pack.member);
+#define STORE_MANY(NAME, member, count, rest) \
+  for (int k = 0; k < (count); ++k) store(state.member[k], pack.member[k]);
+    LAW_STATE_FIELDS(STORE_ONE, STORE_MANY)
 
-    // A = m C dx - dt 4/dx V sigma per node step; momentum at the base node.
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
-    const Lanes mass = load(pack.mass), cm = mass * dx, sv = (4 * dt / dx) * inv_density * mass * j;
-    const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    const Lanes mass = load(pack.mass);
     Lanes a[9], p[3];
-    for (int i = 0; i < 9; ++i) a[i] = cm * c[i] - sv * sigma[at[i]];
-    for (int i = 0; i < 3; ++i)
-      p[i] = mass * load(pack.v[i]) - (a[3 * i] * w.f[0] + a[3 * i + 1] * w.f[1] + a[3 * i + 2] * w.f[2]);
+    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, dt, dx, p, a);
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
@@ -235,7 +243,7 @@ void NativeSoil::update_grid(float dt) {
       Float4 node = grid_[n];
       const float mass = node[3];
       if (mass > empty && !held) {
-        node *= 1 / mass;
+        node *= INVERSE_MASS(mass);
         node[2] -= fall;
       } else {
         node = Float4{};
@@ -247,7 +255,7 @@ void NativeSoil::update_grid(float dt) {
 }
 
 float NativeSoil::gather(const Home& home, float dt) {
-  const float dx = cell_, scale = 4 / dx;
+  const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
   const auto closing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::closing_time()));
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
@@ -287,16 +295,14 @@ float NativeSoil::gather(const Home& home, float dt) {
     const Four* moments[3] = {mx, my, mz};
     for (int axis = 0; axis < 3; ++axis) {
       unturn(moments[axis], m);
-      for (int i = 0; i < 3; ++i) store(scale * (m[i] - w.f[axis] * u[i]), pack.c[3 * i + axis]);
+      for (int i = 0; i < 3; ++i) store(velocity_gradient(m[i], w.f[axis], u[i], dx), pack.c[3 * i + axis]);
     }
-    const Lanes j = load(pack.j), j0 = load(pack.j0);
-    const Lanes packed = full / largest(u[3], Lanes{} + static_cast<float>(kMassQuantum));
-    store(j - closing * largest(least(j, j0) - packed, Lanes{}), pack.j);
+    store(closed(load(pack.j), load(pack.j0), u[3], full, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
       store(load(pack.x[a]) + (dt / dx) * u[a], pack.x[a]);
-      fastest = largest(fastest, largest(u[a], -u[a]));
     }
+    fastest = fmax(fastest, fastest_component(u));
   }
   float out = 0;
   for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);

@@ -63,8 +63,10 @@ class NativeSoil {
   std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
   std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
   std::size_t row_ = 0, rows_ = 0;
-  std::vector<Float4> grid_;                ///< momentum and mass, then velocity and mass per room
-  std::vector<std::array<float, 3>> sums_;  ///< per cell of a home: volume, bank volume, 1 when any is open
+  std::vector<Float4> grid_;  ///< momentum and mass, then velocity and mass per room
+  // Per cell of a home: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
+  std::vector<std::array<float, 3>> sums_;
+  std::vector<float> openings_;
 };
 
 }  // namespace navvy::bench

@@ -6,16 +6,6 @@
 
 namespace navvy::sim {
 
-std::string nearest_name(const std::vector<std::string>& known, const std::string& name) {
-  std::string best;
-  std::size_t least = static_cast<std::size_t>(-1);
-  for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(candidate, name);
-    if (distance < least) least = distance, best = candidate;
-  }
-  return best;
-}
-
 void throw_unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
   // Without a candidate the remedy says so instead of asking about nothing.
   const std::string remedy =

@@ -8,9 +8,6 @@
 
 namespace navvy::sim {
 
-/// Most similar of `known` by edit distance, the first of equals; empty when there are none.
-std::string nearest_name(const std::vector<std::string>& known, const std::string& name);
-
 /// Always throws InputError: there is no `kind` called `name`; did you mean the nearest of `known`?
 [[noreturn]] void throw_unknown(const std::string& kind, const std::string& name,
                                 const std::vector<std::string>& known);

@@ -213,6 +213,26 @@ TEST_F(Program, LabWritesEveryNumberOfItsSoil) {
     EXPECT_TRUE(soil.contains(name)) << name;
 }
 
+TEST_F(Program, LabHelpFollowsFromTheRigAndFitsATerminal) {
+  ASSERT_EQ(run({"lab", "blade", "--help"}), 0) << complained();
+  const std::string help = said();
+  for (const char* part : {"--plane yes|no=yes", "15 .. 150", "navvy lab blade --plane no"})
+    EXPECT_NE(help.find(part), std::string::npos) << part << "\n" << help;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("Usage", 0) != 0) {  // the parser's own line, with the program's path
+      EXPECT_LE(line.size(), 100u) << line;
+    }
+}
+
+TEST_F(Program, LabNamesAWrongWordOrNumberOfTheRig) {
+  EXPECT_EQ(run({"lab", "column", "--shape", "plain"}), 2);
+  EXPECT_NE(complained().find("did you mean 'plane'?"), std::string::npos) << complained();
+  EXPECT_EQ(run({"lab", "cycle", "--cycles", "2.5"}), 2);
+  EXPECT_NE(complained().find("lab cycle --cycles: '2.5': a whole number, at least 1"), std::string::npos)
+      << complained();
+}
+
 TEST_F(Program, LabNamesAWrongNumberOfTheSoil) {
   EXPECT_EQ(run({"lab", "light-tool", "--set", "opening_stain=0.02"}), 2);
   EXPECT_NE(complained().find("'opening_strain'"), std::string::npos) << complained();

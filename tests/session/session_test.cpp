@@ -247,7 +247,7 @@ TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
     session->step();
     if (session->world().steps() % 50 == 0) ASSERT_EQ(session->world().mass_ledger().error, 0);
   }
-  EXPECT_LE(session->force().residual_max, 1e-5);  // issue 2, "Momentum"
+  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, books]
   EXPECT_EQ(session->world().soil_counts().shell_crossings, 0u);
 }
 

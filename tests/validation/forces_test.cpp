@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, forces come from the soil";
+constexpr const char* kSource = "forces come from the soil [docs/validation.md, Whole digs]";
 // Times of the path [s]: dragged level at 0.3 m of depth; then curled; lifted clear.
 constexpr double kDragStart = 2.0, kDragEnd = 3.6, kLifted = 7.0;
 constexpr double kDepth = 0.3;
@@ -60,7 +60,8 @@ TEST(ScoopForce, IsThatOfTheWedgeWithinAFactorOfTwo) {
   const Scooped loam = scoop({}, kLifted);
   const double expected = wedge(load_scene("bucket_path.sdf"));
   std::printf("drag %.0f N, McKyes and Ali %.0f N, payload %.1f kg\n", loam.drag, expected, loam.payload);
-  expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2, "VALIDATION 3");
+  expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2,
+                 "[McKyes 1977] [docs/validation.md, Whole digs]");
   // Half the bank density, all else equal. Its cohesion then holds twice the height, so it heaps higher.
   const Scooped light = scoop({kHalfDensity}, kLifted);
   expect_between("payload at half the density / payload, loam", light.payload / loam.payload, 0.45, 0.55, kSource);

@@ -16,7 +16,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, momentum";
+constexpr const char* kSource = "conservation of momentum [docs/validation.md, Whole digs]";
 
 /// The trench with the machine standing at its place already.
 scene::World standing_at_the_trench() {

@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, place";
+constexpr const char* kSource = "place does not matter [docs/validation.md, Whole digs]";
 constexpr double kLifted = 7.0;
 
 struct Dug {

@@ -57,7 +57,7 @@ TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
     deepest = std::max(deepest, ground.start_height(column.x(), column.y()) - ground.height(column.x(), column.y()));
   }
   const record::Earthwork earth = record::measure_earthwork(session.world());
-  const char* source = "issue 2, real terrain";
+  const char* source = "real terrain [docs/validation.md, Whole digs]";
   std::printf("%s: %zu cycles in %.0f s, bank %.2f m3, loose %.2f m3, most %d particles\n", spot.file,
               session.cycles().size(), session.world().time(), earth.bank_volume, earth.loose_volume,
               session.world().soil_counts().particles_peak);

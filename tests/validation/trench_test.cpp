@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trench: the shipped scene from start to end, measured on the ground it leaves (issue 2, "How it is shown").
+// The trench: the shipped scene from start to end, measured on the ground it leaves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   const heightfield::Ground& ground = session.world().ground();
   const TrenchMeasure trench = measure(ground, dig);
   const record::Earthwork earth = record::measure_earthwork(session.world());
-  const char* source = "issue 2, The trench";
+  const char* source = "the trench [docs/validation.md, Whole digs]";
   expect_between("design length [m]", (dig.to - dig.from).norm(), 3.0, 20, source);
   expect_between("design depth [m]", dig.depth, 0.8, 5, source);
   expect_between("centre line offset [m]", trench.center_offset, 0, 0.15, source);
@@ -56,14 +56,16 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, source);
   expect_between("shell crossings", static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
-  expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0, "issue 2, point 8");
+  expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0,
+                 "a machine does not jump [docs/validation.md, Machines]");
   print_value("mean cycle [s]", mean_cycle_time(session.cycles()), "13 .. 18 at 60 .. 90 deg of swing, not gated",
-              "VALIDATION 3, plausibility");
+              "plausibility [docs/validation.md, Whole digs]");
   double worst_loss = 0;
   for (const session::Cycle& cycle : session.cycles())
     if (cycle.payload_lift_out > 50)
       worst_loss = std::max(worst_loss, std::abs(cycle.payload_dump / cycle.payload_lift_out - 1));
-  expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01, "issue 2, Shell");
+  expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
+                 "the shell holds its load [docs/validation.md, Buckets and carried loads]");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 3, Physics 3: two layers";
+constexpr const char* kSource = "two layers [docs/validation.md, Whole digs]";
 
 /// What the cut took out of the uppermost `cap` [m] of all columns that were dug [m3].
 double cut_above(const heightfield::Ground& ground, double cap) {
@@ -50,7 +50,8 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
                  earth.soils[0].dug / (cut_above(world.ground(), cap) * description.soils[0].bank_density), 0.95, 1.05,
                  kSource);
   expect_between("spoil volume / dug volume with each soil's swell", earth.loose_volume / swelled, 0.95, 1.05, kSource);
-  expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0, "issue 2, The trench");
+  expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0,
+                 "the trench [docs/validation.md, Whole digs]");
   expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, kSource);
   std::printf("%zu cycles, %.0f s simulated, %.2f m3 bank, %.2f m3 loose, %.0f and %.0f kg dug\n",
               session.cycles().size(), world.time(), earth.bank_volume, earth.loose_volume, earth.soils[0].dug,

@@ -39,10 +39,10 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
   ensure(device_, used_, table.homes.size());
   ensure(device_, velocity_, active_ * 4 * BLOCK_NODES);
-  ensure(device_, report_, table.homes.size() * REPORT_WORDS);
+  ensure(device_, report_, table.homes.size());
 }
 
-void Transfer::set_floor(const std::vector<float>& heights) { upload(device_, floor_, heights); }
+void Transfer::set_floor(const std::vector<BlockFloor>& floors) { upload(device_, floor_, floors); }
 
 void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity) {
   const auto dt_f = static_cast<float>(dt), cell_f = static_cast<float>(cell);
@@ -70,15 +70,13 @@ void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double c
       .enqueue_groups(store.homes().size());
 }
 
-Transfer::Report Transfer::read_report(std::size_t homes) const {
-  Report out;
-  const auto words = report_.map_read(0, homes * REPORT_WORDS);
-  for (std::size_t h = 0; h < homes; ++h) {
-    const float* at = words.data() + h * REPORT_WORDS;
-    out.speed = std::max(out.speed, static_cast<double>(at[REPORT_SPEED]));
-    if (at[REPORT_BAD] != 0) out.speed = std::numeric_limits<double>::infinity();
-    out.push = std::max(out.push, static_cast<double>(at[REPORT_PUSH]));
-    out.crossed += static_cast<std::uint64_t>(at[REPORT_CROSSED]);
+Transfer::Largest Transfer::read_report(std::size_t homes) const {
+  Largest out;
+  for (const Report& home : report_.map_read(0, homes)) {
+    out.speed = std::max(out.speed, static_cast<double>(home.speed));
+    if (home.broken != 0) out.speed = std::numeric_limits<double>::infinity();
+    out.push = std::max(out.push, static_cast<double>(home.push));
+    out.crossed += static_cast<std::uint64_t>(home.crossed);
   }
   return out;
 }

@@ -20,7 +20,7 @@ struct NearNodes {
   device::Buffer<std::int32_t> split;      ///< per near node: 0, 1 in front, 2 behind
   device::Buffer<float> before0, before1;  ///< float4 per near node: v after gravity, m
   device::Buffer<float> velocity1;         ///< float4 per near node: what particles behind a shell feel
-  device::Buffer<float> surface;           ///< float4 per near node, see ParticleStore::surfaces
+  device::Buffer<Surface> surface;         ///< per near node: mean by mass of the homes around
 };
 
 class Transfer {
@@ -31,23 +31,23 @@ class Transfer {
   /// Takes over the block lists after a re-bin or a change of the near blocks. `near_slot` has one entry per active
   /// block; `tiles` is what ParticleStore::set_near returned.
   void set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles);
-  void set_floor(const std::vector<float>& heights);
+  void set_floor(const std::vector<BlockFloor>& floors);
 
   /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in near ones.
   void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity);
   /// Queues gather and motion.
   void gather(ParticleStore& store, NearNodes& near, double dt, double cell);
   /// Largest values over the home blocks after a step; waits.
-  struct Report {
+  struct Largest {
     double speed = 0;  ///< velocity component [m/s]; infinite when a value was not finite
     double push = 0;   ///< out of a plate [cells]
     std::uint64_t crossed = 0;
   };
-  Report read_report(std::size_t homes) const;
+  Largest read_report(std::size_t homes) const;
 
   device::Buffer<float>& velocity() { return velocity_; }
-  device::Buffer<float>& report() { return report_; }
-  device::Buffer<float>& floor() { return floor_; }
+  device::Buffer<Report>& report() { return report_; }
+  device::Buffer<BlockFloor>& floor() { return floor_; }
   device::Buffer<std::array<std::int32_t, 4>>& active_keys() { return active_keys_; }
   std::size_t active() const { return active_; }
 
@@ -56,7 +56,9 @@ class Transfer {
   device::Program scatter_program_, grid_program_, gather_program_;
   device::Kernel scatter_, grid_, grid_near_, gather_;
   std::size_t active_ = 0, far_ = 0;
-  device::Buffer<float> tiles_, velocity_, floor_, report_;
+  device::Buffer<float> tiles_, velocity_;
+  device::Buffer<BlockFloor> floor_;
+  device::Buffer<Report> report_;
   device::Buffer<std::int32_t> neighbours_, around_, far_list_, used_;
   device::Buffer<std::array<std::int32_t, 4>> active_keys_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "soil/layout.h"
 #include "soil/particles/schedule.h"
@@ -28,7 +29,7 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, doub
       apply_kernel_(contact_program_, "contact_apply") {}
 
 int Contact::add_tool(const scene::Shell& shell) {
-  Tool tool;
+  Registered tool;
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
   if (!tools_.empty())
     tool.first_triangle = tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
@@ -41,7 +42,7 @@ template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
       .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, node_tool_, shell_,
-            nodes_.surface, frame_, first_tool_, only, reach_, static_cast<float>(cell_), tail...)
+            nodes_.surface, tool_buffer_, only, reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
@@ -58,10 +59,10 @@ void Contact::solve(Transfer& transfer, double dt) {
     if (!yields(motion)) continue;
     for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
-      twist_kernel_.args(frame_, first_tool_, motion.tool, sums_, nodes_.count).enqueue_groups(1);
+      twist_kernel_.args(tool_buffer_, motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
-  launch(apply_kernel_, transfer, -1, transfer.floor(), touched_, books_, transfer.velocity(), nodes_.velocity1);
+  launch(apply_kernel_, transfer, -1, transfer.floor(), touched_, records_, transfer.velocity(), nodes_.velocity1);
 }
 
 namespace {
@@ -71,10 +72,11 @@ struct Momentum {
   Vec3 before = Vec3::Zero(), after = Vec3::Zero(), before_moment = Vec3::Zero(), after_moment = Vec3::Zero();
 };
 
-/// Books one node and field: `at` = v before, m, v after, normal impulse; r = arm from the tool's origin [m].
-void book_node(const float* at, const Vec3& r, ToolImpulse& out, Momentum& sum) {
-  const Vec3 before(at[0], at[1], at[2]), after(at[4], at[5], at[6]);
-  const auto mass = static_cast<double>(at[3]), push = static_cast<double>(at[7]);
+/// Adds what one field of a node says; r = arm from the tool's origin [m].
+void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Momentum& sum) {
+  const Vec3 before(record.before[0], record.before[1], record.before[2]);
+  const Vec3 after(record.after[0], record.after[1], record.after[2]);
+  const auto mass = static_cast<double>(record.mass), push = static_cast<double>(record.push);
   const Vec3 J = mass * (after - before), L = r.cross(J);
   out.J_W -= J;
   out.L_W -= L;
@@ -92,36 +94,36 @@ void book_node(const float* at, const Vec3& r, ToolImpulse& out, Momentum& sum) 
 
 void Contact::read_later() {
   if (nodes_.count == 0 || motions_.empty()) return;
-  const auto slots = static_cast<std::size_t>(nodes_.count);
-  results_.emplace(Books{touched_.map_read_later(0, slots), node_tool_.map_read_later(0, slots * BLOCK_NODES),
-                         books_.map_read_later(0, slots * BLOCK_NODES * 16)});
+  const auto blocks = static_cast<std::size_t>(nodes_.count);
+  results_.emplace(Results{touched_.map_read_later(0, blocks), node_tool_.map_read_later(0, blocks * BLOCK_NODES),
+                           records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
 void Contact::book(std::span<ToolImpulse> impulses) {
   if (!results_) return;
-  const Books read = std::move(*results_);
+  const Results read = std::move(*results_);
   results_.reset();
-  const auto slots = static_cast<std::size_t>(nodes_.count);
+  const auto blocks = static_cast<std::size_t>(nodes_.count);
   std::vector<int> motion_of(tools_.size(), -1);
   for (std::size_t m = 0; m < motions_.size(); ++m)
     motion_of[static_cast<std::size_t>(motions_[m].tool)] = static_cast<int>(m);
   std::vector<Momentum> momentum(motions_.size());
-  const auto& [touched, tool_of, books] = read;
+  const auto& [touched, tool_of, records] = read;
   if (std::none_of(touched.begin(), touched.end(), [](std::int32_t t) { return t != 0; })) return;
 
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    if (touched[slot] == 0) continue;
-    const BlockKey& key = near_keys_[slot];
+  for (std::size_t near = 0; near < blocks; ++near) {
+    if (touched[near] == 0) continue;
+    const BlockKey& key = near_keys_[near];
     for (std::size_t n = 0; n < BLOCK_NODES; ++n) {
-      const std::size_t i = slot * BLOCK_NODES + n;
+      const std::size_t i = near * BLOCK_NODES + n;
       for (std::size_t s = 0; s < 2; ++s) {
-        const float* at = books.data() + 16 * i + 8 * s;
-        if (at[0] == at[4] && at[1] == at[5] && at[2] == at[6]) continue;
+        const ContactRecord& record = records[2 * i + s];
+        if (std::equal(std::begin(record.before), std::end(record.before), std::begin(record.after))) continue;
         const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
                         kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
                         kBlockCells * key.z + static_cast<int>(n >> 4));
-        book_node(at, grid * cell_ + origin_ - impulses[m].p_W, impulses[m], momentum[m]);
+        add_record(record, grid * cell_ + origin_ - impulses[m].p_W, impulses[m], momentum[m]);
       }
     }
   }

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "device/device.h"
-#include "lab/lab.h"
+#include "lab/rig.h"
 
 namespace navvy::lab {
 
@@ -30,7 +30,7 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
     setup.geometry[parameter] = value;
   }
   if (change) change(setup);
-  const Report report = find_rig(name).run(setup);
+  const Report report = find_rig(name).run(setup);  // checks the setup as the program does
   for (const Quantity& q : report.results)
     std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, gate %g .. %g %s (%s)\n", name.c_str(),
                 q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high, q.missed() ? "MISS" : "",
