@@ -11,20 +11,6 @@ constexpr std::size_t kMostEdits = 2048;
 
 }  // namespace
 
-void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
-
-void CellRect::include(const CellRect& other) {
-  if (other.empty()) return;
-  if (empty()) {
-    *this = other;
-    return;
-  }
-  x0 = std::min(x0, other.x0);
-  y0 = std::min(y0, other.y0);
-  x1 = std::max(x1, other.x1);
-  y1 = std::max(y1, other.y1);
-}
-
 void ChangeLog::add(int ix, int iy) {
   ++sequence_;
   // The same column edited again (take then put, layer by layer) extends its own entry.

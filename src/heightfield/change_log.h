@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/state_io.h"
-#include "heightfield/ground.h"
+#include "heightfield/cell_rect.h"
 
 namespace navvy::heightfield {
 

@@ -6,11 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layer.h"
 
 namespace navvy::heightfield {
-
-using Column = std::vector<Layer>;
 
 /// Metres of thickness that one mass unit at specific volume 1 makes, per soil: kMassQuantum / (bank_density cell^2).
 using UnitThickness = std::vector<double>;

@@ -85,7 +85,7 @@ Recorder::Recorder(sim::Session& session, Options options) {
   make_directory(options.directory);
   state_ = std::make_unique<State>(session, std::move(options));
   State& s = *state_;
-  write_terrain(session.world().ground(), s.path("terrain_start.tif"));
+  write_terrain(session.world(), s.path("terrain_start.tif"));
   s.sample_when_due();
   if (s.options.render) s.renderer = std::make_unique<render::Renderer>();
   s.draw_when_due();
@@ -158,7 +158,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     write_file_atomically(s.path("failed.snapshot"), writer.bytes());
   }
   if (s.hashes) s.hashes->finish();
-  write_terrain(s.session.world().ground(), s.path("terrain_end.tif"));
+  write_terrain(s.session.world(), s.path("terrain_end.tif"));
   s.checkpoint(true);
 }
 

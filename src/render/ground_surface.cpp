@@ -25,9 +25,28 @@ bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
+/// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach` columns, cover no fewer
+/// columns than their union does with its own.
+std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int ny) {
+  for (std::size_t i = 0; i < rects.size(); ++i)
+    for (std::size_t k = i + 1; k < rects.size();) {
+      const CellRect both = rects[i].with(rects[k]);
+      const auto cost = [&](const CellRect& rect) { return rect.grown(reach, nx, ny).area(); };
+      if (cost(both) > cost(rects[i]) + cost(rects[k])) {
+        ++k;
+        continue;
+      }
+      // The larger one may now be worth uniting with those passed over before.
+      rects[i] = both;
+      rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i + 1;
+    }
+  return rects;
+}
+
 }  // namespace
 
-CellRect GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
+std::vector<CellRect> GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const std::size_t n =
       static_cast<std::size_t>(std::max(0, ground.nx)) * static_cast<std::size_t>(std::max(0, ground.ny));
   if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
@@ -37,52 +56,66 @@ CellRect GroundSurface::update(const scene::FrameGround& ground, const Lighting&
                      x0_ != static_cast<float>(ground.origin.x()) || y0_ != static_cast<float>(ground.origin.y()) ||
                      !(lighting == lighting_) || !same(soil_color_, ground.soil_color) || height_.size() != n;
   if (!fresh && revision_ == ground.revision) return {};
-  CellRect rect = {0, 0, ground.nx, ground.ny};
-  if (!fresh) rect = changed_cells(ground);
-  if (fresh) {
-    nx_ = ground.nx;
-    ny_ = ground.ny;
-    cell_ = static_cast<float>(ground.cell);
-    x0_ = static_cast<float>(ground.origin.x());
-    y0_ = static_cast<float>(ground.origin.y());
-    lighting_ = lighting;
-    soil_color_ = ground.soil_color;
-    height_.assign(n, 0);
-    change_.assign(n, 0);
-    soil_.assign(n, 0);
-    open_.assign(n, 255);
-    sun_.assign(n, 255);
-    lit_.assign(n, {});
-  }
+  const std::vector<CellRect> changed =
+      fresh ? std::vector<CellRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
+  if (fresh) start(ground, lighting, n);
   revision_ = ground.revision;
-  if (rect.empty()) return {};
-  copy(ground, rect);
-  if (fresh) {
-    // Of the ground at the start, so that digging does not tint the whole site anew.
-    double sum = 0;
-    float low = height_[0] - change_[0], high = low;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float h = height_[i] - change_[i];
-      sum += h;
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-    mean_height_ = static_cast<float>(sum / static_cast<double>(n));
-    relief_ = std::max(high - low, 2.0f);
+  for (const CellRect& rect : changed) copy(ground, rect);
+  if (fresh && n > 0) measure_relief();
+  // A column's light depends on the ground as far as shadows fall, so all heights are in place before any of it is made.
+  std::vector<CellRect> lit;
+  for (const CellRect& rect : united(changed, kShadowReach, nx_, ny_)) {
+    if (rect.empty()) continue;
+    const CellRect sun = rect.grown(kShadowReach, nx_, ny_);
+    find_openness(rect.grown(kOpenReach, nx_, ny_));
+    find_sun(sun);
+    lit.push_back(sun);
   }
-  const CellRect open = rect.grown(kOpenReach, nx_, ny_), sun = rect.grown(kShadowReach, nx_, ny_);
-  find_openness(open);
-  find_sun(sun);
-  paint(sun);
-  return sun;
+  for (const CellRect& rect : lit) paint(rect);
+  return lit;
 }
 
-CellRect GroundSurface::changed_cells(const scene::FrameGround& ground) const {
-  if (ground.revision == revision_ + 1) {
-    const CellRect told = {std::max(0, ground.dirty_x0), std::max(0, ground.dirty_y0), std::min(nx_, ground.dirty_x1),
-                           std::min(ny_, ground.dirty_y1)};
-    return told;
+void GroundSurface::start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns) {
+  nx_ = ground.nx;
+  ny_ = ground.ny;
+  cell_ = static_cast<float>(ground.cell);
+  x0_ = static_cast<float>(ground.origin.x());
+  y0_ = static_cast<float>(ground.origin.y());
+  lighting_ = lighting;
+  soil_color_ = ground.soil_color;
+  height_.assign(columns, 0);
+  change_.assign(columns, 0);
+  soil_.assign(columns, 0);
+  open_.assign(columns, 255);
+  sun_.assign(columns, 255);
+  lit_.assign(columns, {});
+}
+
+void GroundSurface::measure_relief() {
+  // Of the ground at the start, so that digging does not tint the whole site anew.
+  double sum = 0;
+  float low = height_[0] - change_[0], high = low;
+  for (std::size_t i = 0; i < height_.size(); ++i) {
+    const float h = height_[i] - change_[i];
+    sum += h;
+    low = std::min(low, h);
+    high = std::max(high, h);
   }
+  mean_height_ = static_cast<float>(sum / static_cast<double>(height_.size()));
+  relief_ = std::max(high - low, 2.0f);
+}
+
+std::vector<CellRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
+  // Frames in between were not seen: what they told is lost, so the heights themselves are compared.
+  if (ground.revision != revision_ + 1) return {compared(ground)};
+  std::vector<CellRect> told;
+  for (const scene::FrameRect& rect : ground.changed)
+    told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1), std::min(ny_, rect.y1)});
+  std::erase_if(told, [](const CellRect& rect) { return rect.empty(); });
+  return told;
+}
+
+CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
   CellRect rect = {nx_, ny_, 0, 0};
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);

@@ -15,6 +15,10 @@ namespace navvy::render {
 struct CellRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
+  CellRect with(const CellRect& other) const {
+    return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1), std::max(y1, other.y1)};
+  }
   CellRect grown(int cells, int nx, int ny) const {
     return {std::max(0, x0 - cells), std::max(0, y0 - cells), std::min(nx, x1 + cells), std::min(ny, y1 + cells)};
   }
@@ -29,8 +33,9 @@ class GroundSurface {
   static constexpr int kShadowReach = 28;  ///< columns a shadow of the ground may fall
   static constexpr int kOpenReach = 5;     ///< columns of the neighbourhood that hides the sky
 
-  /// Takes over what changed in `ground`; returns the columns whose vertices or colours are new (empty: none).
-  CellRect update(const scene::FrameGround& ground, const Lighting& lighting);
+  /// Takes over what changed in `ground`; returns rectangles of the columns whose vertices or colours are new (none:
+  /// nothing is).
+  std::vector<CellRect> update(const scene::FrameGround& ground, const Lighting& lighting);
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
@@ -52,7 +57,10 @@ class GroundSurface {
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
   }
-  CellRect changed_cells(const scene::FrameGround& ground) const;
+  std::vector<CellRect> changed_cells(const scene::FrameGround& ground) const;
+  CellRect compared(const scene::FrameGround& ground) const;
+  void start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns);
+  void measure_relief();
   void copy(const scene::FrameGround& ground, const CellRect& rect);
   void find_openness(const CellRect& rect);
   void find_sun(const CellRect& rect);

@@ -5,11 +5,14 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/terrain_view.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
 namespace {
 
+// Loose soil is drawn as particles, so the ground below it is that of the columns.
+constexpr heightfield::Surface kDrawn = heightfield::Surface::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
 constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]
@@ -78,37 +81,34 @@ void FrameBuilder::place_window() {
   out.height.assign(n, 0);
   out.change.assign(n, 0);
   out.soil.assign(n, 0);
-  sequence_ = 0;
+  changes_.forget();
   out.revision = 0;
 }
 
 void FrameBuilder::update_ground() {
-  const heightfield::Ground& ground = world_.ground();
+  const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
-  const bool first = out.revision == 0;
-  heightfield::CellRect rect = window_;
-  if (!first) {
-    const heightfield::CellRect changed = ground.changed_since(sequence_);
-    rect = {std::max(window_.x0, changed.x0), std::max(window_.y0, changed.y0), std::min(window_.x1, changed.x1),
-            std::min(window_.y1, changed.y1)};
+  out.changed.clear();
+  for (const heightfield::CellRect& changed : changes_.take(terrain)) {
+    const heightfield::CellRect rect = changed.cut(window_);
+    if (rect.empty()) continue;
+    copy_ground(terrain, rect);
+    out.changed.push_back({rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
   }
-  sequence_ = ground.sequence();
-  out.dirty_x0 = out.dirty_y0 = out.dirty_x1 = out.dirty_y1 = 0;
-  if (rect.empty()) return;
+  if (!out.changed.empty()) ++out.revision;
+}
+
+void FrameBuilder::copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect) {
+  scene::FrameGround& out = frame_.ground;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
                             static_cast<std::size_t>(ix - window_.x0);
-      const double height = ground.height(ix, iy);
+      const double height = terrain.height(ix, iy);
       out.height[i] = static_cast<float>(height);
-      out.change[i] = static_cast<float>(height - ground.start_height(ix, iy));
-      out.soil[i] = static_cast<std::uint8_t>(ground.surface_soil(ix, iy));
+      out.change[i] = static_cast<float>(height - terrain.start_height(ix, iy));
+      out.soil[i] = static_cast<std::uint8_t>(terrain.surface_soil(ix, iy));
     }
-  out.dirty_x0 = rect.x0 - window_.x0;
-  out.dirty_y0 = rect.y0 - window_.y0;
-  out.dirty_x1 = rect.x1 - window_.x0;
-  out.dirty_y1 = rect.y1 - window_.y0;
-  ++out.revision;
 }
 
 void FrameBuilder::add_machines() {
@@ -193,7 +193,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   out.X_WC = look_at(X * camera.position, X * camera.target);
   // Never below the ground it looks over.
   const Vec3 eye = out.X_WC.translation();
-  const double floor = world_.ground().sample(eye.x(), eye.y()) + 0.3;
+  const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;
   if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink) out.X_WC.translation().z() = floor;
   return out;
 }

@@ -2,6 +2,7 @@
 // Turns the state of a world into a Frame to draw, and scene cameras into poses.
 #pragma once
 
+#include "heightfield/change_follower.h"
 #include "scene/frame.h"
 #include "sim/world.h"
 
@@ -22,6 +23,7 @@ class FrameBuilder {
  private:
   void place_window();
   void update_ground();
+  void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
   void add_machines();
   void add_cylinder(int m, const scene::Cylinder& cylinder);
   void add_particles();
@@ -29,7 +31,7 @@ class FrameBuilder {
   const World& world_;
   scene::Frame frame_;
   heightfield::CellRect window_;
-  std::uint64_t sequence_ = 0;
+  heightfield::ChangeFollower changes_;
 };
 
 }  // namespace navvy::sim
