@@ -6,8 +6,8 @@
 
 namespace navvy::control {
 
-/// Where an operator's eyes get the terrain from. Who implements it decides which surface that is, and may take its view
-/// when it is first asked in a step: most steps look at nothing.
+/// Where an operator's eyes get the terrain from. Who implements it decides which surface that is, and may take its
+/// view when it is first asked in a step: most steps look at nothing.
 class SurfaceView {
  public:
   virtual ~SurfaceView() = default;

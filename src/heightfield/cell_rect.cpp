@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Keeping a list of rectangles short without covering much that nobody asked for.
 #include "heightfield/cell_rect.h"
 
 #include <algorithm>
@@ -7,23 +8,26 @@
 namespace navvy::heightfield {
 namespace {
 
-// Columns of the union that are in neither.
+// Columns of the union that are in neither: what a reader of the list would renew for nothing.
 std::int64_t added_area(const CellRect& a, const CellRect& b) {
   CellRect both = a;
   both.include(b);
   return both.area() - a.area() - b.area() + a.cut(b).area();
 }
 
+// Of an entry without a partner: more than any union adds.
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
+// May turn out empty, even turned round; `empty` knows.
 CellRect CellRect::cut(const CellRect& other) const {
   return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1), std::min(y1, other.y1)};
 }
 
 void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
 
+// An empty rectangle has no place, so it neither adds nor pulls.
 void CellRect::include(const CellRect& other) {
   if (other.empty()) return;
   if (empty()) {
@@ -36,7 +40,7 @@ void CellRect::include(const CellRect& other) {
   y1 = std::max(y1, other.y1);
 }
 
-// Finds the partner of entry i, and offers i to all others.
+// Both directions in one pass: an entry that came or grew may be the better partner of others.
 void RectList::find_partner(std::size_t i) {
   entries_[i].added = kNone;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
@@ -47,9 +51,10 @@ void RectList::find_partner(std::size_t i) {
   }
 }
 
-// The last entry takes the place of i; who was bound to i looks around anew.
+// Who was bound to i looks around anew; who was bound to the last entry follows it to its new place.
 void RectList::erase(std::size_t i) {
   const std::size_t last = entries_.size() - 1;
+  // By their places after the move.
   std::vector<std::size_t> lonely;
   for (std::size_t k = 0; k < last; ++k) {
     const Entry& entry = entries_[k == i ? last : k];
@@ -78,6 +83,8 @@ void RectList::add(const CellRect& rect) {
   entries_.push_back({grown, 0, kNone});
   find_partner(entries_.size() - 1);
   if (entries_.size() <= kMost) return;
+  // The pair whose union costs its readers least. Both leave and the union comes in like any other, so that it too can
+  // complete a larger rectangle.
   const auto least = std::min_element(entries_.begin(), entries_.end(),
                                       [](const Entry& a, const Entry& b) { return a.added < b.added; });
   const auto a = static_cast<std::size_t>(least - entries_.begin()), b = least->partner;

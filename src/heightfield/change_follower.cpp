@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Two views are told apart by the tiles they do not share, and those column by column.
 #include "heightfield/change_follower.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ class TileFace {
   }
 
  private:
+  // Fields by value, whether stored or implied: a column dug and refilled with the same soil is no change.
   std::uint16_t soil(std::size_t i, int x, int y) const {
     const std::uint16_t soil = tile_ != nullptr ? tile_->soil[i] : kSoilAsAtStart;
     return soil != kSoilAsAtStart ? soil : site_.surface_soil(x0_ + x, y0_ + y);
@@ -57,6 +59,7 @@ void compare(const TileFace& a, const TileFace& b, const CellRect& tile, RectLis
         ++ix;
         continue;
       }
+      // From here on to the end of the run.
       const int first = ix;
       while (ix < tile.x1 && !a.same(b, ix - tile.x0, iy - tile.y0)) ++ix;
       out.add({first, iy, ix, iy + 1});
@@ -75,6 +78,8 @@ std::vector<CellRect> ChangeFollower::take(const TerrainView& view) {
     seen_ = view;
     return out.rects();
   }
+  // Tiles are shared between views until they are written to: equal pointers mean equal columns, and a whole square of
+  // 1024 tiles is passed over at once.
   const SurfaceTable &old = seen_->table_, &now = view.table_;
   TileHeights buffer;
   for (std::size_t s = 0; s < now.squares(); ++s) {

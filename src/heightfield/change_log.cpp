@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Who asks often gets exact answers, who asks seldom a bounding one, and nobody has to be known by name.
 #include "heightfield/change_log.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ void ChangeLog::add(int ix, int iy) {
       return;
     }
   }
+  // Full: pairs in the older half are united, which frees a quarter at once and keeps the cost per edit constant.
   if (edits_.size() == kMostEdits) {
     for (std::size_t i = 0; i < kMostEdits / 4; ++i) {
       Edit united = edits_[2 * i];
@@ -35,6 +37,7 @@ void ChangeLog::add(int ix, int iy) {
 
 CellRect ChangeLog::since(std::uint64_t sequence, const CellRect& everything) const {
   if (sequence > sequence_) return everything;
+  // From the newest back, as questions are mostly about the last step.
   CellRect rect;
   for (auto edit = edits_.rbegin(); edit != edits_.rend() && edit->last > sequence; ++edit) rect.include(edit->rect);
   return rect;

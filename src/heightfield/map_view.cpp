@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Dense maps are made column by column from the layer's function; what a layer is stands in map_layers.cpp.
 #include "heightfield/map_view.h"
 
 #include <algorithm>

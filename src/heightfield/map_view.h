@@ -14,8 +14,8 @@ namespace navvy::heightfield {
 /// and nothing else.
 struct MapLayer {
   std::string name;
-  std::string unit;     ///< "m", "rad", "-"
-  std::string meaning;  ///< one line for a person
+  std::string unit;                                                   ///< "m", "rad", "-"
+  std::string meaning;                                                ///< one line for a person
   double (*value)(const Terrain& terrain, int ix, int iy) = nullptr;  ///< of a column of the site
 };
 
@@ -31,13 +31,16 @@ struct MapView {
   Vec2 origin = Vec2::Zero();  ///< W of the view's lower-left corner [m]
   std::uint64_t sequence = 0;  ///< of the terrain it is a view of
   std::vector<float> values;   ///< nx() x ny(), in the layer's unit
+  /// Columns along x and y; 0 where the rectangle lies outside the site.
   int nx() const { return rect.x1 - rect.x0; }
   int ny() const { return rect.y1 - rect.y0; }
+  /// Of column (ix, iy) of the view.
   float at(int ix, int iy) const {
     return values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) + static_cast<std::size_t>(ix)];
   }
 };
-/// @throws InputError when the rectangle has more than 2^28 columns or no layer is called `layer`.
+/// Computes every column anew; costs 10 to 60 ns a column. @throws InputError when the rectangle has more than 2^28
+/// columns or no layer is called `layer`.
 MapView map_view(const Terrain& terrain, const std::string& layer, const CellRect& rect);
 /// Of the whole site. @throws like the other one.
 MapView map_view(const Terrain& terrain, const std::string& layer);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The untouched site and the memory of its heights. Most of a large site is never touched, and wheels, soil and
+// pictures ask for the same part of it over and over: that part is remembered, by tile, whoever asks first.
 #include "heightfield/start_site.h"
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 namespace navvy::heightfield {
 
 StartSite::StartSite(GroundSetup setup) : setup_(std::move(setup)) {
+  // Soils, stacks and patches are resolved once, as columns are asked for by the million.
   for (const scene::Soil& soil : setup_.soils)
     unit_.push_back(kMassQuantum / (soil.bank_density * setup_.cell * setup_.cell));
   stack_ = make_stack(setup_.layers);
@@ -28,6 +31,7 @@ StartSite::Stack StartSite::make_stack(const std::vector<scene::GroundLayer>& la
 }
 
 const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
+  // Most sites have none.
   if (patches_.empty()) return stack_;
   const double x = setup_.origin.x() + (ix + 0.5) * setup_.cell, y = setup_.origin.y() + (iy + 0.5) * setup_.cell;
   // Where patches overlap the last one counts, as if it had been laid over the others.
@@ -47,12 +51,14 @@ void StartSite::column(int ix, int iy, Column& out) const {
   // The last layer reaches down to bedrock, whatever its thickness says.
   double rest = surface - setup_.datum;
   for (std::size_t i = 0; i < stack.size() && rest > 0; ++i) {
+    // Rounded to whole units of mass here and never again.
     const bool last = i + 1 == stack.size();
     const double part = last ? rest : std::min(rest, stack[i].thickness);
     const std::int64_t mass = std::llround(part / unit_[stack[i].soil]);
     if (mass > 0) out.push_back({stack[i].soil, mass, 1.0f, 0.0f});
     rest -= part;
   }
+  // Described from the surface down, kept from the bottom up.
   std::reverse(out.begin(), out.end());
 }
 
@@ -81,11 +87,13 @@ void StartSite::heights(int tx, int ty, TileHeights& out) const {
 
 std::uint16_t StartSite::surface_soil(int ix, int iy) const {
   const Stack& stack = stack_at(ix, iy);
+  // A layer may be given as nothing thick, to be left out without renaming the others.
   for (const StackLayer& layer : stack)
     if (layer.thickness > 0) return layer.soil;
   return stack.back().soil;
 }
 
+// An empty table: a pointer for every 1024 x 1024 columns.
 StartHeights::StartHeights(std::shared_ptr<const StartSite> site)
     : site_(std::move(site)),
       groups_x_((site_->tiles_x() + kTileSide - 1) / kTileSide),
@@ -93,6 +101,7 @@ StartHeights::StartHeights(std::shared_ptr<const StartSite> site)
               static_cast<std::size_t>((site_->tiles_y() + kTileSide - 1) / kTileSide)) {}
 
 StartHeights::~StartHeights() {
+  // Nobody reads any more, so plain loads do.
   for (const auto& slot : groups_) {
     const Group* group = slot.load(std::memory_order_relaxed);
     if (group == nullptr) continue;
@@ -114,6 +123,7 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
     // Where another thread was first, its group is the one; `group` then names it.
     if (slot.compare_exchange_strong(group, fresh.get(), std::memory_order_acq_rel)) group = fresh.release();
   }
+  // The same for the tile. Two threads computed the same numbers, so it does not matter whose are kept.
   const TileHeights* known = nullptr;
   std::atomic<const TileHeights*>& place = (*group)[tile_in_group(tx, ty)];
   if (!place.compare_exchange_strong(known, heights.get(), std::memory_order_acq_rel)) return known;
@@ -122,6 +132,7 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
 }
 
 double StartHeights::single(int ix, int iy) const {
+  // Counted, as many of these mean that the table remembers the wrong part of the site.
   computed_.fetch_add(1, std::memory_order_relaxed);
   return site_->height(ix, iy);
 }

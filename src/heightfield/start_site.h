@@ -19,16 +19,20 @@ inline constexpr int kTileColumns = kTileSide * kTileSide;
 /// Place of a column in its tile, x fastest.
 inline int index_in_tile(int ix, int iy) { return (iy % kTileSide) * kTileSide + ix % kTileSide; }
 
-/// Heights [m] in W of the 1024 columns of a tile, x fastest. Columns beyond the site's edge repeat the last one inside.
+/// Heights [m] in W of the 1024 columns of a tile, x fastest. Columns beyond the site's edge repeat the last one
+/// inside.
 using TileHeights = std::array<double, kTileColumns>;
 
 /// Columns of the untouched site as a pure function of place. Immutable; several threads may read it.
 class StartSite {
  public:
+  /// The setup must be a checked one, see Ground.
   explicit StartSite(GroundSetup setup);
 
   const GroundSetup& setup() const { return setup_; }
+  /// Metres of thickness that one mass unit makes, by soil.
   const UnitThickness& unit() const { return unit_; }
+  /// Tiles along x and y; the last ones may reach beyond the site.
   int tiles_x() const { return (setup_.nx + kTileSide - 1) / kTileSide; }
   int tiles_y() const { return (setup_.ny + kTileSide - 1) / kTileSide; }
 
@@ -36,6 +40,7 @@ class StartSite {
   void column(int ix, int iy, Column& out) const;
   /// Surface in W [m]; costs a call of the source. @throws like `column`.
   double height(int ix, int iy) const;
+  /// All heights of tile (tx, ty); 1024 calls of the source.
   void heights(int tx, int ty, TileHeights& out) const;
   /// Index of the uppermost soil; where there is bedrock only, of the soil that would lie there.
   std::uint16_t surface_soil(int ix, int iy) const;
@@ -45,12 +50,16 @@ class StartSite {
     std::uint16_t soil;
     double thickness;  // [m]
   };
+  // A description of a column: how thick each soil is.
   using Stack = std::vector<StackLayer>;  // from the surface down
+  // A rectangle [m] in W with another stack than the rest of the site.
   struct Patch {
     double x0, y0, x1, y1;
     Stack stack;
   };
+  /// Soils by index instead of name.
   Stack make_stack(const std::vector<scene::GroundLayer>& layers) const;
+  /// The description that holds for a column.
   const Stack& stack_at(int ix, int iy) const;
 
   GroundSetup setup_;
@@ -68,11 +77,13 @@ class StartHeights {
  public:
   static constexpr int kMostTiles = 2048;
 
+  /// Nothing is computed until it is asked for.
   explicit StartHeights(std::shared_ptr<const StartSite> site);
   ~StartHeights();
   StartHeights(const StartHeights&) = delete;
   StartHeights& operator=(const StartHeights&) = delete;
 
+  /// Where the heights come from. Views and grounds of one site share it, which tells that they belong together.
   const StartSite& site() const { return *site_; }
   const std::shared_ptr<const StartSite>& shared_site() const { return site_; }
 
@@ -102,11 +113,14 @@ class StartHeights {
            static_cast<std::size_t>(tx / kTileSide);
   }
   static std::size_t tile_in_group(int tx, int ty) { return static_cast<std::size_t>(index_in_tile(tx, ty)); }
+  /// Computes a tile and puts it in its place, unless the table is full (null) or another thread was faster (theirs).
   const TileHeights* fill(int tx, int ty) const;
+  /// Computes one column that is not remembered.
   double single(int ix, int iy) const;
 
   std::shared_ptr<const StartSite> site_;
   int groups_x_;
+  // Filled in by const calls: atomic, and never changed once set.
   mutable std::vector<std::atomic<Group*>> groups_;
   mutable std::atomic<int> tiles_{0};
   mutable std::atomic<std::int64_t> computed_{0};

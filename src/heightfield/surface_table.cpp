@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Copy on write in two steps, squares of tiles and tiles. Whether something is shared is not read off a count of
+// owners, which other threads change, but off a mark that only the writing thread sets and reads.
 #include "heightfield/surface_table.h"
 
 namespace navvy::heightfield {
@@ -11,6 +13,7 @@ SurfaceTable::SurfaceTable(const StartSite& site)
                static_cast<std::size_t>((tiles_y_ + kTileSide - 1) / kTileSide)) {}
 
 SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
+  // First the square, then the tile in it: either may be shared with a view.
   std::shared_ptr<Square>& square = squares_[square_of(tx, ty)];
   if (!square) {
     square = std::make_shared<Square>();
@@ -20,6 +23,7 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
     square->frozen = false;
   }
   std::shared_ptr<SurfaceTile>& tile = square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))];
+  // The common case: the second and later columns of a tile after a view was taken.
   if (tile && !tile->frozen) return *tile;
   if (tile) {
     tile = std::make_shared<SurfaceTile>(*tile);
@@ -41,6 +45,7 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
 }
 
 void SurfaceTable::freeze() const {
+  // All else is shared already.
   for (const Place& place : written_) {
     Square& square = *squares_[square_of(place.tx, place.ty)];
     square.frozen = true;

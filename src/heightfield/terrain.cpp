@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reading of the surface, for live grounds and for views. Between column centres it is bilinear over the dual cells,
+// whose corners are four column centres; beyond the outermost centres it goes on level.
 #include "heightfield/terrain.h"
 
 #include <algorithm>
@@ -13,9 +15,11 @@ double bounded(double value, double low, double high) { return value > low ? std
 
 // Smallest t in [0, range] with f0 + f1 t + f2 t^2 <= 0, negative when there is none.
 double first_root(double f0, double f1, double f2, double range) {
+  // Already at or below the surface.
   if (f0 <= 0) return 0;
   const double end = f0 + (f1 + f2 * range) * range;
   // Roots by the form that does not cancel [Press et al. 2007, Numerical Recipes, 5.6].
+  // Rays mostly come down, so a root in the range is the rule.
   const double discriminant = f1 * f1 - 4 * f2 * f0;
   if (discriminant >= 0) {
     const double q = -0.5 * (f1 + std::copysign(std::sqrt(discriminant), f1));
@@ -29,6 +33,7 @@ double first_root(double f0, double f1, double f2, double range) {
 
 }  // namespace
 
+// The table is empty: nothing differs from the untouched site yet.
 Terrain::Terrain(std::shared_ptr<const StartHeights> start)
     : start_(std::move(start)), setup_(&start_->site().setup()), table_(start_->site()) {}
 
@@ -49,6 +54,7 @@ double Terrain::start_height(int ix, int iy) const {
 std::uint16_t Terrain::surface_soil(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
+  // Most columns of a touched tile still show the soil they always had.
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
   const std::uint16_t soil =
       tile != nullptr ? tile->soil[static_cast<std::size_t>(index_in_tile(ix, iy))] : kSoilAsAtStart;
@@ -82,6 +88,7 @@ void Terrain::corners(int ix, int iy, double z[4]) const {
       return;
     }
   }
+  // At the seams of tiles and of the site, column by column.
   z[0] = height(ix, iy), z[1] = height(ix + 1, iy);
   z[2] = height(ix, iy + 1), z[3] = height(ix + 1, iy + 1);
 }
@@ -105,6 +112,7 @@ double Terrain::sample(double x, double y) const {
 }
 
 Vec3 Terrain::normal(double x, double y) const {
+  // Slopes of the bilinear patch at this very point, not of the cell's middle.
   int ix, iy;
   double u, v, z[4];
   locate(x, y, ix, iy, u, v);
@@ -154,6 +162,7 @@ double Terrain::ray(const Vec3& p, const Vec3& d, double range) const {
   };
   // Walk the dual cells between column centres; in each the surface is bilinear and the ray's height above it a
   // quadratic in t.
+  // Cells are entered and left at the lines between column centres.
   double t0 = 0;
   while (t0 < range) {
     const double tx = exit_of(gx, dx, ix), ty = exit_of(gy, dy, iy);
@@ -164,8 +173,10 @@ double Terrain::ray(const Vec3& p, const Vec3& d, double range) const {
     const double u = gx + dx * t0 - ix, v = gy + dy * t0 - iy;
     const double f0 = p.z() + d.z() * t0 - (z[0] + b * u + c * v + e * u * v);
     const double f1 = d.z() - b * dx - c * dy - e * (u * dy + v * dx), f2 = -e * dx * dy;
+    // The height above the surface is f0 + f1 t + f2 t^2 from the entry on.
     const double hit = first_root(f0, f1, f2, t1 - t0);
     if (hit >= 0) return t0 + hit;
+    // Through a corner both move on.
     if (tx <= ty) ix += dx > 0 ? 1 : -1;
     if (ty <= tx) iy += dy > 0 ? 1 : -1;
     t0 = std::max(t1, t0);

@@ -10,6 +10,7 @@ TerrainView TerrainView::with(const LooseSoil& loose) const {
     // Everything in a view is shared, so the first column of a tile makes the copy that the others write to.
     SurfaceTile& tile = out.table_.own(column.ix / kTileSide, column.iy / kTileSide, *out.start_);
     const auto i = static_cast<std::size_t>(index_in_tile(column.ix, column.iy));
+    // Most tiles have no loose soil and carry no depths.
     if (!tile.loose) {
       tile.loose = std::make_shared<std::array<float, kTileColumns>>();
       tile.loose->fill(0);
@@ -19,6 +20,7 @@ TerrainView TerrainView::with(const LooseSoil& loose) const {
     tile.specific_volume[i] = column.specific_volume;
     (*tile.loose)[i] = static_cast<float>(column.depth);
   }
+  // From here on this view is as unchangeable as the one it came from.
   out.table_.freeze();
   return out;
 }

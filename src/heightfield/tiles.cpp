@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Storage of layers: a map of touched tiles for walks in a fixed order, and pointers in groups for finding one at once.
 #include "heightfield/tiles.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ Tiles::Tiles(std::shared_ptr<const StartSite> site)
 }
 
 Tile* Tiles::find_tile(int tx, int ty) const {
+  // Two steps without a search: soil asks for columns in its innermost loops.
   const auto& group = groups_[group_of(tx, ty)];
   return group ? (*group)[static_cast<std::size_t>(index_in_tile(tx, ty))] : nullptr;
 }
@@ -26,6 +28,7 @@ Tile& Tiles::touch_tile(int tx, int ty) {
     group = std::make_unique<Group>();
     group->fill(nullptr);
   }
+  // Owned by the map, whose order is that of hashes and files; found through the group.
   Tile* raw = tile.get();
   (*group)[static_cast<std::size_t>(index_in_tile(tx, ty))] = raw;
   touched_[static_cast<std::int64_t>(ty) * tiles_x_ + tx] = std::move(tile);
@@ -43,6 +46,7 @@ Column& Tiles::touch_column(int ix, int iy) {
   Tile& tile = touch_tile(ix / kTileSide, iy / kTileSide);
   std::int16_t& slot = tile.slot[static_cast<std::size_t>(index_in_tile(ix, iy))];
   if (slot < 0) {
+    // Made before a slot is taken: the source may throw.
     Column column;
     site_->column(ix, iy, column);
     for (const Layer& layer : column) start_mass_[layer.soil] += layer.mass;
@@ -53,6 +57,7 @@ Column& Tiles::touch_column(int ix, int iy) {
 }
 
 void Tiles::update_surface(int ix, int iy, SurfaceTable& table, const StartHeights& start) const {
+  // Height, soil and density state together, so that a view never shows half an edit.
   const Column& column = *find_column(ix, iy);
   SurfaceTile& surface = table.own(ix / kTileSide, iy / kTileSide, start);
   const auto i = static_cast<std::size_t>(index_in_tile(ix, iy));
@@ -63,6 +68,7 @@ void Tiles::update_surface(int ix, int iy, SurfaceTable& table, const StartHeigh
 }
 
 void Tiles::clear() {
+  // Groups hold pointers into the map, so they go with it.
   touched_.clear();
   for (auto& group : groups_) group.reset();
   std::fill(start_mass_.begin(), start_mass_.end(), 0);

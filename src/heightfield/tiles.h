@@ -23,6 +23,7 @@ struct Tile {
 /// `update_surface` keeps in step.
 class Tiles {
  public:
+  /// None touched yet.
   explicit Tiles(std::shared_ptr<const StartSite> site);
 
   /// Layers of a changed column, or null while it is as at the start.
@@ -36,6 +37,7 @@ class Tiles {
   const std::map<std::int64_t, std::unique_ptr<Tile>>& touched() const { return touched_; }
   /// Mass that the changed columns held at the start, per soil.
   const std::vector<std::int64_t>& start_mass() const { return start_mass_; }
+  /// Forgets all changes.
   void clear();
 
   int tiles_x() const { return tiles_x_; }
@@ -48,6 +50,7 @@ class Tiles {
     return static_cast<std::size_t>(ty / kTileSide) * static_cast<std::size_t>(groups_x_) +
            static_cast<std::size_t>(tx / kTileSide);
   }
+  /// Null while no column of it was touched.
   Tile* find_tile(int tx, int ty) const;
   Tile& touch_tile(int tx, int ty);
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A frame is what a renderer needs and nothing more: poses of visuals, cylinders between their pins, a dense window of
+// the ground and the particles, all in W.
 #include "sim/frame_builder.h"
 
 #include <algorithm>
@@ -20,6 +22,7 @@ constexpr double kBarRadius = 0.05;     // [m]
 /// OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
   Vec3 back = eye - target;
+  // Any direction is better than none.
   if (back.norm() < 1e-9) back = Vec3(1, 0, 0);
   back.normalize();
   Vec3 right = Vec3::UnitZ().cross(back);
@@ -36,6 +39,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 }  // namespace
 
 FrameBuilder::FrameBuilder(const World& world) : world_(world) {
+  // What does not change with time is filled in once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
   frame_.lights = world.description().lights;
@@ -44,6 +48,7 @@ FrameBuilder::FrameBuilder(const World& world) : world_(world) {
 }
 
 const scene::Frame& FrameBuilder::build() {
+  // Vectors are cleared, not freed: frames of one world are about as large as each other.
   frame_.time = world_.time();
   frame_.shapes.clear();
   frame_.cylinders.clear();
@@ -64,10 +69,12 @@ void FrameBuilder::place_window() {
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
   const Vec2i center = ground.column_at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
+  // A window follows the middle of the machines, but jumps only when they near its edge: a jump costs a whole copy.
   const bool placed = !window_.empty();
   const bool near_edge = std::abs(center.x() - (window_.x0 + window_.x1) / 2) > nx / 4 ||
                          std::abs(center.y() - (window_.y0 + window_.y1) / 2) > ny / 4;
   const bool whole = nx == ground.nx() && ny == ground.ny();
+  // A window over the whole site never moves.
   if (placed && (whole || !near_edge)) return;
   const int x0 = std::clamp(center.x() - nx / 2, 0, ground.nx() - nx);
   const int y0 = std::clamp(center.y() - ny / 2, 0, ground.ny() - ny);
@@ -88,6 +95,7 @@ void FrameBuilder::place_window() {
 void FrameBuilder::update_ground() {
   const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
+  // A frame that nobody draws loses nothing: the follower sees the next one against the last one built.
   out.changed.clear();
   for (const heightfield::CellRect& changed : changes_.take(terrain)) {
     const heightfield::CellRect rect = changed.cut(window_);
@@ -104,6 +112,7 @@ void FrameBuilder::copy_ground(const heightfield::Terrain& terrain, const height
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
                             static_cast<std::size_t>(ix - window_.x0);
+      // The difference in double: both heights may be hundreds of metres.
       const double height = terrain.height(ix, iy);
       out.height[i] = static_cast<float>(height);
       out.change[i] = static_cast<float>(height - terrain.start_height(ix, iy));
@@ -129,12 +138,14 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link),
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
+  // The pins follow from the joint's angle; a cylinder has no state of its own.
   const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(m, joint).position);
   const Pose X_WL = world_.link(m, base).X_WL;
   const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel, double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
     frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
   };
+  // Side by side, as many as there are.
   for (int i = 0; i < cylinder.count; ++i)
     add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
         cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
@@ -158,6 +169,7 @@ void FrameBuilder::add_particles() {
   out.id.clear();
   out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
   if (particles.empty()) return;
+  // Relative to the block of one of them: a float is fine to 0.01 mm over a site of 100 m.
   const auto& first = particles.front().block;
   const double block = soil::kBlockCells * ground.cell();
   out.origin = world_.soil().grid_origin() + block * Vec3(first[0], first[1], first[2]);
@@ -177,6 +189,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   out.width = camera.width;
   out.height = camera.height;
   Pose X = Pose::Identity();
+  // Fixed ones are given in W, the others in the frame of what they ride on.
   if (camera.kind != scene::Camera::Kind::kFixed) {
     const int m = world_.description().machine_index(camera.machine);
     if (m < 0)

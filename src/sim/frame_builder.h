@@ -21,15 +21,19 @@ class FrameBuilder {
   scene::FrameCamera camera(const scene::Camera& camera) const;
 
  private:
+  /// Moves the window where machines near its edge; the next ground is then a whole one.
   void place_window();
+  /// Copies what changed since the last frame into the window.
   void update_ground();
   void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
   void add_machines();
+  /// A cylinder of machine m, with the bars of its bucket linkage.
   void add_cylinder(int m, const scene::Cylinder& cylinder);
   void add_particles();
 
   const World& world_;
   scene::Frame frame_;
+  // Columns of the site that are drawn, and what changed among them.
   heightfield::CellRect window_;
   heightfield::ChangeFollower changes_;
 };

@@ -7,10 +7,11 @@
 
 namespace navvy::sim {
 
-/// A copy of the world's terrain that never changes, stamped with its time. Pictures, maps, files, operators and planners
-/// read this and name the surface that they mean.
+/// A copy of the world's terrain that never changes, stamped with its time. Pictures, maps, files, operators and
+/// planners read this and name the surface that they mean.
 ///
-/// The columns alone cost what was changed since the last view, microseconds; loose soil costs a pass over the particles.
+/// The columns alone cost what was changed since the last view, microseconds; loose soil costs a pass over the
+/// particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::Surface surface);
 
 }  // namespace navvy::sim

@@ -36,7 +36,9 @@ Columns differing(const Terrain& a, const Terrain& b) {
   return out;
 }
 
-bool holds(const Columns& all, const Columns& part) { return std::includes(all.begin(), all.end(), part.begin(), part.end()); }
+bool holds(const Columns& all, const Columns& part) {
+  return std::includes(all.begin(), all.end(), part.begin(), part.end());
+}
 
 std::int64_t area(const std::vector<CellRect>& rects) {
   std::int64_t sum = 0;

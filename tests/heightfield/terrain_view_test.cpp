@@ -110,7 +110,8 @@ TEST(TerrainView, ShowsSoilAndDensityStateOfTheSurface) {
 TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
   Ground ground(wavy_setup());
   const double top = ground.height(33, 20), below = ground.height(60, 40);
-  const std::vector<LooseGrain> grains = {{33, 20, top + 0.05, 0.001, 0, 1.2f}, {33, 20, top + 0.15, 0.001, 1, 1.3f},
+  const std::vector<LooseGrain> grains = {{33, 20, top + 0.05, 0.001, 0, 1.2f},
+                                          {33, 20, top + 0.15, 0.001, 1, 1.3f},
                                           {60, 40, below + 1.0, 0.001, 0, 1.2f}};
   const TerrainView columns = ground.view(), seen = columns.with(LooseSoil(columns, grains));
   EXPECT_EQ(seen.surface(), Surface::kWithLooseSoil);
@@ -134,15 +135,19 @@ TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   const Ground ground(wavy_setup());
   const double top = ground.height(5, 5);
   // Given out of order; each raises the surface by 0.05 m. The one 0.26 m up is more than two cells above 0.05.
-  const LooseSoil loose(ground, {{5, 5, top + 0.26, 0.0005, 0, 1}, {5, 5, top, 0.0005, 1, 1}, {99, 5, top, 1, 0, 1},
-                                 {4, 6, ground.height(4, 6), 0.0005, 0, 1}, {-1, 5, top, 1, 0, 1}});
+  const LooseSoil loose(ground, {{5, 5, top + 0.26, 0.0005, 0, 1},
+                                 {5, 5, top, 0.0005, 1, 1},
+                                 {99, 5, top, 1, 0, 1},
+                                 {4, 6, ground.height(4, 6), 0.0005, 0, 1},
+                                 {-1, 5, top, 1, 0, 1}});
   ASSERT_EQ(loose.columns().size(), 2u);
   EXPECT_EQ(loose.columns()[0].ix, 5);
   EXPECT_NEAR(loose.columns()[0].depth, 0.05, 1e-12);
   EXPECT_EQ(loose.columns()[0].soil, 1);
   EXPECT_EQ(loose.columns()[1].iy, 6);
   // With a grain in between the gap is closed and all three lie.
-  const LooseSoil closed(ground, {{5, 5, top + 0.26, 0.0005, 0, 1}, {5, 5, top, 0.0005, 1, 1}, {5, 5, top + 0.2, 0.0005, 1, 1}});
+  const LooseSoil closed(
+      ground, {{5, 5, top + 0.26, 0.0005, 0, 1}, {5, 5, top, 0.0005, 1, 1}, {5, 5, top + 0.2, 0.0005, 1, 1}});
   EXPECT_NEAR(closed.columns().at(0).depth, 0.15, 1e-12);
   EXPECT_TRUE(LooseSoil(ground, {}).columns().empty());
 }
@@ -200,16 +205,15 @@ TEST(Ground, RemembersNoMoreOfAWideSiteThanItSays) {
   const std::size_t before = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
   double most = 0;
   for (int iy = 0; iy < 1600; iy += 16)
-    for (int ix = 0; ix < 6400; ix += 16)
-      most = std::max(most, std::abs(ground.height(ix, iy) - source(ix, iy)));
+    for (int ix = 0; ix < 6400; ix += 16) most = std::max(most, std::abs(ground.height(ix, iy) - source(ix, iy)));
   EXPECT_LT(most, 1e-7);  // quantum of mass
   const std::size_t after = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
   EXPECT_LT(after - before, 20u << 20);  // 2048 tiles of 8 KiB and tables
   // Columns that were not remembered are so again after the next change, once enough of them were asked for.
-  for (int n = 0; n < 400000; ++n) most = std::max(most, std::abs(ground.height(6399 - n % 64, 1599) - source(6399 - n % 64, 1599)));
+  for (int n = 0; n < 400000; ++n)
+    most = std::max(most, std::abs(ground.height(6399 - n % 64, 1599) - source(6399 - n % 64, 1599)));
   ground.put(1, 1, {0, 10, 1, 0});
-  for (int n = 0; n < 64; ++n)
-    most = std::max(most, std::abs(ground.height(6399 - n, 1599) - source(6399 - n, 1599)));
+  for (int n = 0; n < 64; ++n) most = std::max(most, std::abs(ground.height(6399 - n, 1599) - source(6399 - n, 1599)));
   EXPECT_LT(most, 1e-7);
   EXPECT_LT(::mallinfo2().uordblks + ::mallinfo2().hblkhd - before, 4u << 20);
 }

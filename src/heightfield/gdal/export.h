@@ -17,6 +17,7 @@ void write_geotiff(const Terrain& terrain, const std::string& path);
 
 /// Same for any dense layer over `rect` of the ground (x fastest, row 0 = least y), values written as they are.
 /// @throws Error when sizes do not fit, FileError.
-void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values, const std::string& path);
+void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
+                   const std::string& path);
 
 }  // namespace navvy::heightfield
