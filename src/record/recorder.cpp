@@ -101,7 +101,7 @@ Recorder::Recorder(session::Session& session, Options options) {
   if (!s.options.scene_text.empty()) write_file_atomically(s.path("scene.sdf"), s.options.scene_text);
   write_file_atomically(s.path("run.json"),
                         run_json({kRunFormat, navvy_version(), s.options.command, scene.file, session.device_name()}));
-  write_terrain(session.world().ground(), s.path("terrain_start.tif"));
+  write_terrain(session.world(), s.path("terrain_start.tif"));
   // The first row is the state before any step.
   s.sample_when_due();
   // The renderer takes a graphics context, which runs without pictures do not need.
@@ -189,7 +189,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   }
   if (s.hashes) s.hashes->finish();
   // The end of the ground, also of a run that failed: it shows where.
-  write_terrain(s.session.world().ground(), s.path("terrain_end.tif"));
+  write_terrain(s.session.world(), s.path("terrain_end.tif"));
   s.checkpoint(true);
 }
 

@@ -14,7 +14,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "session/program_check.h"
-#include "sim/soil_surface.h"
+#include "sim/terrain_view.h"
 
 namespace navvy::session {
 namespace {
@@ -24,14 +24,23 @@ constexpr std::uint64_t kPayloadInterval = 12;
 /// Soil that is still awake holds the end of the run up to this many settling times.
 constexpr double kLongestRest = 6;
 
-/// What an operator sees from its cab: columns and the loose soil on them, as sim has them.
+/// What an operator sees from its cab: columns and the loose soil on them. Takes one view in every step in which it is
+/// asked, so it has no memory that a snapshot would need; one look costs a pass over the particles.
 class SeenSurface final : public control::SurfaceView {
  public:
-  explicit SeenSurface(const sim::World& world) : surface_(world) {}
-  double height(double x, double y) const override { return surface_.height(x, y); }
+  explicit SeenSurface(const sim::World& world) : world_(world) {}
+  const heightfield::Terrain& terrain() const override {
+    if (!view_ || seen_step_ != world_.steps()) {
+      view_ = sim::terrain_view(world_, heightfield::Surface::kWithLooseSoil);
+      seen_step_ = world_.steps();
+    }
+    return *view_;
+  }
 
  private:
-  sim::SoilSurface surface_;
+  const sim::World& world_;
+  mutable std::optional<heightfield::TerrainView> view_;
+  mutable std::uint64_t seen_step_ = 0;
 };
 
 }  // namespace
