@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
-#include "soil/particles/transfer.h"
 
 namespace navvy::soil {
 

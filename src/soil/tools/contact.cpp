@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "soil/layout.h"
 #include "soil/particles/schedule.h"
 
 namespace navvy::soil {
@@ -20,10 +19,8 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, doub
       cell_(cell),
       origin_(origin_W),
       reference_step_(settings_.reference * cell / slowest_sound),
-      shell_program_(device, kernel_path(device, "shell")),
+      shells_(device),
       contact_program_(device, kernel_path(device, "contact")),
-      nodes_kernel_(shell_program_, "shell_nodes"),
-      particles_kernel_(shell_program_, "shell_particles"),
       sums_kernel_(contact_program_, "contact_sums"),
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
@@ -41,8 +38,8 @@ int Contact::add_tool(const scene::Shell& shell) {
 template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
-      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, node_tool_, shell_,
-            nodes_.surface, tool_buffer_, only, reach_, static_cast<float>(cell_), tail...)
+      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, shells_.node_tool(),
+            shells_.node_shell(), nodes_.surface, shells_.tools(), only, reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
@@ -59,10 +56,10 @@ void Contact::solve(Transfer& transfer, double dt) {
     if (!yields(motion)) continue;
     for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
-      twist_kernel_.args(tool_buffer_, motion.tool, sums_, nodes_.count).enqueue_groups(1);
+      twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
-  launch(apply_kernel_, transfer, -1, transfer.floor(), touched_, records_, transfer.velocity(), nodes_.velocity1);
+  launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(), nodes_.velocity1);
 }
 
 namespace {
@@ -95,7 +92,8 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
 void Contact::read_later() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
-  results_.emplace(Results{touched_.map_read_later(0, blocks), node_tool_.map_read_later(0, blocks * BLOCK_NODES),
+  results_.emplace(Results{touched_.map_read_later(0, blocks),
+                           shells_.node_tool().map_read_later(0, blocks * BLOCK_NODES),
                            records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
