@@ -19,6 +19,7 @@ void GridToParticle::set_blocks(const BlockTable& table) { upload(device_, neigh
 void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
                              device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt,
                              double cell) {
+  // Closing takes a share of the excess a step, never more than all of it.
   kernel_
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
             near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),

@@ -13,6 +13,7 @@ GridUpdate::GridUpdate(device::Device& device)
       near_kernel_(program_, "grid_update_near") {}
 
 void GridUpdate::set_blocks(const BlockTable& table, const std::vector<int>& near_slot) {
+  // Near blocks have their own kernel with two fields; the others go the short way.
   std::vector<std::int32_t> far;
   std::vector<std::array<std::int32_t, 4>> keys(table.active.size());
   for (std::size_t b = 0; b < table.active.size(); ++b) {
@@ -34,6 +35,7 @@ void GridUpdate::enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNo
   far_kernel_
       .args(far_list_, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), floors_, velocity_, dv_f)
       .enqueue_groups(far_);
+  // The near kernel leaves the floor to contact_apply: tools act before the ground holds.
   if (near.count == 0) return;
   near_kernel_
       .args(near.list, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), store.home_surface(),

@@ -13,6 +13,7 @@
 namespace navvy::soil {
 namespace {
 
+/// Runs of homes begin at full packs, so that sixteen lanes never belong to two homes.
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
 /// Moves a particle's block to that of its base node floor(x - 0.5).
@@ -89,6 +90,7 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
   assign({});
 }
 
+// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
 int ParticleStore::lay_out(const std::vector<int>& counts) {
   homes_.assign(table_.homes.size(), Home{});
   int slot = 0;
@@ -112,6 +114,7 @@ void ParticleStore::upload_homes() {
   fit(device_, home_surface_, homes_.size());
 }
 
+// Tiles are numbered anew: a home near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
@@ -146,6 +149,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, boo
   return out;
 }
 
+// Room is made with some to spare: soil wakes in small portions.
 void ParticleStore::make_room(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
@@ -164,10 +168,12 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
     }
     ++counts.back();
   }
+  // Sorted particles of one home stand together, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
   const int slots = lay_out(counts);
   make_room(now_, slots, slots + slots / 2);
   {
+    // Every slot of the runs is written, padding as well: kernels read whole packs.
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
@@ -272,6 +278,7 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
 }
 
 std::vector<Particle> ParticleStore::drop_outside() {
+  // Rare: a few particles roll over the edge. The host sorts who stays.
   const std::vector<Particle> all = records();
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
@@ -302,6 +309,7 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, home_keys_, plan.keys.size());
   fit(device_, home_surface_, plan.keys.size());
   rebin_.make_room(plan.keys.size(), static_cast<std::size_t>(slots));
+  // From here on nothing can fail but the device itself.
   std::swap(homes_buffer_, old_homes_buffer_);
   if (!(plan.keys == table_.homes)) table_.build(plan.keys);
   lay_out(plan.counts);
@@ -312,6 +320,7 @@ std::vector<Particle> ParticleStore::rebin() {
   return {};
 }
 
+// Words as they stand on the device, in stored order; padding and room to spare are not state.
 void ParticleStore::hash(StateHash& hash) const {
   const auto view = state_[now_].map_read();
   for (std::size_t h = 0; h < homes_.size(); ++h) {

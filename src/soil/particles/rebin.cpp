@@ -8,6 +8,7 @@
 
 namespace navvy::soil {
 
+// Homes are found from flows and not from particles: the host sees 28 numbers a home.
 RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   RebinPlan plan;
   for (std::size_t h = 0; h < table.homes.size(); ++h)
@@ -16,6 +17,8 @@ RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   std::sort(plan.keys.begin(), plan.keys.end());
   plan.keys.erase(std::unique(plan.keys.begin(), plan.keys.end()), plan.keys.end());
 
+  // For each new home the old ones around it that send it something, in the fixed order of the codes: the order in
+  // which particles arrive does not depend on the device.
   plan.sources.assign(27 * plan.keys.size(), -1);
   plan.counts.assign(plan.keys.size(), 0);
   for (std::size_t k = 0; k < plan.keys.size(); ++k)
@@ -43,6 +46,7 @@ std::vector<int> Rebin::count(const StoredParticles& now, std::size_t homes,
                               const std::array<std::int32_t, 4>& site) {
   std::vector<int> counts(kRebinCodes * homes);
   if (homes == 0) return counts;
+  // Per slot and not per particle: the kernels index by slot.
   fit(device_, codes_, static_cast<std::size_t>(now.capacity));
   fit(device_, cells_, static_cast<std::size_t>(now.capacity));
   fit(device_, counts_, counts.size());

@@ -20,6 +20,7 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
 }
 
 void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity) {
+  // The queue is in order: the grid update sees finished tiles.
   particle_to_grid_.enqueue(store, report_, dt, cell);
   grid_.enqueue(store, particle_to_grid_, near, gravity * dt);
 }
@@ -29,6 +30,7 @@ void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double c
 }
 
 Transfer::Largest Transfer::read_report(std::size_t homes) const {
+  // One small read a step; it waits for everything that was queued before.
   Largest out;
   for (const Report& home : report_.map_read(0, homes)) {
     out.speed = std::max(out.speed, static_cast<double>(home.speed));

@@ -49,6 +49,7 @@ void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, i
 
 }  // namespace
 
+// Lists reach farther than the contact by a margin; within it they hold.
 bool Contact::moved_far() const {
   for (const Registered& tool : tools_) {
     if (tool.present != tool.listed) return true;
@@ -69,6 +70,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     const Vec3 p = to_grid(motion.X_WT.translation());
     tool.window = {floor_div(p.x()), floor_div(p.y()), floor_div(p.z())};
   }
+  // New blocks have no lists yet; far tools have outrun theirs.
   const bool again = blocks_changed || moved_far();
   if (again) {
     for (Registered& tool : tools_) {
@@ -82,6 +84,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 }
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
+  // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
   const double far = settings_.band + settings_.margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;
@@ -95,6 +98,7 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
       low.array() -= far;
       high.array() += far;
       const int triangle = tool.first_triangle + piece.triangle;
+      // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
     }
@@ -122,9 +126,11 @@ void Contact::list_near(const BlockTable& table) {
                     [&](std::size_t triangle) { of_blocks.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
   of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+  // Without near blocks no kernel of contact runs, and no buffer needs room.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
   for (std::size_t h = 0; h < table.homes.size(); ++h) {
+    // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
     bool near = home_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
@@ -151,6 +157,7 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, touched_, near_list.size());
 }
 
+// Floats count from the window's corner, a block's, so that they are as exact far from the site's origin.
 Tool Contact::tool_now(std::size_t index) const {
   const Registered& tool = tools_[index];
   const scene::Shell& shell = tool.geometry->shell();
@@ -176,6 +183,7 @@ Tool Contact::tool_now(std::size_t index) const {
   return out;
 }
 
+// Directions turn with the tool; the kernels know W only.
 void Contact::upload_tools() {
   ToolShells shells;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
@@ -214,6 +222,7 @@ void Contact::classify(ParticleStore& store, Transfer& transfer) {
   shells_.enqueue(store, transfer, nodes_, settings_.band, settings_.longest_push);
 }
 
+// Near lists hang on where tools were when they were made: that is state, the lists follow from it.
 void Contact::save(StateWriter& writer) const {
   writer.value(static_cast<std::uint32_t>(tools_.size()));
   for (const Registered& tool : tools_) {

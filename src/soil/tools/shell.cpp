@@ -14,6 +14,7 @@ ShellQuery::ShellQuery(device::Device& device)
       nodes_kernel_(program_, "shell_nodes"),
       particles_kernel_(program_, "shell_particles") {}
 
+// Rows are as many as near blocks and homes, and one more entry ends the last.
 void ShellQuery::set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
                           const std::vector<std::int32_t>& near_homes) {
   near_homes_ = near_homes.size();
@@ -41,10 +42,12 @@ void ShellQuery::set_tools(ToolShells shells) {
 
 void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
   const auto band_f = static_cast<float>(band);
+  // Neither kernel reads what the other writes; both see the poses of this step.
   nodes_kernel_
       .args(near.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(now_.rims.size()), tools_,
             block_first_, block_triangles_, band_f, near.split, node_tool_, node_shell_)
       .enqueue_groups(static_cast<std::size_t>(near.count));
+  // Particles may be near a shell although no node of their own block is.
   particles_kernel_
       .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_, tools_,
             home_first_, home_triangles_, band_f, static_cast<float>(longest_push), transfer.report())
