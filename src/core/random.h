@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "core/archive.h"
+
 namespace navvy {
 
 /// SplitMix64 [Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators"].
@@ -22,6 +24,7 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   std::uint64_t state() const { return state_; }
   void set_state(std::uint64_t state) { state_ = state; }
+  void visit(Archive& a) { a("state", state_); }
 
  private:
   std::uint64_t state_;

@@ -17,7 +17,7 @@ constexpr double kSinkSpeed = 0.2;
 constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
 constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
 constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
-constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m (SOIL_SOLVER section 5)
+constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/world_parts.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
@@ -56,7 +57,7 @@ void FrameBuilder::place_window() {
   const int nx = std::min(ground.nx(), kWindow), ny = std::min(ground.ny(), kWindow);
   Vec2 low = ground.origin() + 0.5 * ground.cell() * Vec2(ground.nx(), ground.ny()), high = low;
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
-    const Vec2 p = world_.link(static_cast<int>(m), 0).X_WL.translation().head<2>();
+    const Vec2 p = world_.machine(static_cast<int>(m)).link(0).pose().translation().head<2>();
     low = m == 0 ? p : Vec2(low.cwiseMin(p));
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
@@ -116,7 +117,7 @@ void FrameBuilder::add_machines() {
     const scene::Machine& machine = world_.description().machines[m].machine;
     const int index = static_cast<int>(m);
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
-      const Pose X_WL = world_.link(index, static_cast<int>(l)).X_WL;
+      const Pose X_WL = world_.machine(index).link(static_cast<int>(l)).pose();
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
@@ -129,8 +130,8 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link),
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
-  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(m, joint).position);
-  const Pose X_WL = world_.link(m, base).X_WL;
+  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
+  const Pose X_WL = world_.machine(m).link(base).pose();
   const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel, double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
     frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
@@ -142,7 +143,7 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's pivot.
   const Vec3 pin =
       cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod * (geometry.p_rod - cylinder.p_rocker);
-  const Vec3 on_bucket = world_.link(m, rod).X_WL * cylinder.p_coupler;
+  const Vec3 on_bucket = world_.machine(m).link(rod).pose() * cylinder.p_coupler;
   for (const double aside : {-kLinkageAside, kLinkageAside}) {
     add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
     add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
@@ -151,7 +152,7 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
 
 void FrameBuilder::add_particles() {
   const heightfield::Ground& ground = world_.ground();
-  const std::vector<soil::Particle> particles = world_.soil().particles();
+  const std::vector<soil::Particle> particles = parts(world_).soil.particles();
   scene::FrameParticles& out = frame_.particles;
   out.position.clear();
   out.soil.clear();
@@ -160,7 +161,7 @@ void FrameBuilder::add_particles() {
   if (particles.empty()) return;
   const auto& first = particles.front().block;
   const double block = soil::kBlockCells * ground.cell();
-  out.origin = world_.soil().grid_origin() + block * Vec3(first[0], first[1], first[2]);
+  out.origin = parts(world_).soil.grid_origin() + block * Vec3(first[0], first[1], first[2]);
   out.position.reserve(3 * particles.size());
   out.soil.reserve(particles.size());
   for (const soil::Particle& p : particles) {
@@ -184,7 +185,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
                              camera.machine, "there is no machine of this name", "name a machine of the scene"});
     const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
     const int link = camera.kind == scene::Camera::Kind::kOnLink ? std::max(0, machine.link_index(camera.link)) : 0;
-    X = world_.link(m, link).X_WL;
+    X = world_.machine(m).link(link).pose();
     if (camera.kind == scene::Camera::Kind::kChase) {
       const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
       X.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();

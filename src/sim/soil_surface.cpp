@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/world_parts.h"
+
 namespace navvy::sim {
 namespace {
 
@@ -21,8 +23,8 @@ void SoilSurface::look() const {
   const heightfield::Ground& ground = world_.ground();
   const std::vector<scene::Soil>& soils = world_.description().soils;
   std::vector<Grain> grains;
-  for (const soil::Particle& p : world_.soil().particles()) {
-    const auto [ix, iy] = world_.soil().grid().column_of(p);
+  for (const soil::Particle& p : parts(world_).soil.particles()) {
+    const auto [ix, iy] = parts(world_).soil.grid().column_of(p);
     if (!ground.contains(ix, iy)) continue;
     const double z = ground.datum() + ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
     grains.push_back({static_cast<std::int64_t>(iy) * ground.nx() + ix, z,

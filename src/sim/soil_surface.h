@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "control/surface.h"
 #include "sim/world.h"
 
 namespace navvy::sim {
@@ -15,10 +14,10 @@ namespace navvy::sim {
 ///
 /// Looks at the particles once in every step in which it is asked, so it has no memory that a snapshot would need; one
 /// look costs a pass over the particles.
-class SoilSurface final : public control::SurfaceView {
+class SoilSurface {
  public:
   explicit SoilSurface(const World& world) : world_(world) {}
-  double height(double x, double y) const override;
+  double height(double x, double y) const;
 
  private:
   void look() const;

@@ -14,12 +14,12 @@ namespace {
 
 /// Drift that calls for a re-bin before the next step [cells]: one cell is the tile's margin, less one step's push.
 constexpr double kMostDrift = 0.75;
-/// Tool travel between exchange checks [cells], and steps between them when no tool moves [SOIL_SOLVER section 6].
+/// Tool travel between exchange checks [cells], and steps between them when no tool moves.
 constexpr double kCheckTravel = 0.3;
 constexpr std::uint32_t kCheckSteps = 25;
 
 /// A step this much over the limit is still taken in one: the limit has a Courant number of 0.5, and contact and law
-/// hold to 0.8 [SOIL_SOLVER sections 4 and 5]; a caller with a base step made for a slower tool is not punished by half
+/// hold to 0.8 [docs/soil.md, time step]; a caller with a base step made for a slower tool is not punished by half
 /// steps.
 constexpr double kMostStep = 1.3;
 

@@ -13,7 +13,7 @@
 
 namespace navvy::soil {
 
-/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
+/// Nodes up to this far above the columns are held too [cells] [docs/soil.md, resting ground].
 inline constexpr double kHeldMargin = 0.25;
 
 /// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.

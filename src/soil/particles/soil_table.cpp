@@ -11,7 +11,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [SOIL_SOLVER section 3].
+/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [docs/soil.md, viscosity].
 constexpr double kViscosityShare = 0.05;
 /// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of bank instead of 1.23;
 /// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22.
@@ -43,7 +43,7 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
   // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and Mohr-Coulomb's radius
-  // for phi [SOIL_SOLVER section 3].
+  // for phi [docs/soil.md, dilatancy].
   const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
   k.dilatancy = soil.swell > 1 ? b : 0;
   k.inv_range = soil.swell > 1 ? 1 / (soil.swell - 1) : 0;

@@ -19,7 +19,7 @@
 
 namespace navvy::soil {
 
-/// Lengths in cells [SOIL_SOLVER section 5, thin-tools.md section 7].
+/// Lengths in cells [docs/tools.md, contact weights].
 struct ContactSettings {
   double band = 2.5;          ///< how far from a shell particles keep a side
   double reach = 1.0;         ///< h: nodes closer than this to the plate's face act

@@ -36,7 +36,7 @@ TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
     for (int i = 0; i < 4000; ++i) e.step(1e-3);
     const double ratio = e.sigma[3] / -e.sigma[1];
     print_value("tau / sigma_n at phi " + std::to_string(phi), ratio, std::to_string(std::sin(radians(phi))) + " +-3 %",
-                "VALIDATION 1, simple shear without dilatancy");
+                "simple shear without dilatancy [docs/validation.md, Element and law]");
     EXPECT_NEAR(ratio, std::sin(radians(phi)), 0.03 * std::sin(radians(phi)));
   }
 }
