@@ -6,7 +6,7 @@
 //      floors = resting ground per active block.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
 //      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/transfer.cpp.
+// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
