@@ -72,16 +72,13 @@ std::vector<soil::Particle> NativeSoil::particles() const {
       const Pack& pack = packs_[home.first + i / kLanes];
       const std::size_t l = i % kLanes;
       soil::Particle& p = out[pack.id[l]];
-      for (std::size_t a = 0; a < 3; ++a) {
-        p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
-        p.x[a] = pack.x[a][l];
-        p.v[a] = pack.v[a][l];
-      }
-      for (std::size_t k = 0; k < 9; ++k) p.c[k] = pack.c[k][l];
-      for (std::size_t k = 0; k < 6; ++k) p.s[k] = pack.s[k][l];
-      p.j = pack.j[l];
-      p.j0 = pack.j0[l];
-      p.shear = pack.shear[l];
+      for (std::size_t a = 0; a < 3; ++a) p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
+#define GET_ONE(NAME, member, rest) p.member = pack.member[l];
+#define GET_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) p.member[k] = pack.member[k][l];
+      FLOAT_FIELDS(GET_ONE, GET_MANY)
+#undef GET_ONE
+#undef GET_MANY
       p.mass = static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
       p.id = pack.id[l];
     }
@@ -128,20 +125,22 @@ void NativeSoil::append(const soil::Particle& p) {
   const std::size_t l = home.count++ % kLanes;
   if (l == 0) {
     packs_.emplace_back();  // lanes without a particle: no mass, inside the home
-    for (auto& axis : packs_.back().x) std::fill(std::begin(axis), std::end(axis), 2.0f);
-    std::fill(std::begin(packs_.back().j), std::end(packs_.back().j), 1.0f);
-    std::fill(std::begin(packs_.back().j0), std::end(packs_.back().j0), 1.0f);
+#define REST_ONE(NAME, member, rest) std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
+#define REST_MANY(NAME, member, count, rest) \
+  for (auto& lanes : packs_.back().member) std::fill(std::begin(lanes), std::end(lanes), rest);
+    FLOAT_FIELDS(REST_ONE, REST_MANY)
+#undef REST_ONE
+#undef REST_MANY
   }
   Pack& pack = packs_.back();
-  for (std::size_t a = 0; a < 3; ++a) {
-    pack.x[a][l] = p.x[a] + static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
-    pack.v[a][l] = p.v[a];
-  }
-  for (std::size_t k = 0; k < 9; ++k) pack.c[k][l] = p.c[k];
-  for (std::size_t k = 0; k < 6; ++k) pack.s[k][l] = p.s[k];
-  pack.j[l] = p.j;
-  pack.j0[l] = p.j0;
-  pack.shear[l] = p.shear;
+#define PUT_ONE(NAME, member, rest) pack.member[l] = p.member;
+#define PUT_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) pack.member[k][l] = p.member[k];
+  FLOAT_FIELDS(PUT_ONE, PUT_MANY)
+#undef PUT_ONE
+#undef PUT_MANY
+  for (std::size_t a = 0; a < 3; ++a)
+    pack.x[a][l] += static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
   pack.mass[l] = static_cast<float>(kilograms(p.mass));
   pack.id[l] = p.id;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/soil.h"
+#include "soil/particle_fields.h"
 #include "soil/particles/particle.h"
 
 namespace navvy::bench {
@@ -31,8 +32,12 @@ class NativeSoil {
   static constexpr std::size_t kLanes = 16;
   /// Fields of sixteen particles side by side; the homes' runs begin at a pack.
   struct alignas(64) Pack {
-    float x[3][kLanes], v[3][kLanes], c[9][kLanes], s[6][kLanes];
-    float j[kLanes], j0[kLanes], shear[kLanes], mass[kLanes];
+#define PACK_ONE(NAME, member, rest) float member[kLanes];
+#define PACK_MANY(NAME, member, count, rest) float member[count][kLanes];
+    FLOAT_FIELDS(PACK_ONE, PACK_MANY)
+#undef PACK_ONE
+#undef PACK_MANY
+    float mass[kLanes];  ///< [kg]
     std::uint32_t id[kLanes];
   };
   /// One 4^3 block of cells: its packs and how many of their lanes are particles.

@@ -23,7 +23,7 @@ INLINED scalar contact_along(scalar inset, const Reach* r) {
   return contact_unit((inset - r->edge + 0.5f * r->edge_ramp) / r->edge_ramp);
 }
 
-// Weight of the contact at a node, 0..1, made independent of the step.
+// Weight of the contact at a node, 0..1, made independent of the step [docs/tools.md, contact weights].
 // b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
 INLINED scalar contact_weight(scalar clearance, scalar inset, const Reach* r) {
   const scalar near = contact_unit((r->h + 0.5f * r->ramp - clearance) / r->ramp);
@@ -52,7 +52,8 @@ INLINED scalar contact_area(scalar clearance, scalar inset, const Reach* r) {
 INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * (scalar)(1.0 / 0.75)); }
 
 // What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push, before the weight b [N s]. It
-// holds in shear only and ends with the contact: soil carries no tension, so there is nothing to pull at.
+// holds in shear only and ends with the contact: soil carries no tension, so there is nothing to pull at
+// [docs/tools.md, adhesion].
 INLINED scalar contact_stick(scalar adhesion, scalar area, scalar b, const Reach* r) {
   return adhesion * area * r->patch / b;
 }
@@ -69,7 +70,7 @@ typedef struct ContactBranch {
 } ContactBranch;
 
 // Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]: fractional
-// [weight b], unilateral, Coulomb and adhesion. Without one that acts it is 0.
+// [weight b], unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0.
 INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
                                 ContactBranch* branch) {
   const scalar3 rel = node->v - (speed + cross(spin, node->r));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the double twin.
 //
-// Rate-form Drucker-Prager, plane-strain matched, with
+// Rate-form Drucker-Prager [Drucker 1952], matched in plane strain [docs/soil.md, yield], with
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
 //   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
@@ -56,7 +56,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real dyz = 0.5f * (c[5] + c[7]), wyz = 0.5f * (c[5] - c[7]);
   const real dxz = 0.5f * (c[2] + c[6]), wxz = 0.5f * (c[2] - c[6]);
 
-  // Trial stress: elastic shear plus the Jaumann turn W s - s W.
+  // Trial stress: elastic shear plus the Jaumann turn W s - s W [docs/soil.md, stress update].
   const real g2 = 2.0f * soil->shear;
   const real xx = s[0] + dt * (g2 * dxx + 2.0f * (wxy * s[3] + wxz * s[5]));
   const real yy = s[1] + dt * (g2 * dyy + 2.0f * (wyz * s[4] - wxy * s[3]));
@@ -65,10 +65,11 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real yz = s[4] + dt * (g2 * dyz + wyz * (s[2] - s[1]) - wxy * s[5] - wxz * s[3]);
   const real xz = s[5] + dt * (g2 * dxz + wxz * (s[2] - s[0]) + wxy * s[4] - wyz * s[3]);
 
-  // Pressure from the tracked volume; opened soil has none.
+  // Pressure from the tracked volume; opened soil has none [Dunatunga 2015] [docs/soil.md, opening].
   j = fmax(j * (1.0f + dt * trace), (scalar)(0.2));  // a floor far below any real state: p stays finite
 #ifdef LAW_EXTENDED
-  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again.
+  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again
+  // [docs/soil.md, compaction].
   const real line = 1.0f + soil->cap_growth * (1.0f - j0);
   const real over = fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
   const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
@@ -77,11 +78,12 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real open = j / j0 - 1.0f;
   const real p = soil->bulk * fmax(-open, 0.0f);
 
-  // Yield stress, radial return.
+  // Yield stress, its cohesion faded [docs/soil.md, cohesion]; return [Klar 2016] [docs/soil.md, return mapping].
   const real soft = 1.0f + state->shear * soil->inv_remould;
   const real fade = fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
 #ifdef LAW_EXTENDED
   const real dense = fmin(fmax((soil->swell - j0) * soil->inv_range, 0.0f), 1.0f);
+  // mu(I) [Jop 2006] on sin phi [docs/soil.md, flow rate].
   const real rate =
       sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
   const real flow = soil->grain * rate;
@@ -95,7 +97,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real q = sqrt(0.5f * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
   const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
-  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up.
+  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up
+  // [docs/soil.md, dilatancy].
   const real b = soil->dilatancy * dense;
   const real harder = alpha * soil->bulk * b * step(0.0f, -open);
   const real slip = q * (1.0f - keep) / (soil->shear + harder);
@@ -113,7 +116,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[4] = yz * stay;
   state->s[5] = xz * stay;
 
-  // Viscosity where the step was elastic.
+  // Viscosity where the step was elastic [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   sigma[0] = s[0] + eta2 * dxx - pressure;
   sigma[1] = s[1] + eta2 * dyy - pressure;
@@ -122,8 +125,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
-  // Plastic shear, and the density state it loosens: never further than J allows, so that loosening makes no pressure
-  // out of nothing.
+  // Plastic shear, and the density state it loosens [docs/soil.md, swell]: never further than J allows, so that
+  // loosening makes no pressure out of nothing.
   state->shear = state->shear + slip;
   const real grown = fmin(j0 + soil->loosening * slip, j);
   state->j0 = fmax(j0, fmin(grown, soil->swell));

@@ -3,8 +3,8 @@
 // for both schedules, the native loop and the double twin.
 //
 // Resting ground and plates take room: node masses divided by what is left tell how densely soil is packed right up to
-// walls, where plain sums would read half. `columns` is a number for each of the four columns around a node (float4); on
-// the host, where the ground is level, it is one.
+// walls, where plain sums would read half [docs/soil.md, room]. `columns` is a number for each of the four columns
+// around a node (float4); on the host, where the ground is level, it is one.
 #ifndef NAVVY_KERNELS_SOIL_NODE_H
 #define NAVVY_KERNELS_SOIL_NODE_H
 

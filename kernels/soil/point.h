@@ -25,8 +25,8 @@ INLINED ints tile_of(ints side) { return side > 0 ? 2 - (side & 1) : 0; }
 // Mean opening J / J0 of a cell from its sums of volume and of volume in the density state [mass quanta]; 0 where
 // `open`, a number above 0 as soon as one of its particles is open, is not.
 //
-// Opening of soil is a matter of the cell, not of one particle. Where half the particles of a cell are open and half
-// closed, the closed ones would carry the heap on and it would rest too loose.
+// Opening of soil is a matter of the cell, not of one particle [docs/soil.md, mixing]. Where half the particles of a
+// cell are open and half closed, the closed ones would carry the heap on and it would rest too loose.
 INLINED real mean_opening(real volume, real bank, real open) { return open > 0.0f ? volume / fmax(bank, 1.0f) : 0.0f; }
 
 // J of a particle that relaxes by the share `mixing` towards its cell's opening, which keeps the sum of volumes; as it
@@ -45,8 +45,8 @@ INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real o
 }
 
 // Momentum that a particle brings to the nodes: start at its base node, and its change per node step, a[3 * i + j] of
-// component i along axis j [kg m/s]. A = m C dx - dt 4/dx V sigma: the affine part [Jiang 2015] and the stress as MLS-MPM
-// has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells].
+// component i along axis j [kg m/s]. A = m C dx - dt 4/dx V sigma: the affine part [Jiang 2015] and the stress as
+// MLS-MPM has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells].
 INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f, real mass, real bank,
                              real j, scalar dt, scalar dx, real* start, real* a) {
   const real cm = mass * dx, sv = (4.0f * dt / dx) * bank * j;
@@ -69,8 +69,8 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
 INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return (4.0f / dx) * (moment - f * v); }
 
 // J after the nodes were asked how full they are. full: mass of a node that means packed at J = 1 [kg]; soil packed
-// tighter than J and its density state say closes by the share `closing`. Opened soil (J > J0) in flight keeps its J: it
-// could not find back to the gaps it has.
+// tighter than J and its density state say closes by the share `closing` [docs/soil.md, closing]. Opened soil (J > J0)
+// in flight keeps its J: it could not find back to the gaps it has.
 INLINED real closed(real j, real j0, real node_mass, scalar full, scalar closing) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
   return j - closing * fmax(fmin(j, j0) - packed, 0.0f);

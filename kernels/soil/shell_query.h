@@ -2,7 +2,7 @@
 // Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or soil/groups/group.h).
 //
 // Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance comes from the
-// pseudo-normal of the feature that is closest [Baerentzen & Aanaes 2005], which is right on folds of either kind: with
+// pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on folds of either kind: with
 // plain face normals a point before an inner corner would see one face from behind.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H

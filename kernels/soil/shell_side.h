@@ -30,7 +30,7 @@ static inline NodeShell node_shell_of(float3 normal, float phi, float inset) {
   return out;
 }
 
-// One particle near a shell. side = 1 + 2 tool + behind, 0: none.
+// One particle near a shell. side = 1 + 2 tool + behind, 0: none [docs/tools.md, sides].
 typedef struct SideResult {
   float3 x;  // position [cells from its block's corner]
   int side;

@@ -26,19 +26,19 @@ struct Scooped {
 };
 
 Scooped scoop(const std::vector<std::string>& settings, double until) {
-  sim::Session session(load_scene("bucket_path.sdf", settings), shared_device());
+  session::Session session(load_scene("bucket_path.sdf", settings), shared_device());
   Scooped out;
   double steps = 0;
   while (session.world().time() < until) {
     session.step();
-    const coupling::ToolLoad& tool = session.world().coupling().tools().at(0);
-    out.most = std::max(out.most, tool.force_W.norm());
+    const Vec3 force = session.world().tools().at(0).force();
+    out.most = std::max(out.most, force.norm());
     if (session.world().time() < kDragStart || session.world().time() > kDragEnd) continue;
-    out.drag -= tool.force_W.x();
+    out.drag -= force.x();
     steps += 1;
   }
   out.drag /= std::max(steps, 1.0);
-  out.payload = session.world().coupling().payload(session.world().coupling().tools().at(0));
+  out.payload = session.world().tools().at(0).payload();
   return out;
 }
 

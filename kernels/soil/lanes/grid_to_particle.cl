@@ -7,7 +7,7 @@
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
 // Out: v, C, x and J of the particles; Report.speed.
-// One work-item per home block, no shared writes. Host: src/soil/particles/transfer.cpp.
+// One work-item per home block, no shared writes. Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 #include "soil/point.h"

@@ -6,7 +6,7 @@
 //      floors = resting ground per active block.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
 //      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/transfer.cpp.
+// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
@@ -38,7 +38,8 @@ static inline float16 velocity_of(float16 momentum, float4 dv) {
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity; masses become mass per room above the ground.
+// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground]; masses become mass per
+// room above the ground [docs/soil.md, room].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
@@ -83,7 +84,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity, neither held yet.
+// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
+// yet [docs/tools.md, two nodal fields].
 // node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
 // Surface per home block; node_surface = its mean at the node by mass.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(

@@ -8,12 +8,12 @@
 #include <numeric>
 #include <utility>
 
-#include "soil/layout.h"
-#include "soil/particles/schedule.h"
+#include "soil/particles/buffers.h"
 
 namespace navvy::soil {
 namespace {
 
+/// Runs of homes begin at full packs, so that sixteen lanes never belong to two homes.
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
 /// Moves a particle's block to that of its base node floor(x - 0.5).
@@ -82,30 +82,15 @@ Particle empty_lane() {
   return p;
 }
 
-template <class T>
-void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
-  if (buffer.empty()) {
-    buffer = device::Buffer<T>(device, std::max<std::size_t>(size, 1));
-  } else if (buffer.size() < size) {
-    buffer.resize(size + size / 2);
-  }
-}
-
 }  // namespace
 
 ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
                              const std::vector<SoilRow>& soils)
-    : device_(device),
-      site_(site),
-      program_(device, kernel_path(device, "rebin")),
-      count_kernel_(program_, "rebin_count"),
-      gather_kernel_(program_, "rebin_gather"),
-      move_kernel_(program_, "rebin_move"),
-      soils_(device, soils),
-      soil_rows_(soils) {
+    : device_(device), site_(site), rebin_(device), soils_(device, soils), soil_rows_(soils) {
   assign({});
 }
 
+// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
 int ParticleStore::lay_out(const std::vector<int>& counts) {
   homes_.assign(table_.homes.size(), Home{});
   int slot = 0;
@@ -129,6 +114,7 @@ void ParticleStore::upload_homes() {
   fit(device_, home_surface_, homes_.size());
 }
 
+// Tiles are numbered anew: a home near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
@@ -163,6 +149,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, boo
   return out;
 }
 
+// Room is made with some to spare: soil wakes in small portions.
 void ParticleStore::make_room(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
@@ -181,10 +168,12 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
     }
     ++counts.back();
   }
+  // Sorted particles of one home stand together, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
   const int slots = lay_out(counts);
   make_room(now_, slots, slots + slots / 2);
   {
+    // Every slot of the runs is written, padding as well: kernels read whole packs.
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
@@ -288,14 +277,15 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   return out;
 }
 
-std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts) {
+std::vector<Particle> ParticleStore::drop_outside() {
+  // Rare: a few particles roll over the edge. The host sorts who stays.
   const std::vector<Particle> all = records();
-  const std::vector<std::uint8_t> codes = codes_.read();
+  const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
-  for (std::size_t h = 0; h < homes_.size(); ++h)
-    for (int i = 0; i < homes_[h].count; ++i) {
-      const bool out = counts[28 * h + 27] > 0 && codes[static_cast<std::size_t>(homes_[h].start + i)] == 27;
+  for (const Home& home : homes_)
+    for (int i = 0; i < home.count; ++i) {
+      const bool out = codes[static_cast<std::size_t>(home.start + i)] == kRebinCodes - 1;
       (out ? left : stay).push_back(all[next++]);
     }
   assign(stay);
@@ -305,58 +295,32 @@ std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts
 std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
   const std::size_t old_homes = homes_.size();
-  fit(device_, codes_, static_cast<std::size_t>(capacity_[now_]));
-  fit(device_, cells_, static_cast<std::size_t>(capacity_[now_]));
-  fit(device_, counts_, 28 * old_homes);
-  count_kernel_.args(state_[now_], capacity_[now_], homes_buffer_, home_keys_, codes_, cells_, counts_, site_)
-      .enqueue_groups(old_homes);
-  std::vector<int> counts(28 * old_homes);
-  counts_.read(counts);
+  const std::vector<int> counts =
+      rebin_.count({state_[now_], capacity_[now_], homes_buffer_}, old_homes, home_keys_, site_);
   for (std::size_t h = 0; h < old_homes; ++h)
-    if (counts[28 * h + 27] > 0) return drop_outside(counts);
+    if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
-  // New homes: wherever a flow leads.
-  std::vector<BlockKey> keys;
-  for (std::size_t h = 0; h < old_homes; ++h)
-    for (std::size_t n = 0; n < 27; ++n)
-      if (counts[28 * h + n] > 0) keys.push_back(table_.homes[h] + neighbour_offset(static_cast<int>(n)));
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-
-  std::vector<int> sources(27 * keys.size(), -1), new_counts(keys.size(), 0);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    for (std::size_t n = 0; n < 27; ++n) {
-      const BlockKey d = neighbour_offset(static_cast<int>(n));
-      const int old = table_.home_index.find({keys[k].x - d.x, keys[k].y - d.y, keys[k].z - d.z});
-      const int flow = old < 0 ? 0 : counts[28 * static_cast<std::size_t>(old) + n];
-      if (flow == 0) continue;
-      sources[27 * k + n] = old;
-      new_counts[k] += flow;
-    }
+  RebinPlan plan = plan_rebin(table_, counts);
   // Room first: without it the old order still stands.
   const int other = 1 - now_;
-  const int slots = slots_of(new_counts);
+  const int slots = slots_of(plan.counts);
   make_room(other, slots, std::max(slots + slots / 4, capacity_[now_]));
-  fit(device_, old_homes_buffer_, keys.size());
-  fit(device_, home_keys_, keys.size());
-  fit(device_, home_surface_, keys.size());
-  fit(device_, sources_, sources.size());
-  fit(device_, from_, static_cast<std::size_t>(slots));
+  fit(device_, old_homes_buffer_, plan.keys.size());
+  fit(device_, home_keys_, plan.keys.size());
+  fit(device_, home_surface_, plan.keys.size());
+  rebin_.make_room(plan.keys.size(), static_cast<std::size_t>(slots));
+  // From here on nothing can fail but the device itself.
   std::swap(homes_buffer_, old_homes_buffer_);
-  if (!(keys == table_.homes)) table_.build(std::move(keys));
-  lay_out(new_counts);
+  if (!(plan.keys == table_.homes)) table_.build(plan.keys);
+  lay_out(plan.counts);
   upload_homes();
-  sources_.write(sources);
-  gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
-      .enqueue_groups(homes_.size());
-  move_kernel_
-      .args(state_[now_], capacity_[now_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
-            home_surface_)
-      .enqueue_groups(homes_.size());
+  rebin_.move({state_[now_], capacity_[now_], old_homes_buffer_}, {state_[other], capacity_[other], homes_buffer_},
+              plan, soils_, home_surface_);
   now_ = other;
   return {};
 }
 
+// Words as they stand on the device, in stored order; padding and room to spare are not state.
 void ParticleStore::hash(StateHash& hash) const {
   const auto view = state_[now_].map_read();
   for (std::size_t h = 0; h < homes_.size(); ++h) {

@@ -10,10 +10,10 @@
 #include "core/math.h"
 #include "core/state_io.h"
 #include "device/buffer.h"
-#include "device/program.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 #include "soil/particles/particle.h"
+#include "soil/particles/rebin.h"
 
 namespace navvy::soil {
 
@@ -72,12 +72,11 @@ class ParticleStore {
   void upload_homes();
   /// Mean over the particles of each home.
   std::vector<Surface> surfaces(const std::vector<Particle>& sorted) const;
-  std::vector<Particle> drop_outside(const std::vector<int>& counts);
+  std::vector<Particle> drop_outside();
 
   device::Device& device_;
   std::array<std::int32_t, 4> site_;
-  device::Program program_;
-  device::Kernel count_kernel_, gather_kernel_, move_kernel_;
+  Rebin rebin_;
   // On the device; written by `assign` and by re-binning, the state by the transfer in every step, too.
   device::Buffer<SoilRow> soils_;         ///< one per soil, constant
   device::Buffer<float> state_[2];        ///< FIELD_COUNT x capacity words, field after field (particle_fields.h)
@@ -90,11 +89,6 @@ class ParticleStore {
   std::vector<Home> homes_;
   device::Buffer<Home> homes_buffer_, old_homes_buffer_;   ///< one per home, as `homes_`; before the last re-bin
   device::Buffer<std::array<std::int32_t, 4>> home_keys_;  ///< block (x, y, z, 0) of each home
-  // Of the last re-bin, see kernels/soil/lanes/rebin.cl.
-  device::Buffer<std::uint8_t> codes_, cells_;  ///< one per slot
-  device::Buffer<std::int32_t> counts_;         ///< 28 per old home
-  device::Buffer<std::int32_t> sources_;        ///< 27 per new home
-  device::Buffer<std::int32_t> from_;           ///< one per new slot
 };
 
 }  // namespace navvy::soil

@@ -28,6 +28,7 @@ Weights weights_at(const Vec3& x) {
   return out;
 }
 
+/// Calls visit(node, weight, node - base) for the 27 nodes around a point.
 template <class Visit>
 void for_nodes(const Weights& at, const Visit& visit) {
   for (int k = 0; k < 3; ++k)
@@ -41,6 +42,7 @@ void for_nodes(const Weights& at, const Visit& visit) {
 
 }  // namespace
 
+// By the list of fields, so that the twin never lacks one.
 Point from_particle(const Particle& particle) {
   Point p;
 #define FROM_ONE(NAME, member, rest) p.member = static_cast<double>(particle.member);
@@ -87,6 +89,7 @@ std::vector<double> ReferenceSolver::openings() const {
 }
 
 void ReferenceSolver::scatter(double dt) {
+  // All openings first: mixing compares particles as the step found them.
   const std::vector<double> opening = openings();
   const double mixing = std::min(1.0, dt / mixing_time());
   nodes_.clear();
@@ -99,6 +102,7 @@ void ReferenceSolver::scatter(double dt) {
     const Weights weights = weights_at(p.x);
     affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, dt, cell_, start,
                     a);
+    // Momentum is linear around a particle: a node has that at the base node and its change over the way there.
     const Vec3 base(start[0], start[1], start[2]);
     const Mat3 change = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(a);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
@@ -112,15 +116,18 @@ void ReferenceSolver::scatter(double dt) {
 void ReferenceSolver::update_grid(double dt) {
   for (auto& [at, node] : nodes_) {
     const double above = at[2] - ground_(at[0], at[1]);
+    // A node lighter than a mass quantum is empty, as in the kernels.
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
     node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt);
     if (contact && !empty && !fixed) node.momentum += contact(at, node.mass, node.momentum) / node.mass;
+    // From momentum to velocity, from mass to mass per room: what the particles ask for.
     node.mass /= room_above(above);
   }
 }
 
 void ReferenceSolver::gather(double dt) {
   // `momentum` of a node is its velocity now, `mass` that per room.
+  // Crowding is judged by the densest soil of the scene, see packed_mass.
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
   const double full = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
@@ -138,6 +145,7 @@ void ReferenceSolver::gather(double dt) {
     for (int i = 0; i < 3; ++i)
       for (int axis = 0; axis < 3; ++axis)
         p.c[3 * i + axis] = velocity_gradient(moment(i, axis), weights.f[axis], v[i], cell_);
+    // J before x: the nodes told of where the particle was.
     p.j = closed(p.j, p.j0, mass, full, closing);
     p.v = v;
     p.x += (dt / cell_) * v;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "soil/layout.h"
 #include "soil/particles/schedule.h"
 
 namespace navvy::soil {
 namespace {
 
+/// Scripted tools do not: they have no mobility, and nothing to solve for.
 bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().maxCoeff() > 0; }
 
 }  // namespace
@@ -20,14 +20,13 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, doub
       cell_(cell),
       origin_(origin_W),
       reference_step_(settings_.reference * cell / slowest_sound),
-      shell_program_(device, kernel_path(device, "shell")),
+      shells_(device),
       contact_program_(device, kernel_path(device, "contact")),
-      nodes_kernel_(shell_program_, "shell_nodes"),
-      particles_kernel_(shell_program_, "shell_particles"),
       sums_kernel_(contact_program_, "contact_sums"),
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
 
+// Triangles of all tools count on from one another, so that one number names triangle and tool.
 int Contact::add_tool(const scene::Shell& shell) {
   Registered tool;
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
@@ -41,8 +40,8 @@ int Contact::add_tool(const scene::Shell& shell) {
 template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
-      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, node_tool_, shell_,
-            nodes_.surface, tool_buffer_, only, reach_, static_cast<float>(cell_), tail...)
+      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, shells_.node_tool(),
+            shells_.node_shell(), nodes_.surface, shells_.tools(), only, reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
@@ -55,14 +54,16 @@ void Contact::solve(Transfer& transfer, double dt) {
             static_cast<float>(dt / reference_step_),
             static_cast<float>(dt * cell_ * cell_),
             static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_))};
+  // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;
     for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
-      twist_kernel_.args(tool_buffer_, motion.tool, sums_, nodes_.count).enqueue_groups(1);
+      twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
-  launch(apply_kernel_, transfer, -1, transfer.floor(), touched_, records_, transfer.velocity(), nodes_.velocity1);
+  // Then all tools at once, with their final twists.
+  launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(), nodes_.velocity1);
 }
 
 namespace {
@@ -92,18 +93,22 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
 
 }  // namespace
 
+// Mapped without waiting: the read of the report waits for all three.
 void Contact::read_later() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
-  results_.emplace(Results{touched_.map_read_later(0, blocks), node_tool_.map_read_later(0, blocks * BLOCK_NODES),
+  results_.emplace(Results{touched_.map_read_later(0, blocks),
+                           shells_.node_tool().map_read_later(0, blocks * BLOCK_NODES),
                            records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
 void Contact::book(std::span<ToolImpulse> impulses) {
   if (!results_) return;
+  // The maps go with this copy: the next step may write the buffers.
   const Results read = std::move(*results_);
   results_.reset();
   const auto blocks = static_cast<std::size_t>(nodes_.count);
+  // A tool without a motion in this step touches nothing.
   std::vector<int> motion_of(tools_.size(), -1);
   for (std::size_t m = 0; m < motions_.size(); ++m)
     motion_of[static_cast<std::size_t>(motions_[m].tool)] = static_cast<int>(m);
@@ -120,6 +125,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
         const ContactRecord& record = records[2 * i + s];
         if (std::equal(std::begin(record.before), std::end(record.before), std::begin(record.after))) continue;
         const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
+        // Where the node lies, in doubles: arms of moments are as exact as the impulses.
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
                         kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
                         kBlockCells * key.z + static_cast<int>(n >> 4));
@@ -127,6 +133,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
       }
     }
   }
+  // What went into the tools against what the nodes lost: rounding only.
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     impulses[m].residual = impulses[m].J_W + (momentum[m].after - momentum[m].before);
     impulses[m].residual_moment = impulses[m].L_W + (momentum[m].after_moment - momentum[m].before_moment);

@@ -12,10 +12,10 @@
 #include "device/program.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
-#include "soil/solver.h"
-#include "soil/tool.h"
 #include "soil/tools/marks.h"
+#include "soil/tools/shell.h"
 #include "soil/tools/shell_geometry.h"
+#include "soil/tools/tool_motion.h"
 
 namespace navvy::soil {
 
@@ -99,30 +99,18 @@ class Contact {
   double reference_step_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
-  device::Program shell_program_, contact_program_;
-  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
+  ShellQuery shells_;
+  device::Program contact_program_;
+  device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
   std::vector<std::uint8_t> near_homes_;
-  std::vector<int> near_slot_, near_home_list_;
+  std::vector<int> near_slot_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;
   ContactReach reach_{};
-  // What the host writes: where the tools are, before every step; the two-way solve changes the twists on the device.
-  device::Buffer<ShellTriangle> triangles_;  ///< of all tools, which count on from one another
-  device::Buffer<ShellRim> rims_;
-  device::Buffer<Tool> tool_buffer_;          ///< one per tool
-  std::vector<ShellTriangle> triangles_now_;  ///< what the device may still be reading
-  std::vector<ShellRim> rims_now_;
-  std::vector<Tool> tools_now_;
-  // Near lists. Candidates are compressed rows: triangles near block b stand from first[b] up to first[b + 1].
-  device::Buffer<std::int32_t> node_first_, node_candidates_;  ///< per near active block
-  device::Buffer<std::int32_t> home_first_, home_candidates_;  ///< per near home
-  device::Buffer<std::int32_t> home_list_;                     ///< near homes: index among homes
-  // What kernels write, BLOCK_NODES per near active block.
-  device::Buffer<std::int32_t> node_tool_;  ///< tool of the closest triangle, -1: none (shell_nodes)
-  device::Buffer<NodeShell> shell_;         ///< (shell_nodes)
-  device::Buffer<ContactRecord> records_;   ///< two per node, one per field (contact_apply)
-  device::Buffer<ContactSums> sums_;        ///< one per near block (contact_sums)
-  device::Buffer<std::int32_t> touched_;    ///< one per near block: whether contact changed a node (contact_apply)
+  // What the kernels of contact.cl write.
+  device::Buffer<ContactRecord> records_;  ///< two per near node, one per field (contact_apply)
+  device::Buffer<ContactSums> sums_;       ///< one per near block (contact_sums)
+  device::Buffer<std::int32_t> touched_;   ///< one per near block: whether contact changed a node (contact_apply)
   std::optional<Results> results_;
 };
 

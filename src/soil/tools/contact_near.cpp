@@ -2,8 +2,9 @@
 // Which blocks lie near which triangles, and the triangles in the kernels' frame.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "soil/layout.h"
+#include "soil/particles/buffers.h"
 #include "soil/tools/contact.h"
 
 namespace navvy::soil {
@@ -48,6 +49,7 @@ void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, i
 
 }  // namespace
 
+// Lists reach farther than the contact by a margin; within it they hold.
 bool Contact::moved_far() const {
   for (const Registered& tool : tools_) {
     if (tool.present != tool.listed) return true;
@@ -68,6 +70,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     const Vec3 p = to_grid(motion.X_WT.translation());
     tool.window = {floor_div(p.x()), floor_div(p.y()), floor_div(p.z())};
   }
+  // New blocks have no lists yet; far tools have outrun theirs.
   const bool again = blocks_changed || moved_far();
   if (again) {
     for (Registered& tool : tools_) {
@@ -81,6 +84,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 }
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
+  // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
   const double far = settings_.band + settings_.margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;
@@ -94,6 +98,7 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
       low.array() -= far;
       high.array() += far;
       const int triangle = tool.first_triangle + piece.triangle;
+      // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
     }
@@ -107,53 +112,52 @@ void Contact::list_near(const BlockTable& table) {
   find_candidates(table, node_marks, home_marks);
   near_slot_.assign(table.active.size(), -1);
   near_homes_.assign(table.homes.size(), 0);
-  near_home_list_.clear();
   near_keys_.clear();
-  // Compressed rows of candidate triangles per near block, in ascending order of blocks.
-  std::vector<std::int32_t> near_list, node_first, node_list, home_first, home_list;
+  // Candidate triangles per near block, in ascending order of blocks.
+  std::vector<std::int32_t> near_list, near_homes;
+  CandidateRows of_blocks, of_homes;
   for (std::size_t b = 0; b < table.active.size(); ++b) {
     if (!node_marks.any(b)) continue;
     near_slot_[b] = static_cast<int>(near_list.size());
     near_list.push_back(static_cast<int>(b));
     near_keys_.push_back(table.active[b]);
-    node_first.push_back(static_cast<std::int32_t>(node_list.size()));
-    node_marks.each(b, [&](std::size_t triangle) { node_list.push_back(static_cast<std::int32_t>(triangle)); });
+    of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+    node_marks.each(b,
+                    [&](std::size_t triangle) { of_blocks.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
-  node_first.push_back(static_cast<std::int32_t>(node_list.size()));
+  of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+  // Without near blocks no kernel of contact runs, and no buffer needs room.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
   for (std::size_t h = 0; h < table.homes.size(); ++h) {
+    // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
     bool near = home_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
     if (!near) continue;
     near_homes_[h] = 1;
-    near_home_list_.push_back(static_cast<int>(h));
-    home_first.push_back(static_cast<std::int32_t>(home_list.size()));
-    home_marks.each(h, [&](std::size_t triangle) { home_list.push_back(static_cast<std::int32_t>(triangle)); });
+    near_homes.push_back(static_cast<std::int32_t>(h));
+    of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
+    home_marks.each(h,
+                    [&](std::size_t triangle) { of_homes.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
-  home_first.push_back(static_cast<std::int32_t>(home_list.size()));
+  of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
 
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
-  upload(device_, node_first_, node_first);
-  upload(device_, node_candidates_, node_list);
-  upload(device_, home_list_, near_home_list_);
-  upload(device_, home_first_, home_first);
-  upload(device_, home_candidates_, home_list);
+  shells_.set_near(of_blocks, of_homes, near_homes);
   const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_.split, nodes);
   ensure(device_, nodes_.before0, 4 * nodes);
   ensure(device_, nodes_.before1, 4 * nodes);
   ensure(device_, nodes_.velocity1, 4 * nodes);
   ensure(device_, nodes_.surface, nodes);
-  ensure(device_, node_tool_, nodes);
-  ensure(device_, shell_, nodes);
   ensure(device_, records_, 2 * nodes);
   ensure(device_, sums_, near_list.size());
   ensure(device_, touched_, near_list.size());
 }
 
+// Floats count from the window's corner, a block's, so that they are as exact far from the site's origin.
 Tool Contact::tool_now(std::size_t index) const {
   const Registered& tool = tools_[index];
   const scene::Shell& shell = tool.geometry->shell();
@@ -179,10 +183,9 @@ Tool Contact::tool_now(std::size_t index) const {
   return out;
 }
 
+// Directions turn with the tool; the kernels know W only.
 void Contact::upload_tools() {
-  triangles_now_.clear();
-  rims_now_.clear();
-  tools_now_.clear();
+  ToolShells shells;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Registered& tool = tools_[t];
     const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
@@ -200,40 +203,26 @@ void Contact::upload_tools() {
         out.feature[1 + i] = feature(R * tri.edge_normal[i], tri.edge_free[i]);
         out.feature[4 + i] = feature(R * tri.corner_normal[i], tri.corner_free[i]);
       }
-      triangles_now_.push_back(out);
+      shells.triangles.push_back(out);
     }
     for (const auto& rim : tool.geometry->rims()) {
       ShellRim out{};
       put(out.start, place(rim[0]));
       out.tool = static_cast<int>(t);
       put(out.along, R * (rim[1] - rim[0]) / cell_);
-      rims_now_.push_back(out);
+      shells.rims.push_back(out);
     }
-    tools_now_.push_back(tool_now(t));
+    shells.tools.push_back(tool_now(t));
   }
-  const auto send = [&](auto& buffer, const auto& values) {
-    ensure(device_, buffer, values.size());
-    buffer.write_later(values);
-  };
-  send(triangles_, triangles_now_);
-  send(rims_, rims_now_);
-  send(tool_buffer_, tools_now_);
+  shells_.set_tools(std::move(shells));
 }
 
 void Contact::classify(ParticleStore& store, Transfer& transfer) {
   if (nodes_.count == 0) return;
-  const auto band = static_cast<float>(settings_.band);
-  nodes_kernel_
-      .args(nodes_.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(rims_now_.size()), tool_buffer_,
-            node_first_, node_candidates_, band, nodes_.split, node_tool_, shell_)
-      .enqueue_groups(static_cast<std::size_t>(nodes_.count));
-  particles_kernel_
-      .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_,
-            tool_buffer_, home_first_, home_candidates_, band, static_cast<float>(settings_.longest_push),
-            transfer.report())
-      .enqueue_groups(near_home_list_.size());
+  shells_.enqueue(store, transfer, nodes_, settings_.band, settings_.longest_push);
 }
 
+// Near lists hang on where tools were when they were made: that is state, the lists follow from it.
 void Contact::save(StateWriter& writer) const {
   writer.value(static_cast<std::uint32_t>(tools_.size()));
   for (const Registered& tool : tools_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the granular rigs, seconds each. The gates are the rigs' own; where a small
-// sibling is outside its gate the test says so, checks what holds, and docs/validation.md has the row as a miss.
+// Small siblings of the granular rigs, seconds each. The gates are the rigs' own; where a small sibling is outside its
+// gate the test says so, checks what holds, and docs/validation.md has the row as a miss.
 #include "core/error.h"
 #include "core/math.h"
 #include "lab/run_rig.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/program_check.h"
+#include "session/program_check.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,16 +9,17 @@
 #include <variant>
 
 #include "control/operator.h"
-#include "coupling/placing.h"
 #include "heightfield/site.h"
+#include "sim/placing.h"
 
-namespace navvy::sim {
+namespace navvy::session {
 namespace {
 
 constexpr double kUnderTip = 0.05;  // room that a bed's rim needs below the opening bucket [m]
 
 /// The box round a bed, untipped, in its machine's base frame [m].
 Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed) {
+  // Shells are in link frames: both go to the base link at zero joint positions.
   Eigen::AlignedBox3d out;
   const Pose X_BM = machine.links.at(0).X_ML.inverse();
   for (const scene::Shell& shell : machine.shells) {
@@ -38,6 +39,7 @@ class BedCheck {
 
   std::vector<Fault> faults;
 
+  /// Every dig of this machine against the beds of all others.
   void look(std::size_t digger) {
     const scene::MachineInWorld& placed = world_.machines[digger];
     for (std::size_t i = 0; i < placed.program.steps.size(); ++i)
@@ -49,17 +51,21 @@ class BedCheck {
  private:
   void look(const scene::MachineInWorld& digger, std::size_t step, const scene::Dig& dig, std::size_t other) {
     const scene::MachineInWorld& truck = world_.machines[other];
+    // Dump heights count from the ground under the dump point.
     const double ground = surface_.height(dig.dump_at.x(), dig.dump_at.y());
     double rim = 0;  // highest over the ground at the dump point, of all stations
+    // Each place where the truck's program makes it stand, as any of them may be where it is loaded.
     for (const scene::Bed& bed : truck.machine.beds) {
       const Eigen::AlignedBox3d box = bed_box(truck.machine, bed);
       for (const Pose& X_WB : control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
         Vec3 p_B = X_WB.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WB.translation().z());
         p_B.z() = box.center().z();  // in plan
+        // Only beds that stand under the dump point, seen from above.
         if (box.contains(p_B)) rim = std::max(rim, X_WB.translation().z() + box.max().z() - ground);
       }
     }
     if (rim <= 0 || rim + kUnderTip <= dig.dump_height) return;
+    // Programs read from a file know the line of every step; those built in code do not.
     const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
     faults.push_back({Fault::Severity::kWarning, world_.file, line,
                       digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/dig/dump_height",
@@ -82,6 +88,7 @@ class BedCheck {
 std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB) {
   std::vector<Fault> faults;
+  // Errors first: a dig out of reach is worse than one that drops its load too low.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file))
@@ -93,16 +100,15 @@ std::vector<Fault> check_programs(const scene::World& world, const control::Surf
   return faults;
 }
 
+/// Lays the ground as a run would, but looks at columns alone: before a run no soil lies loose.
 std::vector<Fault> check_programs(const scene::World& world) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
-    std::vector<Pose> X_WB;
-    X_WB.reserve(world.machines.size());
-    for (const scene::MachineInWorld& placed : world.machines) X_WB.push_back(coupling::place(placed, ground));
-    return check_programs(world, control::GroundSurface(ground), X_WB);
+    return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground));
   } catch (const InputError& error) {
+    // A ground that cannot be laid is itself the answer.
     return error.faults();
   }
 }
 
-}  // namespace navvy::sim
+}  // namespace navvy::session

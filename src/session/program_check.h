@@ -9,11 +9,11 @@
 #include "core/math.h"
 #include "scene/world.h"
 
-namespace navvy::sim {
+namespace navvy::session {
 
 /// Every target of every program that is out of reach (errors) and every dig that dumps too low over another machine's
-/// bed (warnings), with file and line. `X_WB` holds where the machines stand, one
-/// pose a machine; `surface` is what digs and drives look at.
+/// bed (warnings), with file and line. `X_WB` holds where the machines' base links stand in the world, one pose a
+/// machine; `surface` [m in W] is what digs and drives look at. Throws nothing of its own.
 std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB);
 
@@ -21,4 +21,4 @@ std::vector<Fault> check_programs(const scene::World& world, const control::Surf
 /// with the ground is among the faults. Needs no device.
 std::vector<Fault> check_programs(const scene::World& world);
 
-}  // namespace navvy::sim
+}  // namespace navvy::session

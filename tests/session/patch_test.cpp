@@ -6,10 +6,10 @@
 #include "device/device.h"
 #include "record/summary.h"
 #include "scene_io/loader.h"
-#include "sim/session.h"
+#include "session/session.h"
 #include "values.h"
 
-namespace navvy::sim {
+namespace navvy::session {
 namespace {
 
 void replace(std::string& text, const std::string& what, const std::string& with) {
@@ -37,11 +37,11 @@ scene::World patched_scene() {
 TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {
   device::Device device;
   Session session(patched_scene(), device);
-  const World& world = session.world();
+  const sim::World& world = session.world();
   std::vector<double> awake(3, 0.0);  // most at once [kg]
   while (!session.done()) {
     session.step();
-    const soil::Ledger ledger = world.soil().ledger();
+    const sim::MassLedger ledger = world.mass_ledger();
     for (std::size_t i = 0; i < 3; ++i) {
       ASSERT_EQ(ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i], 0);
       awake[i] = std::max(awake[i], kilograms(ledger.particles[i]));
@@ -60,4 +60,4 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {
 }
 
 }  // namespace
-}  // namespace navvy::sim
+}  // namespace navvy::session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from soil.
-#include "sim/session.h"
+#include "session/session.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,13 @@
 
 #include "core/error.h"
 #include "device/device.h"
+#include "folder.h"
 #include "scene_io/loader.h"
+#include "sim/height_grid.h"
+#include "sim/snapshot.h"
+#include "sim/world_parts.h"
 
-namespace navvy::sim {
+namespace navvy::session {
 namespace {
 
 scene::World load(const std::string& name, const std::vector<std::string>& settings = {}) {
@@ -41,7 +45,7 @@ TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
   for (std::string& hash : hashes) {
     const auto session = make(description);
     run_to(*session, kInSoil);
-    EXPECT_GT(session->world().soil().stats().particles, 100);
+    EXPECT_GT(session->world().soil_counts().particles, 100);
     hash = session->state_hash();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
@@ -68,13 +72,13 @@ TEST_F(SessionTest, AnAwakeBudgetShrinksTheWakeAndNeitherDropsSoilNorStretchesTh
   const auto run = [&](const std::string& budget) {
     auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
     run_to(*session, 2.2);
-    EXPECT_EQ(session->world().soil().ledger().error(), 0);
+    EXPECT_EQ(session->world().mass_ledger().error, 0);
     return session;
   };
   const auto whole = run("100000"), bounded = run("6000");
-  EXPECT_GT(whole->world().soil().stats().particles_peak, 10000);
-  EXPECT_LE(bounded->world().soil().stats().particles_peak, 6000);
-  EXPECT_GT(bounded->world().soil().stats().particles_peak, 3000) << "it still digs";
+  EXPECT_GT(whole->world().soil_counts().particles_peak, 10000);
+  EXPECT_LE(bounded->world().soil_counts().particles_peak, 6000);
+  EXPECT_GT(bounded->world().soil_counts().particles_peak, 3000) << "it still digs";
   EXPECT_EQ(bounded->world().steps(), whole->world().steps());
 }
 
@@ -90,16 +94,16 @@ TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
 TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
   const auto session = make(load("block_collapse.sdf"));
   const heightfield::Ground& ground = session->world().ground();
-  const int top = static_cast<int>(session->world().soil().stats().particles);
+  const int top = static_cast<int>(session->world().soil_counts().particles);
   run_to(*session, 0.8);
   EXPECT_EQ(top, 0);  // counted by the first step
-  EXPECT_GT(session->world().soil().stats().particles_peak, 25000);
+  EXPECT_GT(session->world().soil_counts().particles_peak, 25000);
   // 2 x 2 x 1 m of sand: the heap is wider than the block was and lower than its edge.
   double widest = 0;
-  for (const soil::Particle& p : session->world().soil().particles())
+  for (const soil::Particle& p : parts(session->world()).soil.particles())
     widest = std::max(widest, ground.origin().x() + ground.cell() * (4 * p.block[0] + static_cast<double>(p.x[0])));
   EXPECT_GT(widest, 0.6 + 0.5);
-  EXPECT_EQ(session->world().soil().ledger().error(), 0);
+  EXPECT_EQ(session->world().mass_ledger().error, 0);
 }
 
 TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
@@ -120,22 +124,22 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   // Both excavators drive and dig; the first one is stopped on its way and keeps the pose it had.
   const scene::World description = load("two_excavators.sdf");
   const auto session = make(description);
-  World& world = session->world();
+  const sim::World& world = session->world();
   run_to(*session, 3);
   ASSERT_EQ(session->phase(0), session->phase(1));
   const std::string first = description.machines.at(0).name;
-  session->take_over(first + "/drive/speed");
+  session->set(first + "/drive/brake", 1);
   EXPECT_EQ(session->phase(0), "inputs");
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
-  const Vec3 place = world.link(0, 0).X_WL.translation();
+  const Vec3 place = world.machine(0).link(0).pose().translation();
   const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.boom_joint);
-  const double angle = world.joint(0, boom).position;
+  const double angle = world.machine(0).joint(boom).position();
   StateWriter writer;
   session->save(writer);
   run_to(*session, 6);
-  EXPECT_LT((world.link(0, 0).X_WL.translation() - place).norm(), 0.02) << "braked";
-  EXPECT_NEAR(world.joint(0, boom).position, angle, 0.005);
+  EXPECT_LT((world.machine(0).link(0).pose().translation() - place).norm(), 0.02) << "braked";
+  EXPECT_NEAR(world.machine(0).joint(boom).position(), angle, 0.005);
   EXPECT_FALSE(session->done());
   const auto resumed = make(description);
   StateReader reader(writer.bytes());
@@ -145,22 +149,72 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
+TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
+  const auto session = make(load("bucket_path.sdf"));
+  session->step();
+  EXPECT_THROW(session->set("bucket/slide_x/velocity", std::nan("")), InputError);
+  EXPECT_THROW(session->set("bucket/slyde_x/velocity", 1), InputError);
+  EXPECT_EQ(session->phase(0), "trajectory");
+  const sim::JointHandle slide = session->world().machine("bucket").joint("slide_x");
+  const double start = slide.position(), begun = session->world().time();
+  session->command(slide, {vehicle::JointMode::kVelocity, 0.5});
+  EXPECT_EQ(session->phase(0), "inputs");
+  run_to(*session, 0.1);
+  // A kinematic machine moves exactly as told.
+  EXPECT_NEAR(slide.position() - start, 0.5 * (session->world().time() - begun), 1e-9);
+}
+
+TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
+  const scene::World description = load("bucket_path.sdf");
+  const auto with_grid = [&] {
+    auto session = make(description);
+    session->add(std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 5, 0.2, 20));
+    return session;
+  };
+  const auto whole = with_grid();
+  run_to(*whole, 0.2);
+  const sim::ArrayView grid = whole->world().arrays().view("bucket/height_grid");
+  EXPECT_EQ(grid.sequence(), 1u + 4u);
+  EXPECT_EQ(grid.values<float>().size(), 25u);
+  StateWriter writer;
+  whole->save(writer);
+  run_to(*whole, 0.3);
+  const auto resumed = with_grid();
+  StateReader reader(writer.bytes());
+  resumed->load(reader);
+  run_to(*resumed, 0.3);
+  EXPECT_EQ(resumed->state_hash(), whole->state_hash());
+}
+
+TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
+  const test::Folder folder;
+  const scene::World description = load("bucket_path.sdf");
+  const auto session = make(description);
+  run_to(*session, kInSoil);
+  session->save(folder / "dug.snapshot");
+  const heightfield::Ground ground = sim::load_ground(description, folder / "dug.snapshot");
+  StateHash loaded, live;
+  ground.hash(loaded);
+  session->world().ground().hash(live);
+  EXPECT_EQ(loaded.hex(), live.hex());
+  EXPECT_GT(ground.touched_tiles(), 0u);
+}
+
 TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   scene::World description = load("trench.sdf");
   description.machines[0].program.steps.clear();
   const auto first = make(description);
-  World& world = first->world();
-  world.set(world.input("excavator/drive/speed"), 1.5);
+  first->set("excavator/drive/speed", 1.5);
   StateWriter writer;
   first->save(writer);
   const auto second = make(description);
   StateReader reader(writer.bytes());
   second->load(reader);
-  World& resumed = second->world();
-  resumed.set(resumed.input("excavator/drive/steer"), 0.2);
-  EXPECT_EQ(resumed.drive(0).speed, 1.5);  // steering alone does not stop the machine
-  EXPECT_EQ(resumed.drive(0).steer, 0.2);
-  EXPECT_FALSE(resumed.drive(0).brake);
+  const sim::World& resumed = second->world();
+  second->set("excavator/drive/steer", 0.2);
+  EXPECT_EQ(resumed.machine(0).drive().speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.machine(0).drive().steer, 0.2);
+  EXPECT_FALSE(resumed.machine(0).drive().brake);
 }
 
 TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
@@ -168,7 +222,7 @@ TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
   double in_air = 0, in_soil = 0;
   while (session->world().time() < kInSoil) {
     session->step();
-    const double force = session->world().coupling().tools().at(0).force_W.norm();
+    const double force = session->world().machine("bucket").tool(0).force().norm();
     (session->world().time() < 0.3 ? in_air : in_soil) =
         std::max(session->world().time() < 0.3 ? in_air : in_soil, force);
   }
@@ -191,10 +245,10 @@ TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
   const auto session = make(load("bucket_path.sdf"));
   while (session->world().time() < kInSoil) {
     session->step();
-    if (session->world().steps() % 50 == 0) ASSERT_EQ(session->world().soil().ledger().error(), 0);
+    if (session->world().steps() % 50 == 0) ASSERT_EQ(session->world().mass_ledger().error, 0);
   }
   EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, books]
-  EXPECT_EQ(session->world().soil().stats().shell_crossings, 0u);
+  EXPECT_EQ(session->world().soil_counts().shell_crossings, 0u);
 }
 
 TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
@@ -222,10 +276,10 @@ TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
 
 TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
   const auto session = make(load("trench.sdf"));
-  World& world = session->world();
-  EXPECT_NO_THROW(world.set("excavator/boom_joint/position", 0.5));
+  const sim::World& world = session->world();
+  EXPECT_NO_THROW(session->set("excavator/boom_joint/position", 0.5));
   EXPECT_NEAR(world.get("excavator/pose/x"), -9, 1e-9);
-  EXPECT_THROW(world.set("excavator/boom_joint/position", std::nan("")), InputError);
+  EXPECT_THROW(session->set("excavator/boom_joint/position", std::nan("")), InputError);
   try {
     world.get("excavator/bom_joint/position");
     FAIL() << "an unknown output was accepted";
@@ -235,4 +289,4 @@ TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
 }
 
 }  // namespace
-}  // namespace navvy::sim
+}  // namespace navvy::session

@@ -6,10 +6,10 @@
 
 #include "device/device.h"
 #include "scene_io/loader.h"
-#include "sim/session.h"
-#include "sim/soil_mass.h"
+#include "session/session.h"
+#include "session/soil_mass.h"
 
-namespace navvy::sim {
+namespace navvy::session {
 namespace {
 
 constexpr double kLoad = 2000;  // [kg]
@@ -28,13 +28,13 @@ scene::World short_haul() {
 TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {
   device::Device device;
   Session session(short_haul(), device);
-  const World& world = session.world();
-  const double start_x = world.link(0, 0).X_WL.translation().x();
+  const sim::World& world = session.world();
+  const double start_x = world.machine(0).link(0).pose().translation().x();
   EXPECT_NEAR(testing::carried(world, 0, "bed"), kLoad, 1e-3);
   double rise = 0;
   while (!session.done()) {
     session.step();
-    rise = std::max(rise, std::abs(world.link(0, 0).v_WL.z()));
+    rise = std::max(rise, std::abs(world.machine(0).link(0).velocity().z()));
   }
   ASSERT_EQ(session.tips().size(), 2u);
   const BedTip& tip = session.tips()[0];
@@ -45,11 +45,11 @@ TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {
   const double heap = testing::mass_gained(world, Vec2(-13, -3), Vec2(-6, 3));
   std::printf("heap %.1f kg\n", heap);
   EXPECT_NEAR(heap, tip.payload_start, 0.01 * kLoad);
-  EXPECT_GT(world.link(0, 0).X_WL.translation().x() - start_x, 6.8);
+  EXPECT_GT(world.machine(0).link(0).pose().translation().x() - start_x, 6.8);
   EXPECT_LT(rise, 1.0);
-  EXPECT_EQ(world.soil().ledger().error(), 0);
-  EXPECT_EQ(world.soil().stats().shell_crossings, 0u);
+  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_EQ(world.soil_counts().shell_crossings, 0u);
 }
 
 }  // namespace
-}  // namespace navvy::sim
+}  // namespace navvy::session
