@@ -13,15 +13,17 @@
 
 namespace navvy::scene {
 
-/// A visual placed in the world. `visual` outlives the frame.
+/// A visual placed in the world. `visual` outlives the frame. V is the visual's own frame, W the world.
 struct FrameShape {
   const Visual* visual = nullptr;
   Pose X_WV = Pose::Identity();
 };
 
-/// A hydraulic cylinder to draw between its two pins [m] in W.
+/// A hydraulic cylinder to draw between its two pins [m] in W. Both are drawn round: the barrel from the base, the rod,
+/// thinner, over the whole length.
 struct FrameCylinder {
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
+  // Half the barrel's outer width [m], and the length of the barrel [m]; the pins may come nearer than that.
   double radius = 0.06;
   double barrel_length = 0.5;
 };
@@ -32,6 +34,7 @@ struct FrameRect {
 };
 
 /// Dense copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5) cell; x fastest.
+/// It is a copy, so that drawing asks nothing of the simulation.
 struct FrameGround {
   int nx = 0, ny = 0;
   double cell = 0.1;               ///< [m]
@@ -39,11 +42,14 @@ struct FrameGround {
   std::vector<float> height;       ///< [m], nx * ny
   std::vector<float> change;       ///< height - height at the start [m]; the dug and dumped parts
   std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
+  // Linear RGB by soil number, for ground and particles alike.
   std::vector<Color> soil_color;
   std::uint64_t revision = 0;      ///< changes whenever any height changed
   std::vector<FrameRect> changed;  ///< hold all that changed since the frame of the last revision; may overlap
 };
 
+/// Loose soil: one entry a particle, all arrays in one order. Positions are floats about `origin`, so that a site of
+/// kilometres costs no digits.
 struct FrameParticles {
   std::vector<float> position;  ///< xyz in W [m], relative to `origin`
   Vec3 origin = Vec3::Zero();
@@ -52,10 +58,13 @@ struct FrameParticles {
   double radius = 0.04;            ///< [m]
 };
 
+/// All that a renderer needs of one instant. Filled anew for each picture; filling and drawing need not happen in one
+/// thread.
 struct Frame {
   double time = 0;  ///< [s]
   std::vector<FrameShape> shapes;
   std::vector<FrameCylinder> cylinders;
+  // Of the same instant as the poses, so that soil lies in the bucket and not beside it.
   FrameGround ground;
   FrameParticles particles;
   std::vector<Light> lights;

@@ -11,7 +11,8 @@
 namespace navvy::scene {
 
 /// One procedural shape added to the flat ground. Heights of `add` shapes are summed in file order, then clipped to the
-/// datum (bedrock).
+/// datum (bedrock). Kinds use different members: what a kind does not use is ignored. Lengths are along and across
+/// `yaw`, which turns from W's x towards its y.
 struct GroundFeature {
   enum class Kind {
     kSlope,      ///< whole site: height grows by tan(angle) along `yaw`, zero at `center`
@@ -31,27 +32,31 @@ struct GroundFeature {
   std::uint64_t seed = 1;      ///< hills
 };
 
-/// A soil layer, listed from the surface down. The last one reaches to the bottom whatever its thickness.
+/// A soil layer, listed from the surface down. The last one reaches to the bottom whatever its thickness. Thickness
+/// counts downwards from the surface, whatever its shape.
 struct GroundLayer {
   std::string soil;      ///< name in World::soils
   double thickness = 0;  ///< [m]
 };
 
-/// A rectangle where the layers differ from the site's.
+/// A rectangle where the layers differ from the site's. Later patches lie over earlier ones.
 struct GroundPatch {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
   std::vector<GroundLayer> layers;
 };
 
-/// Soil that starts as particles: the columns of a rectangle from a height up.
+/// Soil that starts as particles: the columns of a rectangle from a height up. For scenes and tests that begin with
+/// soil in motion; elsewhere the exchange wakes soil when it is needed.
 struct AwakeSoil {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
   double bottom = 0;                            ///< W height [m]
 };
 
-/// What to do with a heightmap's slopes that exceed the soil's repose.
+/// What to do with a heightmap's slopes that exceed the soil's repose. kHold leaves them as surveyed; kSettle wears
+/// them down when the map is loaded.
 enum class SteepGround { kHold, kSettle };
 
+/// The site's ground before anything has moved: what heightfield::Ground is built from.
 struct Ground {
   std::string file;          ///< GeoTIFF or ESRI ASCII; empty: procedural
   bool has_at = false;       ///< centre of the crop was given

@@ -6,6 +6,7 @@
 namespace navvy::scene {
 namespace {
 
+// Buckets and beds name their shells; a shell that neither names holds nothing that counts as a load.
 template <class Container>
 bool names_shell(const std::vector<Container>& containers, const Shell& shell) {
   return std::any_of(containers.begin(), containers.end(), [&](const Container& c) { return c.shell == shell.name; });

@@ -11,10 +11,12 @@
 
 namespace navvy::scene {
 
+/// Linear RGB and alpha, 0 to 1; alpha below 1 is drawn transparent.
 struct Color {
   float r = 0.7f, g = 0.7f, b = 0.7f, a = 1.0f;
 };
 
+/// A shape about its own origin. Members that its kind does not use are ignored; lengths in metres.
 struct Geometry {
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane };
   Kind kind = Kind::kBox;
@@ -22,9 +24,11 @@ struct Geometry {
   double radius = 0.5;       ///< cylinder (axis z), sphere [m]
   double length = 1.0;       ///< cylinder [m]
   std::string mesh_file;     ///< absolute path of an OBJ file
+  // For meshes: factors along the file's axes.
   Vec3 scale = Vec3::Ones();
 };
 
+/// What a link looks like. V is the visual's frame; nothing here touches anything.
 struct Visual {
   std::string name;
   Geometry geometry;
@@ -32,13 +36,16 @@ struct Visual {
   Color color;
 };
 
+/// What a link touches rigid bodies with. Soil is touched by shells instead, so a bucket has both.
 struct Collision {
   std::string name;
   Geometry geometry;
   Pose X_LC = Pose::Identity();
+  // Coulomb coefficient of this surface [-]; how two that touch combine is the engine's rule.
   double friction = 0.8;
 };
 
+/// A rigid body of a machine. `p_LCom` is a point of L; the inertia is about that point, in L's axes.
 struct Link {
   std::string name;
   Pose X_ML = Pose::Identity();     ///< at zero joint positions
@@ -49,6 +56,7 @@ struct Link {
   std::vector<Collision> collisions;
 };
 
+/// Two links and how one moves against the other. Positive is about or along `axis` by the right hand.
 struct Joint {
   enum class Type { kFixed, kRevolute, kPrismatic, kBall };
   std::string name;
@@ -61,12 +69,14 @@ struct Joint {
   double lower = 0, upper = 0;    ///< [rad] or [m]
   double effort = 1e9;            ///< [N m] or [N]; hydraulics may limit further
   double velocity = 1e9;          ///< [rad/s] or [m/s]
+  // Of the joint's speed: [N m s/rad] or [N s/m], and dry friction [N m] or [N].
   double damping = 0, friction = 0;
   double initial = 0;  ///< position at the start
 };
 
-/// A hydraulic cylinder acting on one joint. Length and lever arm follow from two pins, or from a four-bar linkage.
-/// The pump fills the head side when the cylinder extends.
+/// A hydraulic cylinder acting on one joint. Length and lever arm follow from two pins, or from a four-bar linkage. The
+/// pump fills the head side when the cylinder extends. Pressures become forces by bore and rod, forces become joint
+/// torques by the lever arm, which the geometry gives at every position [docs/machines.md, hydraulics].
 struct Cylinder {
   std::string name;
   std::string joint;
@@ -85,13 +95,15 @@ struct Cylinder {
   double flow = 0.004;                        ///< most oil for this function [m3/s]
 };
 
-/// The pump that all cylinders of a machine share.
+/// The pump that all cylinders of a machine share. Cylinders that ask for more than it can give share it
+/// [docs/machines.md, pump].
 struct Pump {
   double flow = 0;   ///< most oil at any pressure it can drive [m3/s]
   double power = 0;  ///< flow x pressure at most [W]
 };
 
-/// A tyre (or a twin pair as one) with its own force law on the ground.
+/// A tyre (or a twin pair as one) with its own force law on the ground. Its forces come from pressure, slip and load
+/// [docs/machines.md, tyres]; what it presses for good is a rut [docs/machines.md, ruts].
 struct Wheel {
   std::string joint;        ///< spin joint
   std::string steer_joint;  ///< empty: not steered
@@ -105,6 +117,7 @@ struct Wheel {
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
+/// What drives and steers a machine on wheels: Ackermann steering and a brake [docs/machines.md, drive].
 struct Drive {
   double max_speed = 2.5;                ///< [m/s]
   double tractive_force = 100e3;         ///< all driven wheels together [N]
@@ -116,7 +129,8 @@ struct Drive {
 };
 
 /// A thin shell of triangles that touches soil: a bucket, blade, plate, bed. The front (inside) is the side the
-/// triangles' normals (counter-clockwise) point to. Edges used by one triangle only are free edges (lip, rim).
+/// triangles' normals (counter-clockwise) point to. Edges used by one triangle only are free edges (lip, rim). It has
+/// two sides and a thickness and may be open: what it holds is the soil on its front [docs/tools.md, shells].
 struct Shell {
   std::string name;
   std::string link;
@@ -127,7 +141,7 @@ struct Shell {
   double friction_share = 1, adhesion_share = 1;
 };
 
-/// What makes a link a digging bucket.
+/// What makes a link a digging bucket. Operators use it to know where the edge points; soil knows only the shell.
 struct Bucket {
   std::string link;
   std::string shell;
@@ -138,7 +152,8 @@ struct Bucket {
   Vec3 opening = Vec3::UnitZ();        ///< unit, link frame: out of the mouth
 };
 
-/// What makes a link a container that tips its load: a dumper's bed, a skip.
+/// What makes a link a container that tips its load: a dumper's bed, a skip. The struck volume is that level with the
+/// rim.
 struct Bed {
   std::string link;
   std::string shell;
@@ -146,11 +161,14 @@ struct Bed {
   double capacity = 3.0;  ///< struck [m3]
 };
 
+/// A machine as data, as one SDF file describes it; where it stands and what it does is in MachineInWorld. Indices
+/// refer to the lists here and hold as long as nothing is inserted.
 struct Machine {
   std::string name;
   std::string file;        ///< SDF it came from
   bool kinematic = false;  ///< moved by joint positions only, no dynamics ("engine" kinematic)
   bool fixed_base = false;
+  // Every parent stands before its children, and joint i moves link i + 1.
   std::vector<Link> links;  ///< links[0] is the base
   std::vector<Joint> joints;
   std::vector<Cylinder> cylinders;
@@ -164,7 +182,7 @@ struct Machine {
   std::vector<Bed> beds;
   std::string swing_joint, boom_joint, stick_joint, bucket_joint;  ///< roles of an excavator's arm; empty: none
 
-  /// Index by name, -1 when there is none.
+  /// Index by name, -1 when there is none. The search is linear: names are resolved once, at the start.
   int link_index(const std::string& name_of_link) const;
   int joint_index(const std::string& name_of_joint) const;
   /// What a shell is for, by its index: the first holds soil that is dug, the second soil that is carried.

@@ -10,7 +10,8 @@
 
 namespace navvy::scene {
 
-/// Drive (rear-wheel drive, Ackermann steering) until the machine's origin is at `target`, facing `heading`.
+/// Drive (rear-wheel drive, Ackermann steering) until the machine's origin is at `target`, facing `heading`. Where no
+/// heading is given, it ends as it arrives.
 struct DriveTo {
   Vec2 target = Vec2::Zero();  ///< [m] in W
   bool has_heading = false;
@@ -52,7 +53,8 @@ struct Tip {
   double hold = 0;   ///< after it has arrived [s]
 };
 
-/// Wait until another machine of the world has done some or all steps of its program.
+/// Wait until another machine of the world has done some or all steps of its program. That machine must not wait for
+/// this one in turn: the loader looks for such circles.
 struct WaitFor {
   std::string machine;
   int steps = 0;          ///< 0: all
@@ -68,6 +70,7 @@ struct Trajectory {
 
 using ProgramStep = std::variant<DriveTo, Dig, Swing, Dump, Wait, Tip, WaitFor, Trajectory>;
 
+/// Steps of one machine, done one after the other.
 struct Program {
   std::vector<ProgramStep> steps;
   std::vector<int> lines;  ///< line in the scene file of each step, for messages; may be empty

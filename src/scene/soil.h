@@ -6,6 +6,8 @@
 
 namespace navvy::scene {
 
+/// Plain numbers in SI units, each within the range of soil_values.h. The law that uses them is in [docs/soil.md, law];
+/// a soil changes nothing about itself during a run.
 struct Soil {
   std::string name;
   std::string source;               ///< where the numbers come from

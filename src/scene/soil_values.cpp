@@ -21,6 +21,7 @@ std::string text_of(double value) {
   return text;
 }
 
+// The element is written as a scene writes it, so that a loader can find the line.
 Fault fault(const Soil& soil, const char* name, double value, const std::string& rule, const std::string& remedy) {
   Fault out;
   out.element = "soil[" + soil.name + "]/" + name;
@@ -65,6 +66,7 @@ std::vector<Fault> check_relations(const Soil& soil) {
   if (soil.residual_cohesion > soil.cohesion)
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
                         "must not exceed cohesion_pa, " + text_of(soil.cohesion), "remoulding only weakens soil"));
+  // A swell that is not a number fails as well.
   if (soil.dilatancy_angle > 0 && !(soil.swell > 1))
     out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
                         "needs a swell above 1: soil dilates from its bank to its loose density",
@@ -80,6 +82,7 @@ std::vector<Fault> check_soil(const Soil& soil) {
   std::vector<Fault> out;
   for (const SoilValue& v : soil_values()) {
     const double value = v.written(soil);
+    // Written so that a NaN is outside. The slack is relative, as bounds span nine decades.
     const bool ok = value >= v.low - kRounding * std::abs(v.low) && value <= v.high + kRounding * std::abs(v.high);
     if (!ok)
       out.push_back(fault(soil, v.name, value, "must be a number from " + text_of(v.low) + " to " + text_of(v.high),

@@ -11,6 +11,7 @@
 namespace navvy::scene {
 
 /// One number of a soil. Range and text are in the unit that its name ends in; value in the struct = written x factor.
+/// Units stand in the name, so a file cannot mean another one.
 struct SoilValue {
   const char* name;
   double Soil::*value;
@@ -21,13 +22,15 @@ struct SoilValue {
   double written(const Soil& soil) const { return soil.*value / factor; }
 };
 
-/// Every number of a soil but its colour, in the order of scenarios/README.md.
+/// Every number of a soil but its colour, in the order of scenarios/README.md. Built once; the pointers into Soil are
+/// good for any soil.
 const std::vector<SoilValue>& soil_values();
 
 /// What a soil's numbers must be to each other; the element of a fault is "soil[name]/" and the number's name.
 std::vector<Fault> check_relations(const Soil& soil);
 
-/// What is outside the table, or not a number, and broken relations; empty when all is in order.
+/// What is outside the table, or not a number, and broken relations; empty when all is in order. Faults name no file:
+/// whoever read the soil knows where it stood.
 std::vector<Fault> check_soil(const Soil& soil);
 
 }  // namespace navvy::scene

@@ -13,6 +13,7 @@
 
 namespace navvy::scene {
 
+/// How the soil is computed. None of it is a property of the soil.
 struct Solver {
   double cell = 0.1;            ///< edge of a soil cell and of a column [m]
   double courant = 0.5;         ///< share of cell / sound speed
@@ -27,6 +28,8 @@ struct BedLoad {
   double mass = 0;  ///< [kg]; 0: empty
 };
 
+/// A machine and what is said of it here: its place, its load and what it does. W is the world, M the machine's own
+/// frame.
 struct MachineInWorld {
   std::string name;
   Machine machine;
@@ -36,6 +39,7 @@ struct MachineInWorld {
   Program program;
 };
 
+/// A camera that records pictures at a rate. The frame in which its two points are given follows from the kind.
 struct Camera {
   enum class Kind { kFixed, kChase, kOnLink };
   std::string name;
@@ -48,11 +52,13 @@ struct Camera {
   double rate = 4;  ///< frames per simulated second
 };
 
+/// A light from far away: it has a direction and no place. The first one is the sun and throws shadows.
 struct Light {
   Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< the way the light travels
   Color color{1.0f, 0.97f, 0.9f, 1.0f};
 };
 
+/// What a run writes and how long it lasts, all in simulated time.
 struct Recording {
   double duration = 60;        ///< most simulated time [s]; the run ends earlier when every program has ended
   double settle = 1.0;         ///< after the last program ended; six times as long while soil is awake [s]
@@ -60,9 +66,13 @@ struct Recording {
   bool render = true;
 };
 
+/// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds give equal runs on
+/// one device.
 struct World {
   std::string name;
+  // Path of the file it came from; relative names in the scene were resolved against it.
   std::string file;
+  // In W [m/s2]; soil and machines both take it from here.
   Vec3 gravity = Vec3(0, 0, -kGravity);
   std::uint64_t seed = 1;
   Solver solver;
@@ -73,7 +83,7 @@ struct World {
   std::vector<Light> lights;
   Recording recording;
 
-  /// Index by name, -1 when there is none.
+  /// Index by name, -1 when there is none. The search is linear: names are resolved once.
   int soil_index(const std::string& name_of_soil) const;
   int machine_index(const std::string& name_of_machine) const;
 };
