@@ -9,6 +9,7 @@
 namespace navvy::scene_io {
 
 namespace {
+// As a person would write it, not as it is stored.
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
@@ -17,6 +18,7 @@ std::string short_number(double value) {
 
 std::string range_text(const Range& range) {
   const double huge = std::numeric_limits<double>::max();
+  // A range that bounds nothing still asks for a finite number.
   if (range.min == -huge && range.max == huge) return "a finite number";
   if (range.max == huge) return "a number of at least " + short_number(range.min);
   return "a number from " + short_number(range.min) + " to " + short_number(range.max);
@@ -28,6 +30,7 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 }  // namespace
 
 bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out, Faults& faults) {
+  // Words of the text, so that line breaks and several blanks count as one.
   const std::vector<std::string> words = words_of(text_of(element));
   if (count > 0 && words.size() != count) {
     faults.error(element, text_of(element),
@@ -37,6 +40,8 @@ bool read_numbers(const Element& element, std::size_t count, Range range, std::v
   }
   out.clear();
   for (const std::string& word : words) {
+    // The first bad word is reported and the rest left alone: one fault an element is enough to find it. Written so
+    // that NaN and infinities, which are numbers to a parser, are refused.
     double value = 0;
     if (!to_number(word, value) || !std::isfinite(value) || value < range.min || value > range.max) {
       faults.error(element, word, "must be " + range_text(range));
@@ -48,6 +53,7 @@ bool read_numbers(const Element& element, std::size_t count, Range range, std::v
 }
 
 bool read_flag(const Element& element, bool& out, Faults& faults) {
+  // The four spellings of SDF and no others.
   const std::string value = text_of(element);
   if (value == "true" || value == "1") {
     out = true;
@@ -66,6 +72,7 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
   if (!read_numbers(element, quaternion ? 7 : 6, {-1e7, 1e7}, v, faults)) return false;
   if (quaternion) {
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    // Normalised below; a sum of squares far from one is a slip of the pen, not rounding.
     if (std::abs(q.norm() - 1) > 1e-3) {
       faults.error(element, text_of(element), "the last four numbers must be a unit quaternion x y z w");
       return false;
@@ -75,6 +82,7 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
     out.translation() = Vec3(v[0], v[1], v[2]);
     return true;
   }
+  // Degrees are an attribute of SDF 1.9 and hold for the turn only.
   const std::string degrees = attribute(element, "degrees");
   const double f = degrees == "true" || degrees == "1" ? kDegree : 1;
   out = make_pose(v[0], v[1], v[2], v[3] * f, v[4] * f, v[5] * f);
@@ -82,12 +90,14 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
 }
 
 Element* Fields::take(const char* name) {
+  // Whatever is asked for counts as known, also when it is not there: the list serves `finish` and suggestions.
   known_.push_back(name);
   return element_.FirstChildElement(name);
 }
 
 Fields& Fields::number(const char* name, double& out, Range range, double factor) {
   std::vector<double> v;
+  // A value with a fault leaves the default in place, so reading goes on and finds the other faults.
   if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) out = v[0] * factor;
   return *this;
 }
@@ -104,6 +114,7 @@ Fields& Fields::whole(const char* name, int& out, Range range) {
   if (!child) return *this;
   std::vector<double> v;
   if (!read_numbers(*child, 1, range, v, faults_)) return *this;
+  // A range has bounded it, so the cast below cannot overflow.
   if (v[0] != std::floor(v[0])) {
     faults_.error(*child, text_of(*child), "must be a whole number");
   } else {
@@ -116,6 +127,7 @@ Fields& Fields::whole(const char* name, std::uint64_t& out) {
   Element* child = take(name);
   if (!child) return *this;
   const std::string text = text_of(*child);
+  // Not by way of a double, which holds no more than 53 bits of a seed.
   const auto result = std::from_chars(text.data(), text.data() + text.size(), out);
   if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
     faults_.error(*child, text, "must be a whole number from 0 to 18446744073709551615");
@@ -150,6 +162,7 @@ Fields& Fields::vec3(const char* name, Vec3& out, Range range) {
 Fields& Fields::direction(const char* name, Vec3& out) {
   Vec3 v = out;
   vec3(name, v, {-1e6, 1e6});
+  // An absent element leaves the default, which is a direction already; the length decides only what the file says.
   if (v.norm() > 1e-6) {
     out = v.normalized();
   } else if (Element* child = element_.FirstChildElement(name)) {
@@ -196,10 +209,12 @@ void Fields::one_of(const Element& child, const std::string& value, const std::v
 }
 
 void Fields::finish() {
+  // One walk over the children that are there, against what the tables asked for.
   for (const Element* child = element_.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (!contains(known_, name)) {
       faults_.error(*child, text_of(*child), "unknown element", suggestion(name, known_));
+      // The second one is blamed, as readers took the first.
     } else if (!contains(repeatable_, name) && element_.FirstChildElement(child->Name()) != child) {
       faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
     }
@@ -212,6 +227,7 @@ void Fields::finish() {
   for (const auto* at = element_.FirstAttribute(); at; at = at->Next())
     if (!contains(attributes_, at->Name()))
       faults_.error(element_, at->Name(), "unknown attribute", suggestion(at->Name(), attributes_));
+  // A value's own text has been read; text between elements is mostly a forgotten tag.
   if (!text_of(element_).empty() && !known_.empty())
     faults_.error(element_, text_of(element_), "text is not allowed between the elements here", "remove it");
 }

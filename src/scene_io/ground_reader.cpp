@@ -13,6 +13,7 @@ namespace {
 constexpr Range kPlace = {-1e6, 1e6};   // [m]
 constexpr Range kLength = {0.01, 1e5};  // [m]
 
+// A name in a layer must be one of the world's soils; a near miss gets the name that was meant.
 void require_soil(const Element& element, const std::string& name, const std::vector<scene::Soil>& soils,
                   Faults& faults) {
   std::vector<std::string> names;
@@ -45,6 +46,7 @@ scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind k
   scene::GroundFeature feature;
   feature.kind = kind;
   feature.seed = seed;
+  // Hills have no direction and a cone is the same from all sides.
   const bool turned = kind != Kind::kHills && kind != Kind::kStockpile;
   const bool box = kind == Kind::kTrench || kind == Kind::kBlock;
   Fields fields(element, faults);
@@ -59,6 +61,7 @@ scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind k
     feature.length = 20;
     fields.number("wavelength_m", feature.length, {0.1, 1e5}).whole("seed", feature.seed);
   }
+  // Below 60 degrees the tangent stays small enough for a site of kilometres.
   if (kind == Kind::kSlope) fields.number("angle_deg", feature.angle, {-60, 60}, kDegree).required("angle_deg");
   if (kind == Kind::kStockpile || kind == Kind::kTrench) fields.number("angle_deg", feature.angle, {0, 80}, kDegree);
   if (kind == Kind::kBank) {
@@ -69,7 +72,8 @@ scene::GroundFeature read_feature(Element& element, scene::GroundFeature::Kind k
   return feature;
 }
 
-/// A rectangle with what `others` adds to the table of its element.
+/// A rectangle with what `others` adds to the table of its element. The corners are checked here, after the values
+/// themselves.
 void read_rectangle(Element& element, Vec2& low, Vec2& high, Faults& faults,
                     const std::function<void(Fields&)>& others) {
   Fields fields(element, faults);

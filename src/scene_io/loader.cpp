@@ -17,8 +17,10 @@ namespace {
 scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, std::string* resolved,
                   Faults& faults) {
   scene::World world;
+  // Without a document there is nothing to read, and finish() throws what opening it has found.
   if (document) {
     check_resolved(*document, faults);
+    // Overrides go into the document first, so that one set of rules checks the file's values and the command line's.
     apply_overrides(*document, overrides, faults);
     world = read_world(*document, faults);
   }
@@ -41,6 +43,7 @@ scene::World load_world_from_string(const std::string& text, const std::string& 
   return load(Document::parse(text, name, faults), overrides, resolved, faults);
 }
 
+// Machines are checked alone as they are in a world, so a fault in one is found without a scene.
 scene::Machine load_machine(const std::string& file) {
   Faults faults;
   scene::Machine machine = read_machine_file(file, faults);
@@ -50,6 +53,7 @@ scene::Machine load_machine(const std::string& file) {
 
 std::vector<scene::Soil> load_soils(const std::string& directory) {
   Faults faults;
+  // Sorted, as a directory's own order differs between file systems and soils are numbered by it.
   std::vector<std::string> files;
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(directory, failed))
@@ -62,6 +66,7 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   }
   std::sort(files.begin(), files.end());
   std::vector<scene::Soil> soils;
+  // Files after one with a fault are read, too: all faults come together.
   for (const std::string& file : files)
     for (scene::Soil& soil : read_soil_file(file, faults)) soils.push_back(std::move(soil));
   faults.finish();
@@ -74,6 +79,8 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
   const auto document = Document::open(file, faults);
   if (!document) return faults.list();
   const Element& root = *document->root();
+  // What the file is follows from what its root holds; a scene is assumed where nothing fits, so that its rules say
+  // what is missing.
   if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
     read_soil_file(file, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
@@ -82,6 +89,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
     scene::World read = read_world(*document, faults);
+    // Warnings do not keep a scene from being used.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
   return faults.list();

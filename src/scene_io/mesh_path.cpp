@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> data_directories() {
   std::vector<std::string> directories;
+  // A folder of one's own goes first, so that a changed machine can stand before the shipped one; the source tree is
+  // last, for programs that were built and not installed.
   if (const char* own = std::getenv("NAVVY_DATA_DIR"); own && *own) directories.push_back(own);
   directories.push_back(NAVVY_INSTALLED_DATA);
   directories.push_back(NAVVY_SOURCE_DATA);
@@ -22,6 +24,7 @@ std::vector<std::string> data_directories() {
 }
 
 std::string find_data(const std::string& relative) {
+  // An unreadable folder counts as one that has no such file.
   std::error_code ignored;
   for (const std::string& directory : data_directories()) {
     const fs::path path = fs::path(directory) / relative;
@@ -35,6 +38,7 @@ namespace {
 // Empty when nothing exists under that name.
 std::string locate(const Element& uri, const std::string& text) {
   std::error_code ignored;
+  // The name after the scheme counts from vehicles/, which is what scenes that are sent to others should use.
   if (text.rfind("model://", 0) == 0) return find_data("vehicles/" + text.substr(8));
   fs::path path = text.rfind("file://", 0) == 0 ? fs::path(text.substr(7)) : fs::path(text);
   if (path.is_relative()) path = fs::path(Document::of(uri).directory()) / path;
@@ -43,6 +47,7 @@ std::string locate(const Element& uri, const std::string& text) {
 
 std::string absolute(const std::string& path) {
   std::error_code failed;
+  // Also where the path does not exist yet; a failure leaves it as it was.
   const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
   return failed ? path : full.string();
 }
@@ -57,6 +62,7 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
     faults.error(uri, text, "no such mesh file", "paths count from the file that names them");
     return false;
   }
+  // Only the ending is looked at here; whether it is an OBJ file shows when it is read.
   if (fs::path(found).extension() != ".obj" && fs::path(found).extension() != ".OBJ") {
     faults.error(uri, text, "meshes must be OBJ files", "convert it");
     return false;
@@ -75,6 +81,7 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
                  "give a path from this file to an SDF file or its directory, or model://NAME of a shipped machine");
     return false;
   }
+  // Not resolved through links: messages name the path that the user knows.
   path = fs::path(found).lexically_normal().string();
   return true;
 }
@@ -84,11 +91,13 @@ bool read_obj(const std::string& path, const Element& at, scene::Shell& shell, F
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
   std::error_code ignored;
+  // 64 MB bound what a broken file can cost; a shell of that size could not be simulated anyway.
   if (fs::file_size(path, ignored) > (64u << 20) || !reader.ParseFromFile(path, config)) {
     faults.error(at, path, "cannot be read as an OBJ file of at most 64 MB", reader.Error());
     return false;
   }
   const auto& v = reader.GetAttrib().vertices;
+  // Indices may be wrong as well, but they are checked with the shell, for all sources alike.
   for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
     shell.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
     if (!shell.vertices.back().allFinite()) {

@@ -10,7 +10,8 @@
 namespace navvy::scene_io {
 
 /// Absolute path of the OBJ file named by `uri`: relative to the file that holds it, absolute, or model://NAME/...
-/// below a vehicles/ directory. Reports a fault and answers false when there is none.
+/// below a vehicles/ directory. Reports a fault and answers false when there is none. The path leads there from any
+/// working directory.
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 
 /// The model file named by an <include>'s `uri`: a file, a directory with model.sdf, or model://NAME.

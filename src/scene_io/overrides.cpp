@@ -10,6 +10,7 @@ namespace navvy::scene_io {
 
 namespace {
 
+// The fewest digits that read back to the same number, so that a value given on the command line arrives unchanged.
 std::string shortest(double value) {
   char text[40];
   const auto result = std::to_chars(text, text + sizeof text, value);
@@ -23,6 +24,7 @@ struct Part {
 
 bool split_key(const std::string& key, std::vector<Part>& parts) {
   std::size_t at = 0;
+  // Written by hand, as keys hold two kinds of marks only: a dot begins a part, brackets hold which of several.
   while (at <= key.size()) {
     Part part;
     while (at < key.size() && key[at] != '.' && key[at] != '[') part.name += key[at++];
@@ -36,10 +38,12 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
     parts.push_back(part);
     if (at++ == key.size()) break;
   }
+  // An object alone sets nothing; the last part names the element.
   return parts.size() >= 2;
 }
 
 void key_fault(const std::string& key, const std::string& value, const std::string& rule, const std::string& remedy,
+               // There is no file and no line; the key stands for the element.
                Faults& faults) {
   Fault fault;
   fault.file = "command line";
@@ -51,6 +55,7 @@ void key_fault(const std::string& key, const std::string& value, const std::stri
 }
 
 bool is_called(const Element& element, const std::string& which, int place) {
+  // By place, counted from 1 among those that match, by name, or by the name of what it refers to.
   if (which.empty() || which == std::to_string(place)) return true;
   if (attribute(element, "name") == which || child_text(element, "name") == which) return true;
   if (!element.Attribute("name") && attribute(element, "ref") == which) return true;
@@ -60,6 +65,7 @@ bool is_called(const Element& element, const std::string& which, int place) {
 }
 
 bool matches(const Element& element, const std::string& name) {
+  // Machines stand in a scene as <include> or <model>; to a user they are machines.
   const std::string own = element.Name();
   if (own == name || own == "navvy:" + name) return true;
   return name == "machine" && (own == "include" || own == "model");
@@ -87,9 +93,11 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     Element* pose = machine.FirstChildElement("pose");
     std::vector<std::string> words = pose ? words_of(text_of(*pose)) : std::vector<std::string>{};
     const bool in_degrees = pose && (attribute(*pose, "degrees") == "true" || attribute(*pose, "degrees") == "1");
+    // A pose that is not there, or is shorter than six numbers, counts as zeros.
     words.resize(6, "0");
     double number = 0;
     words[i] = value;
+    // A pose counts in radians unless it says otherwise; the key says degrees.
     if (i == 5 && !in_degrees && to_number(value, number)) words[i] = shortest(number * kDegree);
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
@@ -116,10 +124,13 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
     return;
   }
   std::vector<Element*> targets = {&world};
+  // A key goes down from the world, part by part; each part may pick several, and all of them are set.
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     std::vector<Element*> next;
     for (Element* target : targets)
       for (Element* child : children_matching(*target, parts[i])) next.push_back(child);
+    // Objects that a scene has once, and may leave out with all values at their defaults, are made when they are
+    // needed; others must be there to be meant.
     const bool single = parts[i].name == "ground" || parts[i].name == "solver" || parts[i].name == "recording";
     if (next.empty() && i == 0 && single)
       next.push_back(world.InsertNewChildElement(("navvy:" + parts[0].name).c_str()));
@@ -132,6 +143,8 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
   }
   const std::string& leaf = parts.back().name;
   for (Element* target : targets) {
+    // One level below a machine only its place can be set; deeper keys reach what the scene says of it, such as its
+    // program.
     if (parts[0].name == "machine" && parts.size() == 2) {
       if (!set_place(*target, leaf, value))
         key_fault(key, value, "unknown element '" + leaf + "'", suggestion(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}),
@@ -184,6 +197,7 @@ std::pair<std::string, std::string> parse_setting(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
+// In this order a general option gives way to a setting that names the same value.
 void apply_overrides(Document& document, const Overrides& overrides, Faults& faults) {
   Element* world = document.root()->FirstChildElement("world");
   if (!world) return;  // the reader reports it

@@ -61,6 +61,7 @@ std::string hash_of(const std::string& path) {
   return hash.hex();
 }
 
+// The fewest digits that read back to the same number: the text must give the same world, bit by bit.
 std::string shortest(double value) {
   char text[40];
   const auto result = std::to_chars(text, text + sizeof text, value);
@@ -80,7 +81,8 @@ bool is_called(const tinyxml2::XMLNode* node, const char* name) {
   return node != nullptr && node->ToElement() != nullptr && std::strcmp(node->Value(), name) == 0;
 }
 
-/// Writes one scene out. Keeps the list of files that stay outside.
+/// Writes one scene out. Keeps the list of files that stay outside. Steps must run while elements still belong to the
+/// documents that their paths count from.
 class Resolver {
  public:
   explicit Resolver(Element& world) : world_(world) {}
@@ -106,6 +108,7 @@ class Resolver {
 
 void Resolver::soil(Element& element, const scene::Soil& read) {
   const std::string ref = attribute(element, "ref");
+  // A soil with values of its own needs nothing from elsewhere.
   if (ref.empty()) return;
   const auto document = Document::open(soil_file(element, ref), none_);
   Element* base = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
@@ -144,6 +147,7 @@ void Resolver::meshes(Element& model) {
 void Resolver::include(Element& element) {
   Element* uri = element.FirstChildElement("uri");
   std::string path;
+  // What cannot be opened now was reported when the scene was read.
   if (uri == nullptr || !resolve_model(*uri, path, none_)) return;
   const auto document = Document::open(path, none_);
   Element* model = document ? document->root()->FirstChildElement("model") : nullptr;
@@ -152,6 +156,7 @@ void Resolver::include(Element& element) {
   const Element& root = *element.GetDocument()->RootElement();
   if (attribute(*document->root(), "version") != attribute(root, "version")) return keep(*uri, absolute(path));
   meshes(*model);
+  // A deep copy belongs to this document, and the machine's own document goes at the end of this function.
   Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
   if (element.FirstChildElement("name")) inlined.SetAttribute("name", child_text(element, "name").c_str());
   // The place in the world is the including scene's alone.
@@ -165,11 +170,13 @@ void Resolver::include(Element& element) {
     }
     inlined.InsertEndChild(child->DeepClone(element.GetDocument()));
   }
+  // In its place, as machines are numbered in the order of the file.
   world_.InsertAfterChild(&element, &inlined);
   world_.DeleteChild(&element);
 }
 
 void Resolver::list_files() {
+  // Last, when every file has been named.
   Element& list = *world_.InsertNewChildElement("navvy:resolved");
   list.SetAttribute("format", kResolvedFormat);
   for (const auto& [name, hash] : files_) {
@@ -193,6 +200,7 @@ std::string resolved_text(Document& document, const scene::World& world) {
   for (Element* e = root.FirstChildElement("model"); e != nullptr; e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
+    // Asked for before, because the include is replaced by a model.
     Element* next = e->NextSiblingElement("include");
     resolver.include(*e);
     e = next;

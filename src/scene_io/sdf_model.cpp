@@ -17,6 +17,7 @@ namespace {
 
 Pose to_pose(const ignition::math::Pose3d& p) {
   Pose X = Pose::Identity();
+  // Normalised again: a file's digits make no exact unit quaternion.
   X.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).normalized().toRotationMatrix();
   X.translation() = Vec3(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
   return X;
@@ -38,12 +39,14 @@ void copy_used(const Element& from, Element& to) {
     has_elements = true;
     if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(child->Name()));
   }
+  // Only elements without children carry values; blanks between the others are left out.
   if (!has_elements) to.SetText(text_of(from).c_str());
 }
 
 std::string as_sdf_text(const Element& model) {
   tinyxml2::XMLDocument copy;
   Element* root = copy.NewElement("sdf");
+  // The version decides how libsdformat reads what follows, so it is the file's own.
   root->SetAttribute("version", attribute(*model.GetDocument()->RootElement(), "version").c_str());
   copy.InsertEndChild(root);
   copy_used(model, *root->InsertNewChildElement("model"));
@@ -57,6 +60,7 @@ const Element& blamed(const Element& model, const std::string& message) {
   for (const Element* child = model.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = attribute(*child, "name");
     if (name.empty()) continue;
+    // The marks with which libsdformat's messages surround names; a bare name could be a part of another word.
     for (const std::string& mark : {"[" + name + "]", "'" + name + "'", "\"" + name + "\"", "named " + name + " "})
       if (message.find(mark) != std::string::npos) return *child;
   }
@@ -85,6 +89,7 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, scene::Geometr
   } else if (const auto* plane = from.PlaneShape()) {
     to.kind = Kind::kPlane;
     to.size = Vec3(plane->Size().X(), plane->Size().Y(), 0);
+    // A pose turns a plane for engine and pictures alike; a normal would have to be turned in each.
     if (to_vec3(plane->Normal()).cross(Vec3::UnitZ()).norm() > 1e-9 || plane->Normal().Z() < 0)
       faults.error(xml, "", "the normal of a plane must be 0 0 1", "turn it with <pose>");
   } else if (const auto* mesh = from.MeshShape()) {
@@ -102,6 +107,7 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, scene::Geometr
 void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Faults& faults) {
   for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
     const sdf::Visual& visual = *from.VisualByIndex(i);
+    // The same element in the file: for line numbers, and for what libsdformat does not hand on.
     const Element* element = named_child(xml, "visual", visual.Name());
     if (!element || !element->FirstChildElement("geometry")) continue;
     scene::Visual out;
@@ -127,6 +133,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Fau
     out.X_LC = to_pose(pose);
     // sdformat 12 has no accessor for friction.
     const Element* step = element;
+    // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one leaves the default.
     for (const char* name : {"surface", "friction", "ode", "mu"}) step = step ? step->FirstChildElement(name) : nullptr;
     if (step) to_number(text_of(*step), out.friction);
     if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), out.geometry, faults))
@@ -138,11 +145,13 @@ scene::Link read_link(const sdf::Link& from, const Element& xml, Faults& faults)
   scene::Link link;
   link.name = from.Name();
   ignition::math::Pose3d pose;
+  // Into the model's frame, whatever frame the file gives it in.
   report(xml, from.SemanticPose().Resolve(pose, "__model__"), faults);
   link.X_ML = to_pose(pose);
   const auto& inertial = from.Inertial();
   link.mass = inertial.MassMatrix().Mass();
   link.p_LCom = to_vec3(inertial.Pose().Pos());
+  // In the axes of the link, turned from those of the inertial frame, and about the centre of mass.
   const auto moi = inertial.Moi();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) link.inertia(r, c) = moi(r, c);
@@ -160,8 +169,10 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
   if (!axis) return;
   ignition::math::Vector3d xyz;
   report(xml, axis->ResolveXyz(xyz, from.Name()), faults);
+  // In the joint's frame, whatever frame it was expressed in; SDF asks for a unit vector and takes any length.
   joint.axis = to_vec3(xyz).normalized();
   const double lower = axis->Lower(), upper = axis->Upper();
+  // 1e16 is SDF's own word for no limit.
   joint.has_limits = from.Type() != sdf::JointType::CONTINUOUS && lower > -1e15 && upper < 1e15;
   if (joint.has_limits) {
     joint.lower = lower;
@@ -192,6 +203,7 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
     default:
       out.joint.type = Type::kFixed;
   }
+  // Both resolve the names of frames to the links they hang on.
   report(xml, from.ResolveParentLink(out.parent), faults);
   report(xml, from.ResolveChildLink(out.child), faults);
   ignition::math::Pose3d pose;
@@ -209,6 +221,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
     return element ? *element : model;
   };
   const std::size_t before = faults.error_count();
+  // Every fault of the tree is found before one ends the reading.
   std::vector<std::string> moved;
   for (const NamedJoint& joint : joints) {
     if (joint.parent == "world") continue;
@@ -227,6 +240,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
                  "add a joint (type fixed to weld it), or make it a model of its own");
   if (faults.error_count() > before) return;
 
+  // Breadth first from the base. Joints keep the order of the file below one parent, so indices follow the file.
   machine.links.push_back(links[bases[0]]);
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
     for (NamedJoint& joint : joints) {
@@ -240,6 +254,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
       machine.links.push_back(*child);
     }
   }
+  // A loop that hangs on nothing is never reached from the base, so its links are missing.
   if (machine.links.size() != links.size()) faults.error(model, "", "the joints form a loop beside the base");
 
   for (const NamedJoint& joint : joints) {
@@ -258,8 +273,10 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
 
 bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults) {
   const std::size_t before = faults.error_count();
+  // Its console would print beside our messages.
   sdf::Console::Instance()->SetQuiet(true);
   sdf::ParserConfig config;
+  // Its warnings count as errors: check_sdf has let through only what is understood, so one of them means a misreading.
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   sdf::Root root;
@@ -280,6 +297,7 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
       if (const Element* xml = named_child(model, "joint", joint.Name()))
         joints.push_back(read_joint(joint, *xml, faults));
     }
+    // A model with faults of its own has no tree to speak of.
     if (faults.error_count() == before) order_tree(model, std::move(links), std::move(joints), machine, faults);
   } catch (const std::exception& failure) {
     faults.error(model, "", std::string("libsdformat failed: ") + failure.what());

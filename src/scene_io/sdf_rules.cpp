@@ -10,7 +10,10 @@ namespace navvy::scene_io {
 
 namespace {
 
+// kUsed is read; kWarn leaves the simulation as it would be without it; kError would change the physics if it were
+// passed over.
 enum class Support { kUsed, kWarn, kError };
+// What an element's text must be. kElements holds elements and no text, kAny is not looked into.
 enum class Type { kElements, kNumber, kNumbers3, kFlag, kText, kPose, kColor, kAny };
 
 struct Rule {
@@ -220,12 +223,14 @@ const Extension kExtensions[] = {
 };
 
 const Rule* find_rule(const char* parent, const char* name) {
+  // Some two hundred comparisons an element: files are small and read once.
   for (const Rule& rule : kRules)
     if (std::strcmp(rule.parent, parent) == 0 && std::strcmp(rule.name, name) == 0) return &rule;
   return nullptr;
 }
 
 std::vector<std::string> names_in(const char* parent) {
+  // For suggestions only, so what is not supported is not offered.
   std::vector<std::string> names;
   for (const Rule& rule : kRules)
     if (std::strcmp(rule.parent, parent) == 0 && rule.support == Support::kUsed) names.push_back(rule.name);

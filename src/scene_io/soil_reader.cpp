@@ -14,15 +14,18 @@ namespace navvy::scene_io {
 
 namespace {
 
+// The names, ranges and units are those of scene/soil_values.h, so that the laboratory's files and the scenes agree.
 void read_values(Element& element, scene::Soil& soil, Faults& faults) {
   std::vector<double> color;
   double repose = 0;
   Fields fields(element, faults);
   fields.attribute("name").attribute("ref").text("source", soil.source);
+  // Values that are not given keep what the soil had before: the defaults, or those of the soil it refers to.
   for (const scene::SoilValue& v : scene::soil_values())
     fields.number(v.name, soil.*v.value, {v.low, v.high}, v.factor);
   fields.number("repose_angle_deg", repose, {0, 44}, kDegree).list("color", color, {0, 1}).finish();
   if (Element* child = fields.child("color")) {
+    // A fault in the list has been reported, so only a wrong number of numbers is left to tell.
     if (color.size() == 3) {
       for (int i = 0; i < 3; ++i) soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);
     } else if (!color.empty() || text_of(*child).empty()) {
@@ -39,6 +42,7 @@ void read_values(Element& element, scene::Soil& soil, Faults& faults) {
   }
 }
 
+// Relations are judged once all values are read, and told at the element that the scene wrote, if it did.
 void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
   for (const Fault& fault : scene::check_relations(soil)) {
     const Element* child = element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
@@ -50,6 +54,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
   std::error_code ignored;
   const std::string file = soil_file(element, ref);
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
+    // Gathered only for the message; soils that lie in two places are named once.
     std::vector<std::string> known;
     for (const std::string& directory : data_directories())
       for (const auto& entry : std::filesystem::directory_iterator(directory + "/terrain/soils", ignored))
@@ -59,6 +64,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
     faults.error(element, ref, "no such soil", suggestion(ref, known));
     return false;
   }
+  // Its faults go to the same list, with the file's own name and lines.
   const std::vector<scene::Soil> soils = read_soil_file(file, faults);
   if (soils.empty()) return false;
   soil = soils.front();
@@ -67,6 +73,8 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
 
 }  // namespace
 
+// A name that ends in .sdf is a path from the file that holds it; others are names of shipped soils, which have no
+// folders, so that a path without its ending is not searched for all over the data.
 std::string soil_file(const Element& element, const std::string& ref) {
   if (ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0)
     return (std::filesystem::path(Document::of(element).directory()) / ref).string();
@@ -77,6 +85,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   scene::Soil soil;
   const std::string ref = attribute(element, "ref");
   const std::string name = attribute(element, "name");
+  // What the soil refers to comes first, and what stands in the element replaces it value by value.
   if (!ref.empty()) {
     // Soil files must not refer to others: no loops to follow.
     if (!element.Parent()->ToElement() || std::string(element.Parent()->ToElement()->Name()) == "sdf")
@@ -99,6 +108,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
 std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults) {
   std::vector<scene::Soil> soils;
   const auto document = Document::open(file, faults);
+  // Unknown elements are told first, as a misspelt soil would otherwise only be missing.
   if (!document || !check_root(*document->root(), faults)) return soils;
   check_sdf(*document->root(), faults);
   for (Element* e = document->root()->FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil"))

@@ -10,7 +10,8 @@
 namespace navvy::scene_io {
 
 /// Reads a <navvy:soil name="..."> with its values, or ref="..." of a shipped soil or of a *.sdf file with one soil,
-/// whose values the children then replace.
+/// whose values the children then replace. The soil that is answered after a fault is good for reading on, not for a
+/// run.
 scene::Soil read_soil(Element& element, Faults& faults);
 
 /// The file that `ref` of a <navvy:soil> means: *.sdf counts from the element's file, a plain name is a shipped soil's.

@@ -19,6 +19,7 @@ namespace navvy::scene_io {
 namespace {
 
 void read_solver(Element& element, scene::Solver& solver, Faults& faults) {
+  // A cell below 5 mm or above 2 m is a slip of units; the particles' number follows from its cube.
   Fields(element, faults)
       .number("cell_m", solver.cell, {0.005, 2})
       .number("courant", solver.courant, {0.05, 1})
@@ -47,6 +48,7 @@ void require_file_name(const Element& element, const std::string& name, Faults& 
 scene::Camera read_camera(Element& element, const scene::World& world, Faults& faults) {
   scene::Camera camera;
   camera.name = attribute(element, "name");
+  // Everything is read first and judged then, so that one camera can have several faults at once.
   Fields fields(element, faults);
   fields.attribute("name")
       .text("machine", camera.machine)
@@ -64,6 +66,7 @@ scene::Camera read_camera(Element& element, const scene::World& world, Faults& f
     camera.kind = camera.link.empty() ? scene::Camera::Kind::kChase : scene::Camera::Kind::kOnLink;
   if (camera.machine.empty() && !camera.link.empty())
     faults.error(element, camera.link, "a camera on a link needs <machine>, too");
+  // A camera that looks at its own place has no direction.
   if ((camera.position - camera.target).norm() < 1e-3)
     faults.error(element, "", "position_m and target_m must not be the same place");
   if (camera.machine.empty()) return camera;
@@ -98,6 +101,7 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
       light.direction.normalize();
   }
   if (Element* e = element.FirstChildElement("diffuse")) {
+    // Alpha may be left out; what is no number was reported by check_sdf and counts as 1.
     const auto words = words_of(text_of(*e));
     double c[4] = {1, 1, 1, 1};
     for (std::size_t i = 0; i < 4 && i < words.size(); ++i) to_number(words[i], c[i]);
@@ -108,6 +112,7 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
 }
 
 void read_load(Element& element, scene::MachineInWorld& instance, const scene::World& world, Faults& faults) {
+  // A world of one soil need not name it.
   if (!world.soils.empty()) instance.load.soil = world.soils[0].name;
   Fields fields(element, faults);
   fields.text("soil", instance.load.soil).number("mass_kg", instance.load.mass, {0, 1e6}).required("mass_kg").finish();
@@ -122,6 +127,7 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::W
   const int soil = world.soil_index(instance.load.soil);
   if (soil < 0 || instance.machine.beds.empty()) return;
   const scene::Soil& kind = world.soils[static_cast<std::size_t>(soil)];
+  // Loose soil: the bank density divided by the swell.
   const double struck = instance.machine.beds[0].capacity * kind.bank_density / kind.swell;
   if (instance.load.mass > struck)
     faults.warning(
@@ -134,22 +140,26 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::W
 void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, bool ground_known,
                    Faults& faults) {
   if (Element* pose = element.FirstChildElement("pose")) {
+    // A pose that is too short is reported by check_sdf; it is not read a second time here.
     if (words_of(text_of(*pose)).size() >= 6) read_pose(*pose, instance.X_WM, faults);
     if (pose->Attribute("relative_to"))
       faults.error(*pose, attribute(*pose, "relative_to"), "relative_to is not supported here",
                    "give the pose in the world");
     const Vec2 place = instance.X_WM.translation().head<2>();
     const Vec2 low = world.ground.origin, high = low + world.ground.size;
+    // The site's edges count as on it. Without a sound ground there is no site to be off.
     if (ground_known && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
       faults.error(*pose, text_of(*pose), "the machine must stand on the site",
                    "move it, or enlarge size_m of the ground");
   }
   if (Element* e = element.FirstChildElement("navvy:on_ground")) read_flag(*e, instance.on_ground, faults);
+  // A model that stands in the world itself gives its joints among its own elements.
   if (!instance.machine.links.empty() && std::string(element.Name()) == "include")
     for (Element* e = element.FirstChildElement("navvy:joint"); e; e = e->NextSiblingElement("navvy:joint"))
       read_initial_position(*e, instance.machine, faults);
   if (Element* e = element.FirstChildElement("navvy:load")) read_load(*e, instance, world, faults);
   if (Element* e = element.FirstChildElement("navvy:program"))
+    // Read against machine and ground, so that what neither allows is found before the run.
     instance.program = read_program(*e, &instance.machine, ground_known ? &world.ground : nullptr, faults);
 }
 
@@ -162,6 +172,7 @@ scene::MachineInWorld read_include(Element& element, const scene::World& world, 
   } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
     instance.machine = read_machine_file(path, faults);
   }
+  // Unnamed, it goes by its model's name; two of one kind must be told apart by <name>.
   instance.name = element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
   const std::string is_static = child_text(element, "static");
   if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
@@ -173,6 +184,7 @@ void read_soils(Element& world_element, scene::World& world, Faults& faults) {
   for (Element* e = world_element.FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil")) {
     scene::Soil soil = read_soil(*e, faults);
     if (!soil.name.empty() && world.soil_index(soil.name) >= 0)
+      // Found in the order of the file, so the second one is blamed.
       faults.error(*e, soil.name, "there is already a soil of this name", "give this one another name=\"...\"");
     world.soils.push_back(std::move(soil));
   }
@@ -193,6 +205,7 @@ void check_grid(const Element& world_element, const scene::World& world, Faults&
 }
 
 void read_machines(Element& world_element, scene::World& world, bool ground_known, bool sdf_sound, Faults& faults) {
+  // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
     if (kind != "include" && kind != "model") continue;
@@ -216,6 +229,7 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   const auto document = Document::open(file, faults);
   if (!document || !check_root(*document->root(), faults)) return {};
   Element& root = *document->root();
+  // Faults of the file itself; those of other files that were read before do not keep this one from being read.
   const std::size_t before = faults.error_count();
   check_sdf(root, faults);
   Element* model = root.FirstChildElement("model");
@@ -223,6 +237,7 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
     faults.error(root, "", "a machine file needs a <model>");
     return {};
   }
+  // A machine file is used in many worlds, so what belongs to one of them is refused here.
   if (Element* program = model->FirstChildElement("navvy:program"))
     faults.error(*program, "", "a program belongs to the world that uses the machine", "move it into <include>");
   for (const char* name : {"navvy:on_ground", "navvy:load"})
@@ -244,6 +259,7 @@ scene::World read_world(Document& document, Faults& faults) {
     faults.error(root, "", "a scene needs a <world name=\"...\">", "");
     return world;
   }
+  // Reading goes in the order in which things refer to each other: soils, ground, machines, programs, cameras.
   world.name = attribute(*element, "name");
   require_file_name(*element, world.name, faults);
   std::vector<double> v;
@@ -258,6 +274,7 @@ scene::World read_world(Document& document, Faults& faults) {
   }
   read_soils(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:solver")) read_solver(*e, world.solver, faults);
+  // Faults in the ground make every place on it doubtful, so machines are then read without it.
   const std::size_t before_ground = faults.error_count();
   Element* ground = element->FirstChildElement("navvy:ground");
   if (ground) {
@@ -269,6 +286,7 @@ scene::World read_world(Document& document, Faults& faults) {
   }
   const bool ground_known = ground && faults.error_count() == before_ground;
   read_machines(*element, world, ground_known, sdf_sound, faults);
+  // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);
   for (Element* e = element->FirstChildElement("navvy:camera"); e; e = e->NextSiblingElement("navvy:camera")) {

@@ -17,9 +17,11 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
                     const std::string& remedy) {
   Fault fault;
   fault.severity = severity;
+  // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
   fault.line = at.GetLineNum();
   fault.file = fault.line > 0 ? Document::of(at).file() : "command line";
   fault.element = element_path(at);
+  // A value may be a whole broken file; the start of it is enough to find it.
   fault.value = value.size() > 80 ? value.substr(0, 77) + "..." : value;
   fault.rule = rule;
   fault.remedy = remedy;
@@ -39,6 +41,7 @@ std::size_t Faults::error_count() const {
       list_.begin(), list_.end(), [](const Fault& fault) { return fault.severity == Fault::Severity::kError; }));
 }
 
+// Warnings alone do not stop anybody; with an error among them they are told together, so that a file is mended once.
 void Faults::finish() const {
   if (has_errors()) throw InputError(list_);
   for (const Fault& fault : list_) log_warning(fault.text());
@@ -48,6 +51,7 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
   Fault fault;
   fault.file = file;
   std::error_code ignored;
+  // Reading a directory fails on some systems only at the first byte, with a message that helps nobody.
   if (std::filesystem::is_directory(file, ignored)) {
     fault.rule = "this is a directory, a file is needed";
     faults.add(fault);
@@ -67,6 +71,8 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
 std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name, Faults& faults) {
   std::unique_ptr<Document> document(new Document);
   document->file_ = name;
+  // Elements know their tinyxml2 document only; this leads from there to the file's name. The Document is on the heap
+  // and never moves, so the pointer holds.
   document->xml_.SetUserData(document.get());
   document->xml_.Parse(text.data(), text.size());
   Fault fault;
@@ -92,6 +98,7 @@ const Document& Document::of(const Element& element) {
 }
 
 std::string Document::directory() const {
+  // A bare file name lies in the working directory.
   const std::string directory = std::filesystem::path(file_).parent_path().string();
   return directory.empty() ? "." : directory;
 }
@@ -105,6 +112,7 @@ std::string Document::text() const {
 namespace {
 std::string label(const Element& element) {
   std::string name = element.Name();
+  // What a person would call the element: these attributes tell equal elements apart in scenes.
   for (const char* key : {"name", "ref", "joint"})
     if (const char* value = element.Attribute(key)) return name + "[" + value + "]";
   // Without a name: the place among equal siblings, when there are several.
@@ -133,6 +141,7 @@ std::string element_path(const Element& element) {
 
 std::string text_of(const Element& element) {
   std::string text;
+  // Text may come in pieces, around comments and elements.
   for (const auto* node = element.FirstChild(); node; node = node->NextSibling())
     if (node->ToText()) text += node->Value();
   const char* blank = " \t\r\n";

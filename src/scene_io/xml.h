@@ -14,9 +14,11 @@ namespace navvy::scene_io {
 
 using Element = tinyxml2::XMLElement;
 
-/// Collects faults; an element added by an override (line 0) is reported as coming from the command line.
+/// Collects faults; an element added by an override (line 0) is reported as coming from the command line. Readers go on
+/// after a fault, so one list holds all of a scene and of the files it names.
 class Faults {
  public:
+  /// `at` gives file, line and path; `value` is what was found, `rule` what is allowed, `remedy` what to do.
   void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
   void warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
   void add(Fault fault) { list_.push_back(std::move(fault)); }
@@ -32,7 +34,8 @@ class Faults {
   std::vector<Fault> list_;
 };
 
-/// One XML file. Its elements live as long as it does.
+/// One XML file. Its elements live as long as it does. It is made on the heap and stays where it is, as its elements
+/// lead back to it.
 class Document {
  public:
   /// Null after a fault (missing, unreadable, not XML).
@@ -61,9 +64,11 @@ std::string text_of(const Element& element);
 std::string child_text(const Element& element, const char* name);
 /// Value of an attribute; empty when there is none.
 std::string attribute(const Element& element, const char* name);
+/// An element of Navvy's own, in the namespace `navvy:`; the rest is SDF.
 bool is_extension(const Element& element);
 
-/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near.
+/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near. A word that a
+/// candidate begins with is nearest of all: the likeliest slip is a forgotten unit.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 /// Whitespace-separated words.
