@@ -13,6 +13,8 @@
 namespace navvy::render {
 
 GlContext::GlContext() {
+  // The fixed-function pipeline is what Coin draws with, hence the compatibility profile. No stencil: nothing here uses
+  // one, and it would cost memory at every pixel.
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -27,14 +29,17 @@ GlContext::GlContext() {
 }
 
 GlContext::~GlContext() {
+  // The buffers belong to the context, so they go first, while it is there.
   if (width_ > 0) release_multisample();
   OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
 }
 
 void GlContext::begin(int width, int height, int samples) {
+  // 16384 is what Mesa takes at most; told here, the error names the size.
   if (width <= 0 || height <= 0 || width > 16384 || height > 16384)
     throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                 " pixels cannot be drawn (allowed: 1 to 16384 each way)");
+  // OSMesa draws into this memory, so it is made current again whenever the vector may have moved.
   pixels_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE, width, height) == 0)
     throw Error("OSMesa refuses a buffer of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
@@ -45,6 +50,7 @@ void GlContext::begin(int width, int height, int samples) {
 }
 
 void GlContext::bind_multisample(int samples) {
+  // Kept from picture to picture, as cameras of one size follow each other.
   if (frame_ != 0 && (buffer_width_ != width_ || buffer_height_ != height_ || buffer_samples_ != samples))
     release_multisample();
   if (frame_ == 0) {
@@ -81,6 +87,7 @@ void GlContext::release_multisample() {
 
 std::vector<float> GlContext::depth() const {
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  // Rows without padding, whatever their width.
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, out.data());
   return out;
@@ -88,6 +95,7 @@ std::vector<float> GlContext::depth() const {
 
 void GlContext::finish() {
   GLint bound = 0;
+  // The samples of each pixel become one here; without multisampling everything is in the buffer already.
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   if (bound != 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
@@ -95,6 +103,7 @@ void GlContext::finish() {
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
+  // OSMesa writes the pixels into our memory by the end of this call.
   glFinish();
 }
 

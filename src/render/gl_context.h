@@ -12,6 +12,7 @@ namespace navvy::render {
 /// Not thread-safe: use it from the thread that made it. Several buffer sizes share the one context.
 class GlContext {
  public:
+  /// Takes the context only; memory for pictures comes with `begin`.
   /// @throws Error when OSMesa gives no context.
   GlContext();
   ~GlContext();
@@ -25,13 +26,16 @@ class GlContext {
   void finish();
   /// Depth buffer values in 0..1 of the current picture, bottom row first; call before `finish`.
   std::vector<float> depth() const;
+  /// The picture that `finish` ended, until the next `begin`.
   const std::vector<std::uint8_t>& pixels() const { return pixels_; }
 
  private:
+  // The two that make and drop the buffers of several samples.
   void bind_multisample(int samples);
   void release_multisample();
 
   void* context_ = nullptr;
+  // OSMesa draws straight into it.
   std::vector<std::uint8_t> pixels_;
   int width_ = 0, height_ = 0;
   unsigned frame_ = 0, color_ = 0, depth_ = 0;  ///< multisample buffers; 0: none

@@ -14,7 +14,8 @@ namespace {
 constexpr int kGrainSize = 256;       // texels
 constexpr float kGrainLength = 2.2f;  // [m] that the grain covers before it repeats
 
-/// Noise that repeats after `period` lattice cells.
+/// Noise that repeats after `period` lattice cells. It comes from integers by a hash, so that a picture is the same on
+/// every machine.
 float periodic_noise(float x, float y, int period, std::uint32_t seed) {
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const float tx = smooth_step(0, 1, x - static_cast<float>(ix)), ty = smooth_step(0, 1, y - static_cast<float>(iy));
@@ -47,6 +48,7 @@ void use_vertices(const Mesh& mesh) {
   glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
 }
 
+// Skirts hang from the edges of tiles and hide gaps between levels of detail.
 void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   if (mesh.indices.empty()) return;
   use_vertices(mesh);
@@ -58,7 +60,7 @@ void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   glShadeModel(GL_SMOOTH);
 }
 
-/// Whether any point of the box is at least `distance` from the eye.
+/// Whether any point of the box is at least `distance` from the eye. The farthest corner of the box decides.
 bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
   return (part.low - eye).cwiseAbs().cwiseMax((part.high - eye).cwiseAbs()).norm() >= distance;
 }
@@ -66,6 +68,8 @@ bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
 }  // namespace
 
 void GlDraw::begin(const View& view, const Lighting& lighting) {
+  // Coin keeps its own record of GL's state and would not notice a change, so all of it is saved here and given back by
+  // end().
   glPushAttrib(GL_ALL_ATTRIB_BITS);
   glPushClientAttrib(GL_CLIENT_ALL_ATTRIB_BITS);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -86,9 +90,11 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glDisableClientState(GL_NORMAL_ARRAY);
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
+  // The sky comes at the far end of the depth range, so equal depths must pass.
   glDepthFunc(GL_LEQUAL);
   glClearColor(lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  // Haze in the colour of the horizon, so that what is far away fades into the sky.
   const GLfloat fog[] = {lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1};
   glFogi(GL_FOG_MODE, GL_LINEAR);
   glFogf(GL_FOG_START, kFogStart);
@@ -103,12 +109,15 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
   for (int r = 0; r <= kRings; ++r)
     for (int i = 0; i <= kSides; ++i) {
       const float t = static_cast<float>(r) / kRings;
+      // Rings lie closer together near the horizon, where the colours change most; the dome reaches a little below it.
       const float up = -0.3f + 1.87f * t * t, a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / kSides;
       const Vec3f ray(std::cos(up) * std::cos(a), std::cos(up) * std::sin(a), std::sin(up));
       const float blue = std::pow(std::clamp(ray.z(), 0.0f, 1.0f), 0.55f);
       const float glow = std::pow(std::max(0.0f, ray.dot(lighting.to_sun)), 12.0f);
       Vec3f color = lighting.haze + (lighting.zenith - lighting.haze) * blue;
       color += (Vec3f(1.0f, 0.97f, 0.88f) - color) * 0.45f * glow;
+      // The radius does not matter, as the dome is pushed to the far end of the depth range; it must only lie between
+      // the clipping planes.
       const Vec3f p = view.eye + 100.0f * ray;
       dome.vertices.push_back({p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
       if (r == 0 || i == 0) continue;
@@ -124,6 +133,7 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
 }
 
 void GlDraw::make_grain() {
+  // Three octaves, a little noise at every texel and a few pebbles; made once, and it repeats without a seam.
   std::vector<std::uint8_t> texels(kGrainSize * kGrainSize);
   for (int y = 0; y < kGrainSize; ++y)
     for (int x = 0; x < kGrainSize; ++x) {
@@ -140,6 +150,7 @@ void GlDraw::make_grain() {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE,
                texels.data());
+  // Far away the grain must blend into its mean, or it would flicker.
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -171,9 +182,11 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   glActiveTexture(GL_TEXTURE1);
   if (shadow_ == 0) glGenTextures(1, &shadow_);
   glBindTexture(GL_TEXTURE_2D, shadow_);
+  // The mask is a picture of 512 x 512 texels; it is sent anew only when the casters have moved.
   if (shadow_version_ != shadows.version()) {
     shadow_version_ = shadows.version();
-    // What is left of level ground's light without the sun.
+    // What is left of level ground's light without the sun. A shadow is not black: the sky still lights it, so colours
+    // go from that share up to themselves.
     const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
     const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
     std::array<std::array<std::uint8_t, 4>, 256> tone;
@@ -188,6 +201,7 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  // Beyond the map everything is lit; its margin is kept lit for that.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
@@ -201,11 +215,14 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, cons
                     const Lighting& lighting) {
   bind_grain();
   if (!shadows.empty()) bind_shadow(shadows, lighting);
+  // Walls after tops, as the grain lies otherwise on them and the texture's planes are set once for all tiles.
   for (const bool walls : {false, true}) {
     if (walls) lay_grain(true);
     glActiveTexture(GL_TEXTURE1);
     for (const GroundPart& part : parts) {
       if (walls && part.mesh->walls.empty()) continue;
+      // A tile that no shadow reaches, or that is near, is drawn without the unit: software GL pays for it at every
+      // pixel.
       set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
       set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
       if (!walls) draw(*part.mesh, part.skirts);
@@ -214,6 +231,7 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, cons
       elements(part.mesh->walls);
     }
   }
+  // What follows, lumps and sky, has no texture.
   for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
     glActiveTexture(unit);
     glDisable(GL_TEXTURE_2D);
@@ -235,6 +253,7 @@ void GlDraw::end() {
   glPopMatrix();
   glMatrixMode(GL_MODELVIEW);
   glPopMatrix();
+  // Attributes last, as they hold the matrix mode.
   glPopClientAttrib();
   glPopAttrib();
 }

@@ -13,6 +13,7 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
 
+  /// The three bytes of one pixel; (0, 0) is the upper left. Nothing is checked.
   const std::uint8_t* pixel(int x, int y) const {
     return rgb.data() +
            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
@@ -24,6 +25,7 @@ struct DepthImage {
   int width = 0, height = 0;
   std::vector<float> depth;
 
+  /// Distance at one pixel, counted as in Image.
   float at(int x, int y) const {
     return depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
   }
@@ -33,6 +35,7 @@ struct DepthImage {
 std::vector<char> encode_png(const Image& image);
 /// Writes `path` atomically (old or new, never half). @throws FileError naming path and cause (disk full).
 void write_png(const std::string& path, const Image& image);
+/// Any kind of PNG is turned into three bytes a pixel.
 /// @throws FileError when missing, Error when it is no readable PNG.
 Image read_png(const std::string& path);
 

@@ -11,32 +11,41 @@
 
 namespace navvy::render {
 
-/// Makes one mesh of all visible particles. Cost grows with the particles on the outside of the soil.
+/// Makes one mesh of all visible particles. Cost grows with the particles on the outside of the soil. It hides what
+/// nobody can see: particles shut in by others, and those outside the picture.
 class ParticleMesh {
  public:
+  /// Above it lumps are drawn with eight faces instead of twenty, however large they are [triangles].
   static constexpr int kTriangleBudget = 100000;
 
   /// Positions, sizes and colours follow from the particle's number (or id), so that a lump keeps its looks.
+  /// @throws Error when the frame's arrays do not fit each other.
   const Mesh& build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
                     const GroundSurface& surface, const View& view);
+  /// Lumps in the mesh of the last `build`.
   int drawn() const { return drawn_; }
 
  private:
+  // A lump that will be drawn: where, which way is out of the heap, and how much of the sky it sees.
   struct Lump {
     Vec3f center, outward;
     float open, distance;
     std::uint32_t seed;
     std::uint8_t soil;
   };
+  // The set of cells that hold particles, for the three questions below.
   void fill_table(const scene::FrameParticles& particles);
   bool occupied(std::int32_t x, std::int32_t y, std::int32_t z) const;
+  // Whether the cells towards the eye are all taken.
   bool hidden(const Vec3f& local, const Vec3f& to_eye) const;
   void look_around(const Vec3f& local, Vec3f& outward, float& open) const;
+  // Adds the lump's corners, lit, and its faces.
   void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting, float sun);
 
   Mesh mesh_;
   std::vector<std::uint64_t> table_;  ///< open addressing; 0 = free
   std::size_t table_mask_ = 0;
+  // Edge of a cell of the set: a particle's width [m].
   float pitch_ = 0.06f;
   std::vector<Lump> lumps_;
   int drawn_ = 0;

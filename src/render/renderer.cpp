@@ -27,7 +27,8 @@
 namespace navvy::render {
 namespace {
 
-/// Something to draw with Coin: a cached body at a pose that may stretch it.
+/// Something to draw with Coin: a cached body at a pose that may stretch it. Two that are equal throw the same shadow,
+/// which is what the comparison is for.
 struct Placed {
   const Shape* shape;
   Eigen::Matrix4f X_WS;
@@ -36,6 +37,7 @@ struct Placed {
 
 SbColor to_coin(const Vec3f& c) { return {c.x(), c.y(), c.z()}; }
 
+// Transposed, for the reason below.
 SbMatrix to_coin(const Eigen::Matrix4f& m) {
   // Coin multiplies row vectors from the left.
   SbMatrix out;
@@ -44,7 +46,8 @@ SbMatrix to_coin(const Eigen::Matrix4f& m) {
   return out;
 }
 
-/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`.
+/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`. The two other axes may turn
+/// about it, as the body is round.
 Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, double radius) {
   const Vec3 side = axis.unitOrthogonal();
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -90,13 +93,17 @@ class Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RenderOptions& options) : options_(options) {
+  // Once a process, whichever renderer comes first.
   static std::once_flag started;
   std::call_once(started, [] { SoDB::init(); });
+  // Coin keeps display lists by context; with one of our own it never finds another renderer's.
   cache_context_ = SoGLCacheContextElement::getUniqueCacheContext();
   root_ = new SoSeparator;
   root_->ref();
+  // Everything below changes from picture to picture, so a cache would be made and thrown away each time.
   root_->renderCaching = SoSeparator::OFF;
   camera_ = new SoPerspectiveCamera;
+  // The aspect ratio is set with each picture's size; Coin must not fit it to the viewport in its own way.
   camera_->viewportMapping = SoCamera::LEAVE_ALONE;
   root_->addChild(camera_);
   environment_ = new SoEnvironment;
@@ -123,6 +130,7 @@ void Renderer::Impl::place(const scene::Frame& frame) {
     if (shape.visual != nullptr) placed_.push_back({&shapes_.get(*shape.visual), shape.X_WV.matrix().cast<float>()});
   for (const scene::FrameCylinder& c : frame.cylinders) {
     const double length = (c.p_rod - c.p_base).norm();
+    // A cylinder that is shut has no axis to draw along.
     if (!(length > 1e-6)) continue;
     const Vec3 axis = (c.p_rod - c.p_base) / length;
     const double barrel = std::clamp(c.barrel_length, 0.0, length);
@@ -132,6 +140,8 @@ void Renderer::Impl::place(const scene::Frame& frame) {
 }
 
 void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lighting) {
+  // The box around all casters in W, from the corners of their own boxes: larger than needed where they are turned,
+  // never smaller.
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
   for (const Placed& p : placed_)
     for (int k = 0; k < 8; ++k) {
@@ -158,6 +168,7 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
   casters_ = placed_;
   falling_ = falling;
   shadow_lighting_ = lighting;
+  // Nothing to throw a shadow: an empty map answers that everything is lit.
   if (!(low.x() <= high.x()) || !options_.shadows) {
     shadows_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
     return;
@@ -195,6 +206,8 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
   camera_->nearDistance = static_cast<float>(View::kNear);
   camera_->farDistance = static_cast<float>(View::kFar);
+  // Three lights and an ambient part imitate the sky above and the light from the ground, so that bodies drawn by Coin
+  // look as if they stood on ground that is lit by shading.h.
   environment_->ambientIntensity = 1.0f;
   environment_->ambientColor = to_coin(Vec3f(0.62f * (lighting.sky + lighting.ground)));
   environment_->fogType = SoEnvironment::HAZE;
@@ -223,6 +236,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   context_.begin(camera.width, camera.height, options_.samples);
   const View view(camera);
   const Lighting lighting = make_lighting(frame.lights);
+  // The ground goes first: whether a particle is falling, and how the sun reaches it, is asked of its surface.
   terrain_.update(frame.ground, lighting);
   const std::size_t known = shapes_.size();
   place(frame);
@@ -240,6 +254,8 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
 
   // Coin draws a body another way the first time (rounding differs): draw new ones once for nothing.
   if (shapes_.size() != known) draw_machines(view, camera, lighting);
+  // Ground first, as it hides most of the sky; machines last, because Coin blends what is transparent over all the
+  // rest.
   draw_.begin(view, lighting);
   draw_.ground(tiles, view, shadows_, lighting);
   draw_.lumps(soil);
@@ -253,6 +269,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
     depth->width = view.width;
     depth->height = view.height;
     depth->depth.resize(w * h);
+    // From the depth buffer's scale, which is finer near the eye, to metres along the camera's axis.
     constexpr double kNear = View::kNear, kFar = View::kFar;
     for (std::size_t y = 0; y < h; ++y)
       for (std::size_t x = 0; x < w; ++x) {

@@ -9,6 +9,7 @@
 
 namespace navvy::render {
 
+/// What a caller chooses once; it holds for all pictures of a Renderer.
 struct RenderOptions {
   int samples = 1;              ///< per pixel, 1 or 4; 4 smooths edges and costs about two to three times the time
   bool surroundings = true;     ///< ground beyond the site's edge, fading into haze; false: the site stands free
@@ -37,13 +38,14 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws `frame` as `camera` sees it; `depth`, when given, gets the depth picture of the same size.
-  /// The ground's dirty rectangle is trusted when its revision is the successor of the last one drawn; otherwise the
-  /// heights are compared. @throws InputError for a mesh file that cannot be read, Error for an impossible picture
+  /// The ground's changed rectangles are trusted when its revision is the successor of the last one drawn; otherwise
+  /// the heights are compared. @throws InputError for a mesh file that cannot be read, Error for an impossible picture
   /// size.
   Image render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth = nullptr);
 
   const RenderStats& stats() const;
 
+  // Coin's and GL's headers stay in the source.
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

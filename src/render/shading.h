@@ -22,6 +22,7 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 16);
 
+/// The light of a scene, as factors of a surface's colour. `to_sun` is a unit vector in W.
 struct Lighting {
   Vec3f to_sun = Vec3f(0.5f, -0.35f, 0.8f).normalized();
   Vec3f sun = Vec3f(0.95f, 0.92f, 0.84f);
@@ -33,7 +34,8 @@ struct Lighting {
   bool operator==(const Lighting&) const = default;
 };
 
-/// The first light is the sun; none: the default of scene::Light.
+/// The first light is the sun; none: the default of scene::Light. There is one sun; lights after the first are not
+/// drawn.
 Lighting make_lighting(const std::vector<scene::Light>& lights);
 
 /// Colour of a matt surface; `sun` is the share of the sun that reaches it, `open` the share of the sky.
@@ -44,15 +46,18 @@ inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& norm
   return albedo.cwiseProduct(light.sun * direct + ambient * open);
 }
 
+/// A factor of 0 to 1 as a byte, rounded; what lies outside is cut off.
 inline std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
+/// 0 below `low`, 1 above `high`, without a kink at either.
 inline float smooth_step(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
   return t * t * (3.0f - 2.0f * t);
 }
 
+/// Mixes all bits of a number into all others: neighbouring numbers give unlike ones. No secret, only spread.
 inline std::uint32_t hash_u32(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -62,13 +67,13 @@ inline std::uint32_t hash_u32(std::uint32_t x) {
   return x;
 }
 
-/// Uniform in 0..1 from integers.
+/// Uniform in 0..1 from integers. The upper 24 bits count, so that every value is a float exactly.
 inline float hash_unit(std::uint32_t x, std::uint32_t y = 0, std::uint32_t z = 0) {
   const std::uint32_t h = hash_u32(x + 0x9e3779b9u * hash_u32(y + 0x85ebca6bu * hash_u32(z)));
   return static_cast<float>(h >> 8) * (1.0f / 16777216.0f);
 }
 
-/// Smooth noise of unit wavelength, -1..1.
+/// Smooth noise of unit wavelength, -1..1. Continuous, also in its slope.
 float value_noise(float x, float y, std::uint32_t seed);
 
 }  // namespace navvy::render

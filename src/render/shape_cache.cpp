@@ -43,6 +43,7 @@ void add_face(Body& body, std::initializer_list<std::int32_t> face) {
   indices.push_back(-1);
 }
 
+// Corners counted by bits, so that a face is a list of four numbers; all faces turn outwards.
 Body box(const Vec3f& size, const Look& look) {
   Body b;
   b.parts.push_back({look, {}});
@@ -58,6 +59,7 @@ Body box(const Vec3f& size, const Look& look) {
 Body cylinder(float radius, float length, const Look& look, int sides = 28) {
   Body b;
   b.parts.push_back({look, {}});
+  // The side's corners come in pairs, lower and upper; the two middles of the ends follow at 2 sides.
   for (int i = 0; i < sides; ++i) {
     const float a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / static_cast<float>(sides);
     for (const float z : {-0.5f, 0.5f}) b.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z * length);
@@ -79,6 +81,7 @@ Body sphere(float radius, const Look& look) {
   b.parts.push_back({look, {}});
   for (int r = 0; r <= kRings; ++r)
     for (int i = 0; i < kSides; ++i) {
+      // Rings of the poles have all corners in one place; their empty triangles are left out below.
       const double up = kPi * (static_cast<double>(r) / kRings - 0.5), a = 2 * kPi * i / kSides;
       b.points.push_back(
           Vec3(radius * std::cos(up) * std::cos(a), radius * std::cos(up) * std::sin(a), radius * std::sin(up))
@@ -95,6 +98,7 @@ Body sphere(float radius, const Look& look) {
 
 Body read_obj(const std::string& file, const Vec3f& scale, const Look& plain) {
   tinyobj::ObjReaderConfig config;
+  // Faces of more corners need not be flat.
   config.triangulate = true;
   tinyobj::ObjReader reader;
   if (!reader.ParseFromFile(file, config) || reader.GetAttrib().vertices.empty())
@@ -111,6 +115,7 @@ Body read_obj(const std::string& file, const Vec3f& scale, const Look& plain) {
   for (const tinyobj::material_t& m : reader.GetMaterials()) {
     const Vec3f kd(Vec3(m.diffuse[0], m.diffuse[1], m.diffuse[2]).cast<float>());
     const Vec3f ks(Vec3(m.specular[0], m.specular[1], m.specular[2]).cast<float>());
+    // The file's exponent goes to 128, Coin's to 1.
     const auto shine = static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
     b.parts.push_back({{{kd.x(), kd.y(), kd.z(), static_cast<float>(m.dissolve)}, ks, shine}, {}});
   }
@@ -119,6 +124,7 @@ Body read_obj(const std::string& file, const Vec3f& scale, const Look& plain) {
     for (std::size_t f = 0; f < shape.mesh.num_face_vertices.size(); ++f) {
       const std::size_t part = static_cast<std::size_t>(std::max(-1, shape.mesh.material_ids[f]) + 1);
       for (std::size_t k = 0; k < 3; ++k) {
+        // One too large would be read beyond the points.
         const int index = shape.mesh.indices[3 * f + k].vertex_index;
         if (index < 0 || index >= points)
           throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh face", std::to_string(index + 1),
@@ -140,6 +146,7 @@ Body make_body(const scene::Visual& visual) {
       return cylinder(static_cast<float>(g.radius), static_cast<float>(g.length), look);
     case scene::Geometry::Kind::kSphere:
       return sphere(static_cast<float>(g.radius), look);
+    // Drawn as a thin plate of its size.
     case scene::Geometry::Kind::kPlane:
       return box(Vec3(g.size.x(), g.size.y(), 0.002).cast<float>(), look);
     case scene::Geometry::Kind::kMesh:
@@ -191,6 +198,7 @@ Shape make_shape(const Body& body) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < part.indices.size(); ++i) {
       if (part.indices[i] >= 0) continue;
+      // A face with more than three corners is cut into a fan; that is exact for the flat and convex faces made here.
       for (std::size_t k = first + 2; k < i; ++k)
         for (const std::size_t j : {first, k - 1, k})
           triangles.push_back(body.points[static_cast<std::size_t>(part.indices[j])]);
@@ -206,6 +214,7 @@ Shape make_shape(const Body& body) {
 }
 
 std::string name_of(const scene::Visual& visual) {
+  // The whole look as text: numbers to the last digit that a float shows, colours to four.
   const scene::Geometry& g = visual.geometry;
   char text[400];
   std::snprintf(text, sizeof text, "%d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.4g %.4g %.4g %.4g ",

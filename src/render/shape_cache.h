@@ -14,14 +14,17 @@ class SoNode;
 namespace navvy::render {
 
 /// A body in its visual's frame: Coin nodes to draw and triangles (three points each) that throw shadows; those of
-/// solid parts throw it only where they face the sun.
+/// solid parts throw it only where they face the sun. The node is held by a reference of Coin's, which the cache gives
+/// back at its end.
 struct Shape {
   SoNode* node = nullptr;
   std::vector<Vec3f> solid_triangles, open_triangles;
+  // Box of all points, in the visual's frame.
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
 };
 
-/// Bodies by what they look like (geometry, file, scale, colour), so that equal wheels share one.
+/// Bodies by what they look like (geometry, file, scale, colour), so that equal wheels share one. Nothing is ever
+/// dropped: a scene has some tens of looks.
 class ShapeCache {
  public:
   ShapeCache() = default;
@@ -31,8 +34,10 @@ class ShapeCache {
 
   /// @throws InputError naming the mesh file that cannot be read.
   const Shape& get(const scene::Visual& visual);
-  /// Barrel (radius 1) or rod along +x from 0 to 1.
+  /// Barrel (radius 1) or rod along +x from 0 to 1. Of unit radius and length, to be stretched between two pins; both
+  /// are made at their first use.
   const Shape& cylinder_along_x(bool rod);
+  /// Number of bodies that were made.
   std::size_t size() const { return shapes_.size(); }
 
  private:

@@ -14,6 +14,7 @@ namespace {
 class Pieces {
  public:
   explicit Pieces(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  // With halving of paths, so that a million edges stay cheap.
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -24,7 +25,8 @@ class Pieces {
   std::vector<std::size_t> parent_;
 };
 
-/// Six times the volume between a face (as a fan) and the origin.
+/// Six times the volume between a face (as a fan) and the origin. In doubles, as volumes far from the origin are
+/// differences of large numbers.
 double fan_volume(const std::vector<Vec3f>& points, std::span<const std::int32_t> face) {
   const auto point = [&](std::size_t k) -> Vec3 { return points[static_cast<std::size_t>(face[k])].cast<double>(); };
   double volume = 0;
@@ -35,6 +37,7 @@ double fan_volume(const std::vector<Vec3f>& points, std::span<const std::int32_t
 }  // namespace
 
 bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>& indices) {
+  // Points that were written twice, as exporters do along seams, would look like open edges.
   std::map<std::array<float, 3>, std::size_t> number;
   std::vector<std::size_t> merged;
   merged.reserve(points.size());
@@ -54,6 +57,7 @@ bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>&
     for (std::size_t k = 0; k < face.size(); ++k) {
       const std::size_t a = merged[static_cast<std::size_t>(face[k])];
       const std::size_t b = merged[static_cast<std::size_t>(face[(k + 1) % face.size()])];
+      // An edge that two faces share is walked once each way, so a closed body comes out even everywhere.
       ++walks[{a, b}];
       --walks[{b, a}];
       pieces.join(a, b);
@@ -63,6 +67,7 @@ bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>&
     if (balance != 0) return false;
   for_each_face([&](std::span<const std::int32_t> face) {
     if (!face.empty()) volume[pieces.find(merged[static_cast<std::size_t>(face[0])])] += fan_volume(points, face);
+    // A body turned inside out has negative volume; its inner side would be drawn and its outer one left out.
   });
   for (const auto& [piece, size] : volume)
     if (!(size > 0)) return false;
