@@ -17,8 +17,7 @@
 // 2. A field that save() holds and hash() does not is either state (visit it plainly; the hash of that part changes) or
 //    belongs in `unhashed` with the reason why two runs that differ in it go on alike.
 // 3. A value that must be what the scene says (number of tools, size of the site) is a `constant`; a vector whose
-// length
-//    the scene sets is `fixed`. Checks of ranges become `ranged` or `require`, which names the field.
+//    length the scene sets is `fixed`. Checks of ranges become `ranged` or `require`, which names the field.
 // 4. What lives in a foreign object (a Bullet body, a device buffer) goes through `property(name, get, set)`.
 // 5. Virtual interfaces take `virtual void visit(Archive& a) = 0`. A class behind a pointer to its state visits that.
 // 6. Delete hash(), save() and load(); callers use `hash_of`, `saved` and `load_saved` of core/saved_state.h. While a
@@ -44,8 +43,11 @@ namespace navvy {
 template <class T>
 inline constexpr bool kPlain =
     (std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= sizeof(std::uint64_t)) || std::is_enum_v<T>;
+/// Arrays have no gaps between their elements, so they are as plain as what they hold.
 template <class T, std::size_t N>
 inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
+/// Matrices of fixed size whose storage is their elements and nothing else; an alignment that adds bytes makes them
+/// another kind.
 template <class T, int R, int C, int O>
 inline constexpr bool kPlain<Eigen::Matrix<T, R, C, O, R, C>> = kPlain<T>&& R > 0 && C > 0 &&
                                                                 sizeof(Eigen::Matrix<T, R, C, O, R, C>) ==
@@ -58,6 +60,7 @@ inline constexpr bool kPlain<Eigen::Matrix<T, R, C, O, R, C>> = kPlain<T>&& R > 
 /// Hashing and saving only read, loading only writes; a visit asks `loading()` where it must know.
 class Archive {
  public:
+  // A visit is handed a reference; a copy would have a path and a place in the bytes of its own.
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
   virtual ~Archive() = default;
@@ -67,49 +70,60 @@ class Archive {
 
   /// One field: a number, bool or enum, std::string, Eigen matrix of fixed size, quaternion or Pose, a class with a
   /// member `visit(Archive&)` or a function `visit(Archive&, T&)` beside it, or std::array, vector, optional, variant,
-  /// pair, map or set of those. Containers are replaced when loading.
+  /// pair, map or set of those. Containers are replaced when loading. A field whose type has no part here does not
+  /// compile; give it a `visit`, or use `property`.
   /// @throws InputError naming the field, when loading meets the end of the section, a bool that is neither 0 nor 1 or
   /// keys that do not ascend.
   template <class T>
   void operator()(const char* name, T& field);
 
-  /// A number or enum that must lie from `low` to `high` when it is loaded; NaN does not.
+  /// A number or enum that must lie from `low` to `high` when it is loaded; NaN does not. Saving and hashing do not
+  /// look at the range.
   /// @throws InputError naming the field.
   template <class T>
   void ranged(const char* name, T& field, const std::type_identity_t<T>& low, const std::type_identity_t<T>& high);
 
-  /// A vector whose length the scene has set before: only its elements are state.
+  /// A vector whose length the scene has set before: only its elements are state. For arrays that other arrays are
+  /// sized by.
   /// @throws InputError when another length was saved.
   template <class T>
   void fixed(const char* name, std::vector<T>& field);
 
-  /// A value that never changes during a run but must be equal where a state is loaded. It is saved, not hashed.
+  /// A value that never changes during a run but must be equal where a state is loaded. It is saved, not hashed. It is
+  /// saved so that a state of another scene is refused with a reason, before its fields are read into arrays that do
+  /// not fit.
   /// @throws InputError with `rule` when another value was saved.
   template <class T>
   void constant(const char* name, const T& value, const std::string& rule);
 
-  /// A field behind functions: `get()` answers its value, `set(value)` takes the loaded one.
+  /// A field behind functions: `get()` answers its value, `set(value)` takes the loaded one. `get` is not called while
+  /// loading, `set` at no other time; so an object that is only made when loaded can be behind it. The type of the
+  /// value is that of `get`.
   template <class Get, class Set>
   void property(const char* name, const Get& get, const Set& set);
 
   /// Fields that are saved but change nothing a run computes afterwards; `reason` says why, and stands in the byte map.
+  /// Fields under it that a run depends on would let two runs part unseen, so the reason is part of the review.
   template <class Body>
   void unhashed(const char* reason, const Body& body);
 
-  /// A tagged part of the state with a version of its own. A tag has 1 to 15 characters, else Error is thrown.
+  /// A tagged part of the state with a version of its own. A tag has 1 to 15 characters, else Error is thrown. Versions
+  /// are of sections and not of the whole state, so that a change in one class leaves the others' alone.
   /// @throws InputError when loading finds another tag or version, or the body reads more or less than was saved.
   template <class Body>
   void section(const char* tag, std::uint32_t version, const Body& body);
 
   /// For containers that an archive does not know: takes the number of elements, answers the saved one when loading;
-  /// then `item(i, ...)` once each.
+  /// then `item(i, ...)` once each. The archive then knows nothing of the container; the caller makes room for what is
+  /// loaded.
   /// @throws InputError for a number beyond the bytes left, before anything is allocated.
   std::uint64_t size(const char* name, std::uint64_t present);
   /// Element `number`; its place stands in the names of the fields that `body` visits.
   template <class Body>
   void item(std::uint64_t number, const Body& body);
 
-  /// While loading, refuses the state unless `good`; at other times does nothing.
+  /// While loading, refuses the state unless `good`; at other times does nothing. For rules among several fields, after
+  /// they were visited; for one field `ranged` says more.
   /// @throws InputError naming `field` and `rule`.
   void require(bool good, const char* field, const std::string& rule);
 
@@ -120,6 +134,7 @@ class Archive {
   // What the kinds of archive do with bytes. `data` is only read unless the archive loads.
   virtual void scalar(void* data, std::size_t size) = 0;  ///< one number, at most 8 bytes
   virtual void block(void* data, std::size_t size) = 0;   ///< many side by side
+  // Sections nest; the four answer for the bytes, the templates above for types.
   virtual void begin_section(const char* tag, std::uint32_t version) = 0;
   virtual void end_section() = 0;
   /// Bytes that are left to load in the innermost section.
@@ -134,6 +149,7 @@ class Archive {
   [[noreturn]] void fail(const std::string& rule) const;
 
  private:
+  // The parts of types need the bytes and the path, which nobody else does.
   friend struct ArchiveParts;
   class Scope;     // one step deeper in the path, while it lives
   class Unhashed;  // keeps fields out of the hash, while it lives
@@ -142,9 +158,12 @@ class Archive {
     std::uint64_t number = 0;
   };
 
+  // Settled at the start: an archive never turns from saving to loading.
   const bool loading_;
+  // How deep `unhashed` and `constant` are nested.
   int unhashed_ = 0;
   const char* reason_ = "";
+  // From the outermost to the field at hand; kept as pointers and numbers, so that a visit puts no text together.
   std::vector<Place> places_;
 };
 

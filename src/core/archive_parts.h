@@ -21,6 +21,7 @@ template <class T>
 concept Visitable = requires(T& object, Archive& archive) {
   object.visit(archive);
 };
+/// The other way: for types of foreign libraries, and for structs of data that shall not know archives.
 template <class T>
 concept VisitableBeside = requires(T& object, Archive& archive) {
   visit(archive, object);
@@ -31,12 +32,15 @@ concept VisitableBeside = requires(T& object, Archive& archive) {
 /// end in reverse order of its beginning, which is why it can only live on the stack and cannot be copied.
 class Archive::Scope {
  public:
+  /// A named field, or the tag of a section.
   Scope(Archive& archive, const char* name) : archive_(archive) { archive_.places_.push_back({name, 0}); }
+  // An element of a container, by its place; it costs no text either.
   Scope(Archive& archive, std::uint64_t number) : archive_(archive) { archive_.places_.push_back({nullptr, number}); }
   ~Scope() { archive_.places_.pop_back(); }
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
+  // The archive outlives every scope on it, as scopes live within a visit.
  private:
   Archive& archive_;
 };
@@ -57,6 +61,7 @@ class Archive::Unhashed {
   Unhashed(const Unhashed&) = delete;
   Unhashed& operator=(const Unhashed&) = delete;
 
+  // What held before, for the way back: reasons nest as scopes do.
  private:
   Archive& archive_;
   const char* before_;
@@ -67,7 +72,8 @@ class Archive::Unhashed {
 /// part of every saved state: change one and every section's version has to rise.
 struct ArchiveParts {
   /// A length. Every element takes a byte at least, so a longer one than the bytes left is a lie. Hashed as well, so
-  /// that a list of two and a list of one followed by a number of the same value differ.
+  /// that a list of two and a list of one followed by a number of the same value differ. Where an archive loads, the
+  /// number it is handed is overwritten by the saved one; elsewhere it comes back as it was.
   static std::uint64_t count(Archive& a, std::uint64_t present) {
     a.scalar(&present, sizeof present);
     if (a.loading_ && present > a.left()) a.fail("a length is beyond the end of the section");
@@ -75,7 +81,8 @@ struct ArchiveParts {
   }
 
   /// Numbers, enums and classes. The branches go from the special to the general: a class that has a visit is visited
-  /// even where it could be taken as bytes, since its author said which members count.
+  /// even where it could be taken as bytes, since its author said which members count. Padding is the reason for every
+  /// refusal here: bytes that no member owns would be hashed and saved as noise, and two equal states would differ.
   template <class T>
   static void part(Archive& a, T& v) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -84,6 +91,8 @@ struct ArchiveParts {
       a.scalar(&byte, 1);
       if (a.loading_ && byte > 1) a.fail("must be 0 or 1");
       if (a.loading_) v = byte != 0;
+      // Enums go by their number, so their order is part of the format. A loaded number that is no enumerator is for
+      // the caller to refuse, by `ranged`.
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       static_assert(kPlain<T>, "long double has padding");
       a.scalar(&v, sizeof v);
@@ -109,6 +118,7 @@ struct ArchiveParts {
   /// Column by column: three of the turn, then the place; the last row is always 0 0 0 1. `makeAffine` sets that row
   /// again, which loading did not touch.
   static void part(Archive& a, Pose& X) {
+    // One scalar at a time: the affine matrix has a row that is not saved, so there is no single run of bytes.
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 3; ++r) a.scalar(&X.matrix()(r, c), sizeof(double));
     if (a.loading_) X.makeAffine();
@@ -116,6 +126,7 @@ struct ArchiveParts {
 
   /// As bytes, whatever they spell. No encoding is assumed: whoever shows the text decides what it means.
   static void part(Archive& a, std::string& text) {
+    // While saving, the resize is to the present length and does nothing.
     text.resize(count(a, text.size()));
     a.block(text.data(), text.size());
   }
@@ -129,6 +140,8 @@ struct ArchiveParts {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no elements to refer to; use std::uint8_t");
     const std::uint64_t n = count(a, v.size());
     if (!a.loading_) return elements(a, v);
+    // An element may take eight bytes where `count` has reckoned with one, so the bound is asked again, by division, as
+    // a product could wrap around.
     if constexpr (kPlain<T>) {
       if (n > a.left() / sizeof(T)) a.fail("a length is beyond the end of the section");
       v.resize(n);
@@ -136,6 +149,7 @@ struct ArchiveParts {
     } else {
       v.clear();
       for (std::uint64_t i = 0; i < n; ++i) {
+        // The element's number stands in the path of whatever fails below.
         const Archive::Scope scope(a, i);
         part(a, v.emplace_back());
       }
@@ -147,6 +161,7 @@ struct ArchiveParts {
     elements(a, v);
   }
   /// What lies side by side, in one run where the type allows it: a state of 100 MB is hashed a word at a time then.
+  /// For vectors and arrays, whose elements both lie side by side.
   template <class List>
   static void elements(Archive& a, List& v) {
     if constexpr (kPlain<typename List::value_type>) {
@@ -171,6 +186,7 @@ struct ArchiveParts {
   /// constructor first, so nothing of what the object held before survives.
   template <class T>
   static void part(Archive& a, std::optional<T>& v) {
+    // A bool of its own and not a byte of the format's, so the check of 0 or 1 is that of `part`.
     bool held = v.has_value();
     part(a, held);
     if (a.loading_) v = held ? std::optional<T>(std::in_place) : std::nullopt;
@@ -182,6 +198,8 @@ struct ArchiveParts {
   template <class... T>
   static void part(Archive& a, std::variant<T...>& v) {
     auto index = static_cast<std::uint32_t>(v.index());
+    // Compared before it is used: an index from a damaged file would choose nothing and leave the old alternative with
+    // new bytes.
     a.scalar(&index, sizeof index);
     if (a.loading_ && index >= sizeof...(T)) a.fail("names an alternative that does not exist");
     if (a.loading_) emplace(v, index, std::index_sequence_for<T...>());
@@ -202,6 +220,7 @@ struct ArchiveParts {
       load_keys<K>(a, v, [&](K key) { part(a, v.emplace_hint(v.end(), std::move(key), V{})->second); });
       return;
     }
+    // Saving and hashing walk the map as it is; the numbers of elements serve the path only.
     count(a, v.size());
     std::uint64_t i = 0;
     for (auto& [key, value] : v) {
@@ -231,10 +250,13 @@ struct ArchiveParts {
   /// the end from ever searching, and makes what is loaded the same container that was saved, bit for bit.
   template <class K, class Container, class Add>
   static void load_keys(Archive& a, Container& v, const Add& add) {
+    // What was in it before is gone: a loaded state is the whole of what it says.
     v.clear();
+    // Nothing is present yet, so the number handed in means nothing.
     const std::uint64_t n = count(a, 0);
     std::optional<K> last;
     for (std::uint64_t i = 0; i < n; ++i) {
+      // The key and its value are one element of the path.
       const Archive::Scope scope(a, i);
       K key{};
       part(a, key);
@@ -246,7 +268,8 @@ struct ArchiveParts {
 };
 
 // What follows are the members of Archive that know types. Each opens the field's scope first, so that everything that
-// goes wrong below it is told with the field's name.
+// goes wrong below it is told with the field's name. The one below is what most visits consist of; the others are for
+// fields that need a word more.
 template <class T>
 void Archive::operator()(const char* name, T& field) {
   const Scope scope(*this, name);
@@ -295,12 +318,14 @@ void Archive::property(const char* name, const Get& get, const Set& set) {
 
 template <class Body>
 void Archive::unhashed(const char* reason, const Body& body) {
+  // For as long as the body runs, also when it throws.
   const Unhashed silent(*this, reason);
   body();
 }
 
 template <class Body>
 void Archive::section(const char* tag, std::uint32_t version, const Body& body) {
+  // The tag is in the path, so that an error names the section even where its head is wrong.
   const Scope scope(*this, tag);
   begin_section(tag, version);
   // An exception leaves the section open; the archive is of no use then.

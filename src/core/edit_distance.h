@@ -13,7 +13,8 @@ namespace navvy {
 /// looks.
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The one of `names` most like `wanted`, the first of equals; empty without names.
+/// The one of `names` most like `wanted`, the first of equals; empty without names. It answers however unlike the two
+/// are: whether the name is worth telling is for the caller to say.
 std::string nearest_name(const std::vector<std::string>& names, const std::string& wanted);
 
 }  // namespace navvy

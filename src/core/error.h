@@ -29,7 +29,8 @@ struct Fault {
   std::string rule;     ///< what is allowed
   std::string remedy;   ///< what to do
 
-  /// `file:line: error: element: value 'x': rule (remedy)`.
+  /// `file:line: error: element: value 'x': rule (remedy)`. One fault without a line's end, ready for a terminal or a
+  /// log.
   std::string text() const;
 };
 
@@ -39,7 +40,9 @@ class InputError : public Error {
  public:
   // Give it one fault at least. Its order is that of discovery, which for a file is from the top down.
   explicit InputError(std::vector<Fault> faults);
+  /// For readers that meet one fault and cannot go on.
   explicit InputError(Fault fault);
+  /// For programs that show faults one by one, and for tests.
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:

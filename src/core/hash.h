@@ -18,16 +18,20 @@ namespace navvy {
 /// it. It is the same on every little-endian machine.
 class StateHash {
  public:
-  /// The length is part of it: an array of zeros hashes differently from a longer one.
+  /// The length is part of it: an array of zeros hashes differently from a longer one. So an
+  /// array that is fed in parts gives another hash than fed at once.
   void bytes(const void* data, std::size_t size) {
+    // First of all, so that bytes that move from one array to its neighbour change the hash.
     mix(size);
     const auto* p = static_cast<const unsigned char*>(data);
     // Eight bytes at a time keeps hashing a 100 MB state affordable; the tail goes bytewise.
     for (; size >= 8; size -= 8, p += 8) {
+      // Copied, as the data may lie at any address.
       std::uint64_t word;
       std::memcpy(&word, p, 8);
       mix(word);
     }
+    // One byte a round for the few that are left.
     for (; size > 0; --size, ++p) mix(*p);
   }
   /// One number or enum, widened to a word with zeros above, so that its type does not show: an int of 1 and a byte of
@@ -52,6 +56,7 @@ class StateHash {
     state_ *= 0x100000001b3ULL;
     state_ ^= state_ >> 29;  // FNV alone leaves high bits of a 64-bit word in the high half
   }
+  // FNV's offset for 64 bits: a state of nothing does not hash to zero.
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 

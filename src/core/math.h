@@ -21,7 +21,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 /// Rigid pose; `X_WB * p_B` is the point p given in B, expressed in W. Names carry their frames: X_WB takes B to W,
 /// v_WB is the velocity of B measured and expressed in W. There is no scale in it, and code that builds one must keep
-/// the turn orthonormal.
+/// the turn orthonormal. Composition reads like a chain of frames: X_WB * X_BC is X_WC.
 using Pose = Eigen::Isometry3d;
 
 // Standard gravity rounded to two decimals, what scenes default to; the solver takes what the scene says.
@@ -29,6 +29,7 @@ inline constexpr double kGravity = 9.81;  ///< [m/s^2]
 inline constexpr double kPi = std::numbers::pi;
 /// Angles are radians everywhere inside; degrees occur at the edges only, in files, options and prints.
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+/// For prints and files only.
 inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 
 /// Mass is counted in integers of this quantum [kg], a power of two so that float holds a particle's mass exactly.
@@ -44,6 +45,7 @@ inline std::int64_t mass_units(double kg) { return static_cast<std::int64_t>(std
 /// pitch about y, then yaw about z, all about the axes of the parent frame.
 inline Pose make_pose(double x, double y, double z, double roll = 0, double pitch = 0, double yaw = 0) {
   Pose X = Pose::Identity();
+  // Yaw stands on the left, as it is the last to turn.
   X.linear() = (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
                 Eigen::AngleAxisd(roll, Vec3::UnitX()))
                    .toRotationMatrix();

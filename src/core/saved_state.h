@@ -34,6 +34,7 @@ struct ByteMap {
 /// What the functions below do for every type. Type-erased, so that the archives themselves are compiled once. The call
 /// through std::function is paid once an object, not once a field. `save` takes a null map where none is wanted.
 namespace saved_state {
+// A visit without its object's type.
 using Visit = std::function<void(Archive&)>;
 void hash(StateHash& sum, const Visit& visit);
 std::vector<char> save(const Visit& visit, ByteMap* map);
@@ -56,7 +57,7 @@ void add_to_hash(StateHash& sum, const T& object) {
 }
 
 /// Hash of one object's state: `.digest()` or `.hex()`. One number for tests and prints; a world feeds its parts to one
-/// sum instead.
+/// sum instead. Costs one pass over the object's numbers, no memory.
 template <class T>
 StateHash hash_of(const T& object) {
   StateHash sum;
@@ -66,7 +67,7 @@ StateHash hash_of(const T& object) {
 
 /// The bytes of one object's state; with a `map`, which field each belongs to (slow: a text a field). The map is
 /// cleared by nobody: hand in a new one. The bytes carry no length of their own; whoever writes them to a file frames
-/// them.
+/// them. Costs one pass and the bytes, which grow as they come.
 /// @throws Error for a section whose tag is empty or too long.
 template <class T>
 std::vector<char> saved(const T& object, ByteMap* map = nullptr) {
@@ -74,7 +75,8 @@ std::vector<char> saved(const T& object, ByteMap* map = nullptr) {
 }
 
 /// Loads an object from what `saved` answered. Input of any length and content is safe: nothing is read beyond the end,
-/// and memory follows the bytes that are there. The object's own `require`s decide whether their content is.
+/// and memory follows the bytes that are there. The object's own `require`s decide whether their content is. Costs the
+/// bytes and one pass.
 /// @throws InputError naming the field, also when bytes are left over; the object is then half loaded and must be
 /// loaded again or thrown away.
 template <class T>

@@ -12,9 +12,11 @@ class Stopwatch {
  public:
   /// Reading it does not stop it; ask as often as you like.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Starts again from zero.
   void restart() { start_ = Clock::now(); }
 
  private:
+  // Never the time of day, which jumps when the clock is set.
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
@@ -30,6 +32,7 @@ class Lap {
   Lap& operator=(const Lap&) = delete;
 
  private:
+  // Written to once, at the end; reading the sum before gives the laps that are over.
   double& sum_;
   Stopwatch watch_;
 };
