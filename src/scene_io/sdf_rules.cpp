@@ -34,11 +34,14 @@ constexpr const char* kLook = "only changes the look";
 
 // One line an element: parent, name, what we do with it, what its text must be, range, reason.
 const Rule kRules[] = {
+    // Files hold a world, or a single model of a machine; soils are extension elements.
     {"sdf", "world"},
     {"sdf", "model"},
     {"sdf", "light", kWarn, Type::kAny, kAnyRange, "a light belongs into a world"},
     {"sdf", "actor", kError, Type::kAny, kAnyRange, "actors are not supported"},
 
+    // What surrounds a machine in Gazebo: ignoring it leaves the machine as it is, but for wind and what would add
+    // bodies.
     {"world", "include"},
     {"world", "model"},
     {"world", "gravity", kUsed, Type::kNumbers3, {-100, 100}},
@@ -58,6 +61,7 @@ const Rule kRules[] = {
     {"world", "state", kError, Type::kAny, kAnyRange, "saved states of Gazebo cannot be loaded"},
     {"world", "frame", kError, Type::kAny, kAnyRange, "frames are supported in models only; give poses in the world"},
 
+    // A machine from a file of its own; what is said here holds for this world alone.
     {"include", "uri", kUsed, Type::kText},
     {"include", "name", kUsed, Type::kText},
     {"include", "pose", kUsed, Type::kPose},
@@ -65,6 +69,7 @@ const Rule kRules[] = {
     {"include", "placement_frame", kError, Type::kText, kAnyRange, "not supported; place the model's origin"},
     {"include", "plugin", kError, Type::kAny, kAnyRange, "plugins are not run; use navvy:program"},
 
+    // Only directional lights are drawn, and the first as the sun; what refines a light changes no pixel's meaning.
     {"light", "direction", kUsed, Type::kNumbers3},
     {"light", "diffuse", kUsed, Type::kColor, {0, 1}},
     {"light", "pose", kWarn, Type::kPose, kAnyRange, "a directional light has no place"},
@@ -76,6 +81,7 @@ const Rule kRules[] = {
     {"light", "visualize", kWarn, Type::kAny, kAnyRange, kLook},
     {"light", "light_on", kWarn, Type::kAny, kAnyRange, kLook},
 
+    // A machine. Whatever drives a model in Gazebo is refused, as it would stand still here without a word.
     {"model", "static", kUsed, Type::kFlag},
     {"model", "pose", kUsed, Type::kPose},
     {"model", "link"},
@@ -90,6 +96,7 @@ const Rule kRules[] = {
     {"model", "model", kError, Type::kAny, kAnyRange, "nested models are not supported; copy the links"},
     {"frame", "pose", kUsed, Type::kPose},
 
+    // What changes how a single link moves is refused, as it would move otherwise than its author meant.
     {"link", "pose", kUsed, Type::kPose},
     {"link", "inertial"},
     {"link", "visual"},
@@ -108,6 +115,7 @@ const Rule kRules[] = {
     {"link", "audio_sink", kWarn, Type::kAny, kAnyRange, "there is no sound"},
     {"link", "battery", kWarn, Type::kAny, kAnyRange, "batteries are not simulated"},
 
+    // The lower bounds keep the solver's divisions finite; a body of a milligram in a machine is a slip.
     {"inertial", "mass", kUsed, Type::kNumber, {1e-6, 1e8}},
     {"inertial", "pose", kUsed, Type::kPose},
     {"inertial", "inertia"},
@@ -119,6 +127,7 @@ const Rule kRules[] = {
     {"inertia", "ixz", kUsed, Type::kNumber, {-1e12, 1e12}},
     {"inertia", "iyz", kUsed, Type::kNumber, {-1e12, 1e12}},
 
+    // What a link looks like: nothing here can be wrong in a way that matters to the motion.
     {"visual", "pose", kUsed, Type::kPose},
     {"visual", "geometry"},
     {"visual", "material"},
@@ -140,6 +149,7 @@ const Rule kRules[] = {
     {"material", "double_sided", kWarn, Type::kAny, kAnyRange, kLook},
     {"material", "render_order", kWarn, Type::kAny, kAnyRange, kLook},
 
+    // What touches: friction is one coefficient, and a body neither bounces nor gives way.
     {"collision", "pose", kUsed, Type::kPose},
     {"collision", "geometry"},
     {"collision", "surface"},
@@ -158,6 +168,7 @@ const Rule kRules[] = {
     {"ode", "slip1", kError, Type::kAny, kAnyRange, "not supported"},
     {"ode", "slip2", kError, Type::kAny, kAnyRange, "not supported"},
 
+    // The shapes that both the engine and the pictures know.
     {"geometry", "box"},
     {"geometry", "cylinder"},
     {"geometry", "sphere"},
@@ -179,6 +190,7 @@ const Rule kRules[] = {
     {"plane", "normal", kUsed, Type::kNumbers3},
     {"plane", "size", kUsed, Type::kAny},
 
+    // One axis a joint; what couples or springs joints would change the motion and is refused.
     {"joint", "parent", kUsed, Type::kText},
     {"joint", "child", kUsed, Type::kText},
     {"joint", "pose", kUsed, Type::kPose},
@@ -243,6 +255,8 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
   std::vector<double> numbers;
   bool flag = false;
   Pose pose;
+  // Only that the value can be read is asked for here; its reader takes it later, and what has a fault keeps its
+  // default.
   switch (rule.type) {
     case Type::kNumber:
       read_numbers(element, 1, rule.range, numbers, faults);
@@ -251,6 +265,7 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       read_numbers(element, 3, rule.range, numbers, faults);
       break;
     case Type::kColor:
+      // Alpha may be left out in a colour.
       if (words_of(text_of(element)).size() == 3) {
         read_numbers(element, 3, rule.range, numbers, faults);
       } else {
@@ -279,6 +294,8 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
 
 // Elements that may occur more than once below one parent.
 bool may_repeat(const char* name) {
+  // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
+  // first and drop the others.
   for (const char* repeatable :
        {"model", "include", "light", "link", "joint", "frame", "visual", "collision", "plugin", "sensor", "physics",
         "navvy:soil", "navvy:camera", "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket"})
@@ -290,9 +307,11 @@ void check_names(const Element& element, Faults& faults) {
   const std::string kind = element.Name();
   static const std::set<std::string> named = {"world", "model", "link", "joint", "frame", "visual", "collision"};
   if (named.count(kind) == 0) return;
+  // An element without a name could not be meant by another, nor blamed in a message.
   const std::string name = attribute(element, "name");
   if (name.empty()) {
     faults.error(element, "", "needs an attribute name=\"...\"", "add it");
+    // SDF keeps these for itself: they would name its own frames and scopes.
   } else if (name == "world" || (name.size() > 3 && name.rfind("__", 0) == 0) || name.find("::") != std::string::npos) {
     faults.error(element, name, "'world', names that start with __ and names with :: are reserved", "rename it");
   }
@@ -304,6 +323,7 @@ void check_children(const Element& element, Faults& faults) {
     const char* name = child->Name();
     if (!may_repeat(name) && !once.insert(name).second)
       faults.error(*child, "", "must occur only once", "remove one of them");
+    // Links, joints, frames and nested models share one space of names in SDF; visuals and collisions have one each.
     const bool scoped = std::strcmp(name, "link") == 0 || std::strcmp(name, "joint") == 0 ||
                         std::strcmp(name, "frame") == 0 || std::strcmp(name, "model") == 0;
     const std::string key = scoped ? attribute(*child, "name") : std::string(name) + "/" + attribute(*child, "name");
@@ -321,6 +341,7 @@ void check_sdf(const Element& element, Faults& faults) {
   const char* parent = parent_node ? parent_node->Name() : "";
   const char* name = element.Name();
   if (parent_node && is_extension(element)) {
+    // What is inside an extension element is the business of its own reader; here only its place is judged.
     for (const Extension& extension : kExtensions)
       if (std::strcmp(extension.parent, parent) == 0 && std::strcmp(extension.name, name) == 0) return;
     faults.error(element, "", std::string("unknown extension element in <") + parent + ">",
@@ -336,8 +357,10 @@ void check_sdf(const Element& element, Faults& faults) {
     }
     if (rule->support == Support::kError) faults.error(element, text_of(element), "is not supported", rule->why);
     if (rule->support == Support::kWarn) faults.warning(element, text_of(element), "is ignored", rule->why);
+    // The value is checked also where it is ignored, as a fault there points to a misunderstanding.
     check_value(element, *rule, faults);
     if (rule->support != Support::kUsed) return;
+    // Values have nothing below them; what is ignored is not looked into.
     if (rule->type != Type::kElements) return;
   }
   check_names(element, faults);
@@ -349,6 +372,7 @@ bool is_used_sdf(const Element& element) {
   if (is_extension(element)) return false;
   if (!parent) return true;
   const Rule* rule = find_rule(parent->Name(), element.Name());
+  // Without a rule it is unknown, and check_sdf has said so.
   return rule && rule->support == Support::kUsed;
 }
 
@@ -359,6 +383,7 @@ bool check_root(const Element& root, Faults& faults) {
     return false;
   }
   const std::string version = attribute(root, "version");
+  // libsdformat reads a model by the version that its file names.
   if (version != "1.7" && version != "1.8" && version != "1.9") {
     faults.error(root, version, "the attribute version must be 1.9 (1.7 and 1.8 are understood)");
     return false;

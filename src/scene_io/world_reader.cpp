@@ -63,6 +63,7 @@ scene::Camera read_camera(Element& element, const scene::World& world, Faults& f
   if (camera.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
   require_file_name(element, camera.name, faults);
   if (!camera.machine.empty())
+    // The frame of the two points follows from what is named: nothing, a machine, or a link of it.
     camera.kind = camera.link.empty() ? scene::Camera::Kind::kChase : scene::Camera::Kind::kOnLink;
   if (camera.machine.empty() && !camera.link.empty())
     faults.error(element, camera.link, "a camera on a link needs <machine>, too");
@@ -79,6 +80,7 @@ scene::Camera read_camera(Element& element, const scene::World& world, Faults& f
     return camera;
   }
   const scene::Machine& machine = world.machines[static_cast<std::size_t>(index)].machine;
+  // Without links the machine had faults of its own, which have been reported.
   if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0) return camera;
   for (const scene::Link& link : machine.links) names.push_back(link.name);
   faults.error(*fields.child("link"), camera.link, "no link of this name in the machine",
@@ -88,6 +90,7 @@ scene::Camera read_camera(Element& element, const scene::World& world, Faults& f
 
 void read_light(Element& element, std::vector<scene::Light>& lights, Faults& faults) {
   if (attribute(element, "type") != "directional") {
+    // Point and spot lights would need places and falls of brightness that the pictures do not know.
     faults.warning(element, attribute(element, "type"), "is ignored", "only directional lights are drawn");
     return;
   }
@@ -123,6 +126,7 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::W
                  suggestion(instance.load.soil, names));
   }
   if (!instance.machine.links.empty() && instance.machine.beds.empty())
+    // A machine without links is one that could not be read.
     faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load");
   const int soil = world.soil_index(instance.load.soil);
   if (soil < 0 || instance.machine.beds.empty()) return;

@@ -19,6 +19,7 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
   fault.severity = severity;
   // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
   fault.line = at.GetLineNum();
+  // Only a document that was parsed has lines; without one, the command line is what added the element.
   fault.file = fault.line > 0 ? Document::of(at).file() : "command line";
   fault.element = element_path(at);
   // A value may be a whole broken file; the start of it is enough to find it.
@@ -37,6 +38,7 @@ void Faults::warning(const Element& at, const std::string& value, const std::str
 }
 
 std::size_t Faults::error_count() const {
+  // Counted anew at each call: lists are short, and a counter could get out of step.
   return static_cast<std::size_t>(std::count_if(
       list_.begin(), list_.end(), [](const Fault& fault) { return fault.severity == Fault::Severity::kError; }));
 }
@@ -60,6 +62,7 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
   try {
     const std::vector<char> bytes = read_file(file);
     return parse(std::string(bytes.begin(), bytes.end()), file, faults);
+    // A file that another one names may be missing like any other; the list says so with its name.
   } catch (const FileError& failure) {
     fault.rule = std::string("cannot be read: ") + failure.what();
     fault.remedy = "check the path";
@@ -94,6 +97,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
 }
 
 const Document& Document::of(const Element& element) {
+  // The pointer was set when the document was parsed.
   return *static_cast<const Document*>(element.GetDocument()->GetUserData());
 }
 
@@ -117,6 +121,7 @@ std::string label(const Element& element) {
     if (const char* value = element.Attribute(key)) return name + "[" + value + "]";
   // Without a name: the place among equal siblings, when there are several.
   int place = 1, count = 0;
+  // The outermost element has no siblings to be told from.
   const auto* parent = element.Parent() ? element.Parent()->ToElement() : nullptr;
   if (!parent) return name;
   for (const Element* other = parent->FirstChildElement(element.Name()); other;
@@ -131,6 +136,7 @@ std::string label(const Element& element) {
 std::string element_path(const Element& element) {
   if (std::strcmp(element.Name(), "world") == 0) return "world";
   std::string path = label(element);
+  // Worlds and the outermost element are left out of the names: there is one of each.
   for (const auto* up = element.Parent(); up && up->ToElement(); up = up->Parent()) {
     const Element& parent = *up->ToElement();
     if (std::strcmp(parent.Name(), "sdf") == 0) break;
@@ -167,6 +173,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   // Long words come from broken files; their distance is of no use and would be slow.
   const std::string head = word.substr(0, 64);
   const std::string* best = nullptr;
+  // Half of the word may be wrong, and two letters of a short one; beyond that a suggestion would be a guess.
   std::size_t least = std::max<std::size_t>(2, head.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
     std::size_t distance = edit_distance(head, candidate);
