@@ -17,7 +17,8 @@ struct RenderOptions {
   int triangle_budget = 40000;  ///< most ground triangles of one picture; the level of detail gets coarser to keep it
 };
 
-/// What the last picture took.
+/// What the last picture took: counts of what was drawn, and the host's wall time [ms]. They say nothing of the picture
+/// before it.
 struct RenderStats {
   int ground_triangles = 0, ground_tiles = 0;
   int particles_drawn = 0, particle_triangles = 0;
@@ -43,6 +44,7 @@ class Renderer {
   /// size.
   Image render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth = nullptr);
 
+  /// Of the picture drawn last; zeros before the first.
   const RenderStats& stats() const;
 
   // Coin's and GL's headers stay in the source.

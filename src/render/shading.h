@@ -17,7 +17,9 @@ using Vec3f = Eigen::Vector3f;
 
 /// Point with a lit colour, as handed to GL.
 struct Vertex {
+  // In W [m], as floats: what is drawn lies within a few hundred metres of the origin.
   float x, y, z;
+  // Colours as they go to the screen, alpha unused.
   std::uint8_t r, g, b, a;
 };
 static_assert(sizeof(Vertex) == 16);
@@ -28,6 +30,7 @@ struct Lighting {
   Vec3f sun = Vec3f(0.95f, 0.92f, 0.84f);
   Vec3f sky = Vec3f(0.46f, 0.50f, 0.58f);
   Vec3f ground = Vec3f(0.24f, 0.21f, 0.17f);
+  // Haze and zenith are what the sky is painted with; the haze is also what far ground fades into.
   Vec3f haze = Vec3f(0.78f, 0.83f, 0.88f);    ///< colour of the horizon
   Vec3f zenith = Vec3f(0.28f, 0.47f, 0.74f);  ///< colour of the sky above
 
@@ -39,8 +42,11 @@ struct Lighting {
 Lighting make_lighting(const std::vector<scene::Light>& lights);
 
 /// Colour of a matt surface; `sun` is the share of the sun that reaches it, `open` the share of the sky.
+/// Light and albedo are factors, so what comes out may exceed 1; `to_byte` cuts it off.
 inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& normal, float sun, float open) {
+  // A side that is turned away from the sun gets none of it.
   const float direct = std::max(0.0f, normal.dot(light.to_sun)) * sun;
+  // From 0 looking down to 1 looking up, so that the ambient light changes without an edge.
   const float up = 0.5f + 0.5f * normal.z();
   const Vec3f ambient = light.ground + (light.sky - light.ground) * up;
   return albedo.cwiseProduct(light.sun * direct + ambient * open);
@@ -69,6 +75,7 @@ inline std::uint32_t hash_u32(std::uint32_t x) {
 
 /// Uniform in 0..1 from integers. The upper 24 bits count, so that every value is a float exactly.
 inline float hash_unit(std::uint32_t x, std::uint32_t y = 0, std::uint32_t z = 0) {
+  // The three numbers are mixed one into the other, so that no two of them can cancel.
   const std::uint32_t h = hash_u32(x + 0x9e3779b9u * hash_u32(y + 0x85ebca6bu * hash_u32(z)));
   return static_cast<float>(h >> 8) * (1.0f / 16777216.0f);
 }

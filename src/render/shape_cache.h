@@ -17,6 +17,7 @@ namespace navvy::render {
 /// solid parts throw it only where they face the sun. The node is held by a reference of Coin's, which the cache gives
 /// back at its end.
 struct Shape {
+  // One node for all visuals that look alike; each gets its pose from a parent of its own.
   SoNode* node = nullptr;
   std::vector<Vec3f> solid_triangles, open_triangles;
   // Box of all points, in the visual's frame.
@@ -24,7 +25,8 @@ struct Shape {
 };
 
 /// Bodies by what they look like (geometry, file, scale, colour), so that equal wheels share one. Nothing is ever
-/// dropped: a scene has some tens of looks.
+/// dropped: a scene has some tens of looks. References stay good while the cache lives, as a map does not move what it
+/// holds.
 class ShapeCache {
  public:
   ShapeCache() = default;
