@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/validators.h"
+#include "control/step_kinds.h"
 #include "core/error.h"
 
 namespace navvy::cli {
@@ -92,7 +93,7 @@ scene::World SceneOptions::load() const {
     }
   }
   if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
-  return scene_io::load_world(path, overrides());
+  return scene_io::load_world(path, control::step_kinds(), overrides());
 }
 
 }  // namespace navvy::cli

@@ -4,10 +4,14 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace navvy {
 
 /// Least number of insertions, removals and replacements of characters that turn a into b [Levenshtein 1966].
 std::size_t edit_distance(const std::string& a, const std::string& b);
+
+/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace navvy

@@ -13,11 +13,12 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, Faults& faults) {
+scene::World load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
+                  Faults& faults) {
   scene::World world;
   if (document) {
     apply_overrides(*document, overrides, faults);
-    world = read_world(*document, faults);
+    world = read_world(*document, kinds, faults);
   }
   faults.finish();
   return world;
@@ -25,14 +26,15 @@ scene::World load(std::unique_ptr<Document> document, const Overrides& overrides
 
 }  // namespace
 
-scene::World load_world(const std::string& file, const Overrides& overrides) {
+scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides) {
   Faults faults;
-  return load(Document::open(file, faults), overrides, faults);
+  return load(Document::open(file, faults), kinds, overrides, faults);
 }
 
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides) {
+scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+                                    const Overrides& overrides) {
   Faults faults;
-  return load(Document::parse(text, name, faults), overrides, faults);
+  return load(Document::parse(text, name, faults), kinds, overrides, faults);
 }
 
 scene::Machine load_machine(const std::string& file) {
@@ -62,7 +64,8 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world, const Overrides& overrides) {
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::World>* world,
+                         const Overrides& overrides) {
   Faults faults;
   if (world != nullptr) world->reset();
   const auto document = Document::open(file, faults);
@@ -74,7 +77,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
     read_machine_file(file, faults);
   } else {
     apply_overrides(*document, overrides, faults);
-    scene::World read = read_world(*document, faults);
+    scene::World read = read_world(*document, kinds, faults);
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
   return faults.list();
