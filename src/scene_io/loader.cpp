@@ -14,13 +14,13 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, std::string* resolved,
-                  Faults& faults) {
+scene::World load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
+                  std::string* resolved, Faults& faults) {
   scene::World world;
   if (document) {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
-    world = read_world(*document, faults);
+    world = read_world(*document, kinds, faults);
   }
   faults.finish();
   // Only now: what has a fault cannot be written out.
@@ -30,15 +30,16 @@ scene::World load(std::unique_ptr<Document> document, const Overrides& overrides
 
 }  // namespace
 
-scene::World load_world(const std::string& file, const Overrides& overrides, std::string* resolved) {
+scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides,
+                        std::string* resolved) {
   Faults faults;
-  return load(Document::open(file, faults), overrides, resolved, faults);
+  return load(Document::open(file, faults), kinds, overrides, resolved, faults);
 }
 
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides,
-                                    std::string* resolved) {
+scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+                                    const Overrides& overrides, std::string* resolved) {
   Faults faults;
-  return load(Document::parse(text, name, faults), overrides, resolved, faults);
+  return load(Document::parse(text, name, faults), kinds, overrides, resolved, faults);
 }
 
 scene::Machine load_machine(const std::string& file) {
@@ -68,7 +69,8 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world, const Overrides& overrides) {
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::World>* world,
+                         const Overrides& overrides) {
   Faults faults;
   if (world != nullptr) world->reset();
   const auto document = Document::open(file, faults);
@@ -81,7 +83,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
   } else {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
-    scene::World read = read_world(*document, faults);
+    scene::World read = read_world(*document, kinds, faults);
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
   return faults.list();

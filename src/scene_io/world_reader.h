@@ -7,8 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads the <world> of a document, after the overrides were applied to it.
-scene::World read_world(Document& document, Faults& faults);
+/// Reads the <world> of a document, after the overrides were applied to it. `kinds`: the program steps that are known.
+scene::World read_world(Document& document, const scene::StepKinds& kinds, Faults& faults);
 
 /// Reads the <model> of a machine file; an empty machine after a fault.
 scene::Machine read_machine_file(const std::string& file, Faults& faults);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/edit_distance.h"
 #include "core/error.h"
 
 namespace navvy::scene_io {
@@ -62,9 +63,6 @@ std::string child_text(const Element& element, const char* name);
 /// Value of an attribute; empty when there is none.
 std::string attribute(const Element& element, const char* name);
 bool is_extension(const Element& element);
-
-/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near.
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 /// Whitespace-separated words.
 std::vector<std::string> words_of(const std::string& text);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "control/step_kinds.h"
 #include "device/device.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
@@ -13,7 +14,7 @@ namespace navvy::coupling {
 namespace {
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
-  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", {});
+  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
   scene.ground.depth = 0.4;
   scene.machines.at(0).program = {};
   device::Device device;

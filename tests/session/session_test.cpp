@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from soil.
 #include "session/session.h"
+#include "control/activities/dig/dig.h"
+#include "control/step_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +24,7 @@ scene::World load(const std::string& name, const std::vector<std::string>& setti
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 /// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.
@@ -265,7 +267,11 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
 TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
   scene::World description = load("trench.sdf");
   for (scene::ProgramStep& step : description.machines[0].program.steps)
-    if (auto* dig = std::get_if<scene::Dig>(&step)) dig->from.x() += 4;
+    if (const auto* dig = step.as<control::Dig>()) {
+      control::Dig far = *dig;
+      far.from.x() += 4;
+      step = far;
+    }
   try {
     make(description);
     FAIL() << "a trench 12 m away was accepted";

@@ -4,11 +4,10 @@
 
 #include <vector>
 
-#include "control/arm.h"
+#include "control/activities/dig/dig.h"
 #include "control/surface.h"
 #include "core/hash.h"
 #include "core/state_io.h"
-#include "scene/program.h"
 
 namespace navvy::control {
 
@@ -21,7 +20,7 @@ struct TrenchLine {
 };
 
 /// The trench seen from a machine whose frame S of the swing axis is X_WS.
-TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS);
+TrenchLine trench_line(const Dig& dig, const Pose& X_WS);
 
 /// One scoop along the line, in metres from the near end.
 struct Scoop {
@@ -33,9 +32,10 @@ struct Scoop {
 /// A straight trench: the surface along its line before the dig, what is left above a slice's floor now.
 class DigPlan {
  public:
+  /// Of no trench: holds nothing to dig, to be replaced or loaded into.
   DigPlan() = default;
   /// `scoop_volume`: bank volume of a full bucket [m3].
-  DigPlan(const scene::Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
+  DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
 
   /// The next scoop: the highest slice that still holds a worthwhile share of a bucket, begun at its far end.
   Scoop next(const SurfaceView& surface) const;
@@ -49,8 +49,11 @@ class DigPlan {
   double start_height(double s) const;
   /// Highest soil at `s` on both edges of the cut and half a metre beside, at least the height before the dig [m].
   double highest_beside(const SurfaceView& surface, double s) const;
+  /// W (x, y) on the centre line at `s` [m] from the near end.
   Vec2 point(double s) const { return line_.near + s * along_; }
+  /// [m]
   double length() const { return length_; }
+  /// Of the trench as ordered [m3].
   double design_volume() const { return length_ * dig_.width * dig_.depth; }
 
   void hash(StateHash& hash) const;
@@ -68,7 +71,7 @@ class DigPlan {
   int samples() const { return static_cast<int>(start_.size()); }
   void derive();
 
-  scene::Dig dig_;
+  Dig dig_;
   TrenchLine line_;
   double scoop_volume_ = 0;
   std::vector<double> start_;    // W heights from near to far [m]

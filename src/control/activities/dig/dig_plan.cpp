@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/dig_plan.h"
+#include "control/activities/dig/dig_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,9 @@ constexpr double kWorthLast = 0.15;  // that of the last slice stays
 
 }  // namespace
 
-TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS) {
+TrenchLine trench_line(const Dig& dig, const Pose& X_WS) {
+  // Which end is far, and where the line lies, is seen in plan from the swing axis, as the arm works in planes through
+  // it.
   const auto plan = [&](const Vec2& p) {
     const Vec3 q = X_WS.inverse() * Vec3(p.x(), p.y(), X_WS.translation().z());
     return Vec2(q.x(), q.y());
@@ -36,15 +38,17 @@ TrenchLine trench_line(const scene::Dig& dig, const Pose& X_WS) {
   return line;
 }
 
-DigPlan::DigPlan(const scene::Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface)
+DigPlan::DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface)
     : dig_(dig), line_(line), scoop_volume_(scoop_volume) {
   derive();
   start_.resize(static_cast<std::size_t>(std::max(2, static_cast<int>(std::lround(length_ / kSample)) + 1)));
   for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
+  // Nothing has been refused yet.
   deepest_.assign(start_.size(), dig.depth);
 }
 
 void DigPlan::derive() {
+  // All distances along the trench count from its near end outward.
   length_ = std::max(kSample, (line_.far - line_.near).norm());
   along_ = (line_.far - line_.near) / length_;
 }
@@ -62,6 +66,7 @@ double DigPlan::height(const SurfaceView& surface, double s) const {
 
 double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
   const Vec2 across(-along_.y(), along_.x());
+  // From the wall outward, on both sides.
   double out = start_height(s);
   for (int i = 0; i * kSample <= kBeside + 1e-9; ++i)
     for (const double side : {-1.0, 1.0}) {
@@ -72,18 +77,21 @@ double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
 }
 
 double DigPlan::start_height(double s) const {
+  // Linear between samples, constant beyond the ends.
   const double t = std::clamp(s / length_ * (samples() - 1), 0.0, samples() - 1.0);
   const auto i = static_cast<std::size_t>(std::min(samples() - 2, static_cast<int>(t)));
   return start_[i] + (t - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
 }
 
 double DigPlan::remaining(const SurfaceView& surface, int i, double level) const {
+  // Soil below a refused depth does not count as left.
   const auto k = static_cast<std::size_t>(i);
   return height(surface, at(i)) - start_[k] + std::min(level, deepest_[k]);
 }
 
 void DigPlan::refuse(const SurfaceView& surface, double s) {
   for (int i = 0; i < samples(); ++i) {
+    // Half as far behind the start as ahead of it: the scoop went that way.
     if (at(i) > s + 0.5 * kRefused || at(i) < s - kRefused) continue;
     const auto k = static_cast<std::size_t>(i);
     deepest_[k] = std::min(deepest_[k], start_[k] - height(surface, at(i)));
@@ -95,6 +103,7 @@ double DigPlan::piece_above(const SurfaceView& surface, int i, double level) con
 }
 
 double DigPlan::volume_above(const SurfaceView& surface, double level) const {
+  // The first sample has no piece before it.
   double sum = 0;
   for (int i = 1; i < samples(); ++i) sum += piece_above(surface, i, level);
   return sum;
@@ -105,6 +114,7 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
   const double rest = volume_above(surface, level);
   const double load = rest / std::max(1.0, std::ceil(rest / scoop_volume_ - kOverload));
   double volume = 0;
+  // From the far end on, piece by piece, until the load is full.
   for (int i = start; i > 0; --i) {
     volume += piece_above(surface, i, level);
     if (volume >= load) return at(i);
@@ -113,6 +123,7 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
 }
 
 Scoop DigPlan::next(const SurfaceView& surface) const {
+  // Slices of equal depth; the next one is opened only when the one above holds no worthwhile load.
   const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
   for (int k = 1; k <= slices; ++k) {
     const double level = dig_.depth * k / slices;
@@ -133,6 +144,7 @@ void DigPlan::hash(StateHash& hash) const {
 }
 
 void DigPlan::save(StateWriter& writer) const {
+  // The order is the one of `load`.
   for (const Vec2& p : {dig_.from, dig_.to, dig_.dump_at, line_.near, line_.far}) writer.vec3(Vec3(p.x(), p.y(), 0));
   for (const double v : {dig_.depth, dig_.width, dig_.dump_height, dig_.pass_depth, line_.near_reach, line_.far_reach,
                          line_.swing, line_.offset, scoop_volume_})
