@@ -6,6 +6,7 @@
 #include "control/operator_state.h"
 #include "control/pursuit.h"
 #include "core/log.h"
+#include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
@@ -40,7 +41,8 @@ bool Operator::State::run(const scene::DriveTo& step, const Observation& seen, d
     return true;
   }
   m.speed = std::min({std::abs(step.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
-  out.drive = vehicle::DriveInput{pursuit.sense() * m.speed, pursuit.steer(at), false};
+  const double speed = pursuit.sense() * m.speed;
+  out.drive = vehicle::DriveInput{speed, vehicle::steer_command(machine.drive, pursuit.steer(at), speed), false};
   return false;
 }
 

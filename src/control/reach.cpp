@@ -7,6 +7,7 @@
 #include "control/dig_pose.h"
 #include "control/operator.h"
 #include "control/pursuit.h"
+#include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
@@ -60,7 +61,7 @@ class ReachCheck {
   void look(const scene::DriveTo& drive, Pose& X_WB) {
     const PlanePose start = plane_pose(X_WB);
     const Pursuit pursuit = Pursuit::of(drive, machine_.drive, start);
-    const PlanePose end = pursuit.end_from(start, machine_.drive.steer_rate);
+    const PlanePose end = pursuit.end_from(start, vehicle::equivalent_bicycle(machine_.drive).steer_rate);
     const double miss = (end.p - drive.target).norm();
     if (miss > drive.tolerance)
       fault("drive_to", place(drive.target),

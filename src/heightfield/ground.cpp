@@ -204,6 +204,11 @@ std::uint16_t Ground::surface_soil(int ix, int iy) const {
   return found != nullptr && !found->empty() ? found->back().soil : state_->tiles.start_surface_soil(ix, iy);
 }
 
+double Ground::surface_volume_ratio(int ix, int iy) const {
+  const Column* found = state_->tiles.find_column(std::clamp(ix, 0, nx() - 1), std::clamp(iy, 0, ny() - 1));
+  return found != nullptr && !found->empty() ? found->back().specific_volume : 1;
+}
+
 void Ground::take_above(int ix, int iy, double z, std::vector<Layer>& taken) {
   state_->require_inside(ix, iy);
   if (!(z < height(ix, iy))) return;

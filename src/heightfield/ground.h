@@ -92,6 +92,8 @@ class Ground {
   void start_column(int ix, int iy, std::vector<Layer>& out) const;
   /// Soil index at the surface.
   std::uint16_t surface_soil(int ix, int iy) const;
+  /// Volume / bank volume of the surface's layer [-]; 1 of untouched ground.
+  double surface_volume_ratio(int ix, int iy) const;
   /// Takes off everything above W height z [m] and appends it to `taken`, bottom first; the masses are exact. Leaves
   /// the column's surface at z up to one mass quantum.
   void take_above(int ix, int iy, double z, std::vector<Layer>& taken);

@@ -51,8 +51,8 @@ class ProgramReader {
         .number("pass_depth_m", step.pass_depth, {0.02, 5})
         .whole("max_cycles", step.max_cycles, {1, 100000})
         .finish();
-    const bool can = machine_ && !machine_->buckets.empty() && !machine_->boom_joint.empty() &&
-                     !machine_->stick_joint.empty() && !machine_->bucket_joint.empty();
+    const bool can = machine_ && !machine_->buckets.empty() && !machine_->arm.boom.empty() &&
+                     !machine_->arm.stick.empty() && !machine_->arm.bucket.empty();
     require(element, can, "dig needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, bucket)");
     on_site(fields.child("from_m"), step.from);
     on_site(fields.child("to_m"), step.to);
@@ -68,14 +68,14 @@ class ProgramReader {
   scene::Swing swing(Element& element) {
     scene::Swing step;
     Fields(element, faults_).number("angle_deg", step.angle, {-3600, 3600}, kDegree).required("angle_deg").finish();
-    require(element, machine_ && !machine_->swing_joint.empty(), "swing needs a machine with <navvy:arm>/swing_joint");
+    require(element, machine_ && !machine_->arm.swing.empty(), "swing needs a machine with <navvy:arm>/swing_joint");
     return step;
   }
 
   scene::Dump dump(Element& element) {
     scene::Dump step;
     Fields(element, faults_).number("hold_s", step.hold, {0, 600}).finish();
-    require(element, machine_ && !machine_->bucket_joint.empty(), "dump needs a machine with <navvy:arm>/bucket_joint");
+    require(element, machine_ && !machine_->arm.bucket.empty(), "dump needs a machine with <navvy:arm>/bucket_joint");
     return step;
   }
 

@@ -55,7 +55,7 @@ void add_pump(World& world, int m, const std::string& prefix, Outputs& outputs) 
               [&world, m] { return world.pump(m).pressure; });
 }
 
-void add_drive(World& world, int m, const std::string& prefix, Inputs& inputs) {
+void add_drive(World& world, int m, const scene::Drive& about, const std::string& prefix, Inputs& inputs) {
   // One value of the command changes, the others stay what the engine has: it keeps them through a snapshot.
   const auto change = [&world, m](auto&& what) {
     vehicle::DriveInput command = world.drive(m);
@@ -68,7 +68,7 @@ void add_drive(World& world, int m, const std::string& prefix, Inputs& inputs) {
       command.brake = false;
     });
   });
-  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left"},
+  inputs.add({prefix + "drive/steer", scene::steer_unit(about), scene::steer_meaning(about)},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
   inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases"},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
@@ -141,7 +141,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     add_joints(world, m, prefixes.back(), inputs, outputs);
     const scene::Machine& machine = world.description().machines[i].machine;
     if (machine.has_pump && !machine.kinematic) add_pump(world, m, prefixes.back(), outputs);
-    if (machine.has_drive) add_drive(world, m, prefixes.back(), inputs);
+    if (machine.has_drive) add_drive(world, m, machine.drive, prefixes.back(), inputs);
     add_pose(world, m, prefixes.back(), outputs);
     add_wheels(world, m, prefixes.back(), outputs);
   }

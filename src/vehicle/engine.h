@@ -10,9 +10,12 @@
 #include "core/math.h"
 #include "core/state_io.h"
 #include "scene/machine.h"
+#include "terramechanics/ground_query.h"
+#include "vehicle/drive/drive_input.h"
 
 namespace navvy::vehicle {
 
+/// How a joint is commanded: not at all (it swings freely), to a place, at a rate, or by an effort.
 enum class JointMode { kFree, kPosition, kVelocity, kEffort };
 
 /// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
@@ -22,14 +25,7 @@ struct JointInput {
   double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
 };
 
-/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering. The brake also locks an
-/// oscillating axle; without it the axle swings freely.
-struct DriveInput {
-  double speed = 0;   ///< forward [m/s]
-  double steer = 0;   ///< bicycle angle at the middle of the front axle, positive to the left [rad]
-  bool brake = true;  ///< hold the place
-};
-
+/// A joint as it is after the last step; of a servo without a cylinder the hydraulic part is 0.
 struct JointState {
   double position = 0, velocity = 0, effort = 0;  ///< effort as applied by the servo in the last step
   double effort_limit = 0, velocity_limit = 0;    ///< at this position
@@ -44,12 +40,14 @@ struct PumpState {
   double pressure = 0;  ///< of the heaviest load it moves, smoothed [Pa]
 };
 
+/// Pose and velocity of a link's own frame (scene::Link), axes of W.
 struct LinkState {
   Pose X_WL = Pose::Identity();
   Vec3 v_WL = Vec3::Zero();  ///< of L's origin [m/s]
   Vec3 w_WL = Vec3::Zero();  ///< [rad/s]
 };
 
+/// A wheel after the last step, its tyre's force included. Engines without forces leave force, slip and sinkage 0.
 struct WheelState {
   Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre
   Vec3 v_W = Vec3::Zero();           ///< of the centre [m/s]
@@ -60,18 +58,8 @@ struct WheelState {
   double sinkage = 0;                ///< [m]
 };
 
-/// What is under a wheel or body, answered by whoever owns the ground (coupling: the heightfield; tests: a plane).
-class GroundQuery {
- public:
-  virtual ~GroundQuery() = default;
-  virtual double height(double x, double y) const = 0;  ///< [m]
-  virtual Vec3 normal(double x, double y) const = 0;
-  /// Friction coefficient tyre-ground there [-]; negative: use the tyre's own.
-  virtual double friction(double x, double y) const {
-    (void)x, (void)y;
-    return -1;
-  }
-};
+/// What is under a wheel or body, answered by whoever owns the ground.
+using terramechanics::GroundQuery;
 
 /// Machines of one world, stepped together.
 ///
@@ -134,11 +122,13 @@ class Engine {
     return Vec3::Zero();
   }
 
+  /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have been added alike.
   virtual void hash(StateHash& hash) const = 0;
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 };
 
+/// Dynamics under gravity [m/s2, W]; and positions as commanded, without forces. Neither knows the other's machines.
 std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity);
 std::unique_ptr<Engine> make_kinematic_engine();
 

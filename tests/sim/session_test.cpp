@@ -129,7 +129,7 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
   const Vec3 place = world.link(0, 0).X_WL.translation();
-  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.boom_joint);
+  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
   const double angle = world.joint(0, boom).position;
   StateWriter writer;
   session->save(writer);
