@@ -22,9 +22,9 @@ int require_joint(const scene::Machine& machine, const std::string& name, const 
 }  // namespace
 
 Arm::Arm(const scene::Machine& machine) {
-  swing_ = require_joint(machine, machine.swing_joint, "swing");
-  joints_ = {require_joint(machine, machine.boom_joint, "boom"), require_joint(machine, machine.stick_joint, "stick"),
-             require_joint(machine, machine.bucket_joint, "bucket")};
+  swing_ = require_joint(machine, machine.arm.swing, "swing");
+  joints_ = {require_joint(machine, machine.arm.boom, "boom"), require_joint(machine, machine.arm.stick, "stick"),
+             require_joint(machine, machine.arm.bucket, "bucket")};
   if (machine.buckets.empty())
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:bucket", "",
                            "the machine has no bucket", "describe one in the model"});

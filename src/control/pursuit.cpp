@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/drive/drive_line.h"
+
 namespace navvy::control {
 namespace {
 
@@ -22,11 +24,13 @@ Pursuit Pursuit::of(const DriveGoal& goal, const scene::Drive& drive, const Plan
   Pursuit pursuit;
   pursuit.target = goal.target;
   pursuit.speed = goal.speed;
-  pursuit.wheelbase = drive.wheelbase;
+  const scene::AckermannDrive bicycle = vehicle::equivalent_bicycle(drive);
+  pursuit.wheelbase = bicycle.wheelbase;
   const Vec2 way = pursuit.sense() * (goal.target - start.p);
   pursuit.heading = goal.has_heading ? goal.heading : way.norm() < 0.05 ? start.yaw : std::atan2(way.y(), way.x());
   // max_steer is the inner wheel's: the circle's centre is half a track nearer to it than to the bicycle.
-  pursuit.most_steer = std::atan(drive.wheelbase / (drive.wheelbase / std::tan(drive.max_steer) + 0.5 * drive.track));
+  pursuit.most_steer =
+      std::atan(bicycle.wheelbase / (bicycle.wheelbase / std::tan(bicycle.max_steer) + 0.5 * bicycle.track));
   return pursuit;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "scene/drive.h"
 
 namespace navvy::scene {
 
@@ -105,16 +106,6 @@ struct Wheel {
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
-struct Drive {
-  double max_speed = 2.5;                ///< [m/s]
-  double tractive_force = 100e3;         ///< all driven wheels together [N]
-  double power = 90e3;                   ///< [W]
-  double max_steer = radians(35);        ///< inner wheel [rad]
-  double wheelbase = 2.8, track = 1.94;  ///< [m]; track between king pins
-  double steer_rate = radians(30);       ///< [rad/s]
-  double brake_force = 150e3;            ///< [N]
-};
-
 /// A thin shell of triangles that touches soil: a bucket, blade, plate, bed. The front (inside) is the side the
 /// triangles' normals (counter-clockwise) point to. Edges used by one triangle only are free edges (lip, rim).
 struct Shell {
@@ -146,6 +137,14 @@ struct Bed {
   double capacity = 3.0;  ///< struck [m3]
 };
 
+/// The joints of an excavator's arm by their roles: names of joints, empty where the machine has none.
+struct Arm {
+  std::string swing;   ///< upper structure about the chassis
+  std::string boom;    ///< boom about the upper structure
+  std::string stick;   ///< stick about the boom
+  std::string bucket;  ///< bucket about the stick
+};
+
 struct Machine {
   std::string name;
   std::string file;        ///< SDF it came from
@@ -157,12 +156,12 @@ struct Machine {
   bool has_pump = false;  ///< false: every cylinder has its own flow
   Pump pump;
   std::vector<Wheel> wheels;
-  bool has_drive = false;
+  bool has_drive = false;  ///< false: wheels turn freely, or as their joints are commanded
   Drive drive;
   std::vector<Shell> shells;
   std::vector<Bucket> buckets;
   std::vector<Bed> beds;
-  std::string swing_joint, boom_joint, stick_joint, bucket_joint;  ///< roles of an excavator's arm; empty: none
+  Arm arm;
 
   /// Index by name, -1 when there is none.
   int link_index(const std::string& name_of_link) const;

@@ -115,7 +115,7 @@ TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
 }
 
 TEST(Pursuit, ForetellsWhereTheMachineEnds) {
-  const scene::Drive about = ew180_like().drive;
+  const auto about = std::get<scene::AckermannDrive>(ew180_like().drive);
   const PlanePose start{Vec2(0, 0), 0};
   // Two metres beside within four ahead is impossible at a least radius of 5 m, and told so.
   for (const auto& [x, reachable] : {std::pair{12.0, true}, std::pair{3.0, false}}) {

@@ -119,7 +119,7 @@ struct Trial {
       seen.joints.back().position = joint.initial;
       seen.joints.back().velocity_limit = joint.velocity;
     }
-    boom = static_cast<std::size_t>(placed.machine.joint_index(placed.machine.boom_joint));
+    boom = static_cast<std::size_t>(placed.machine.joint_index(placed.machine.arm.boom));
   }
   void step() {
     const Command command = op.update(seen, 0, kStep);

@@ -20,7 +20,7 @@ TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
   device::Device device;
   sim::World world(scene, device);
   const scene::Machine& machine = world.description().machines.at(0).machine;
-  const int boom = machine.joint_index(machine.boom_joint), bucket = machine.link_index(machine.buckets.at(0).link);
+  const int boom = machine.joint_index(machine.arm.boom), bucket = machine.link_index(machine.buckets.at(0).link);
   world.command(world.machine(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
   double lowest = 1, most = 0;
   while (world.time() < 6) {

@@ -201,6 +201,32 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
   EXPECT_EQ(cylinder.count, 2);
 }
 
+/// A two-wheeled robot with this drive element.
+scene::Machine robot_with(const std::string& drive) {
+  const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="r">
+<navvy:engine>kinematic</navvy:engine><link name="a"/><link name="l"><pose>0 0.2 0.1 0 0 0</pose></link>
+<link name="r"><pose>0 -0.2 0.1 0 0 0</pose></link>
+<joint name="left" type="continuous"><parent>a</parent><child>l</child><axis><xyz>0 1 0</xyz></axis></joint>
+<joint name="right" type="continuous"><parent>a</parent><child>r</child><axis><xyz>0 1 0</xyz></axis></joint>
+<navvy:wheel name="l"><joint>left</joint><driven>true</driven><radius_m>0.1</radius_m></navvy:wheel>
+<navvy:wheel name="r"><joint>right</joint><driven>true</driven><radius_m>0.1</radius_m></navvy:wheel>
+)" + drive + "</model>");
+  return world.machines.at(0).machine;
+}
+
+TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
+  const scene::Machine car = robot_with("<navvy:drive><max_steer_deg>20</max_steer_deg></navvy:drive>");
+  EXPECT_EQ(std::get<scene::AckermannDrive>(car.drive).max_steer, radians(20));
+  EXPECT_TRUE(std::holds_alternative<scene::AckermannDrive>(robot_with("<navvy:drive type='ackermann'/>").drive));
+  const scene::Machine robot = robot_with(
+      "<navvy:drive "
+      "type='differential'><track_m>0.4</track_m><max_speed_m_per_s>1.2</max_speed_m_per_s></navvy:drive>");
+  ASSERT_TRUE(robot.has_drive);
+  EXPECT_EQ(std::get<scene::DifferentialDrive>(robot.drive).track, 0.4);
+  EXPECT_EQ(scene::powertrain(robot.drive).max_speed, 1.2);
+  EXPECT_STREQ(scene::steer_unit(robot.drive), "rad/s");
+}
+
 /// A shell with this geometry on a link of its own.
 scene::Shell shell_of(const std::string& geometry) {
   const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">

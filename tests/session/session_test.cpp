@@ -135,7 +135,7 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
   const Vec3 place = world.machine(0).link(0).pose().translation();
-  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.boom_joint);
+  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
   const double angle = world.machine(0).joint(boom).position();
   StateWriter writer;
   session->save(writer);

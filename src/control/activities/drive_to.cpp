@@ -9,6 +9,7 @@
 #include "control/activity.h"
 #include "control/reach.h"
 #include "core/log.h"
+#include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
@@ -56,7 +57,10 @@ class Driving final : public ActivityWith<Memory> {
     }
     // Up along the ramp, down along the curve that stops at the target.
     m.speed = std::min({std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
-    out.drive = vehicle::DriveInput{pursuit.sense() * m.speed, pursuit.steer(at), false};
+    const double speed = pursuit.sense() * m.speed;
+    // Pursuit steers by a bicycle angle; the drive says what it makes of that.
+    const scene::Drive& drive = place_.machine.drive;
+    out.drive = vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
     return false;
   }
 
@@ -88,7 +92,7 @@ void DriveTo::check_reach(ReachCheck& check) const {
   const PlanePose start = plane_pose(check.X_WB);
   const scene::Drive& drive = check.machine.drive;
   // The law of the run on a machine that rolls without slip: what steering alone cannot reach.
-  const PlanePose end = Pursuit::of(*this, drive, start).end_from(start, drive.steer_rate);
+  const PlanePose end = Pursuit::of(*this, drive, start).end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
   const double miss = (end.p - target).norm();
   if (miss > tolerance)
     check.fault("drive_to", place_text(target),

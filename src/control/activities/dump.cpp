@@ -47,7 +47,7 @@ class Dumping final : public ActivityWith<Memory> {
 Dump Dump::read(const scene::StepSource& source) {
   Dump step;
   source.fields.number("hold_s", step.hold, {0, 600}).finish();
-  source.require(source.machine && !source.machine->bucket_joint.empty(),
+  source.require(source.machine && !source.machine->arm.bucket.empty(),
                  "dump needs a machine with <navvy:arm>/bucket_joint");
   return step;
 }

@@ -31,7 +31,7 @@ class Swinging final : public ActivityWith<ArmMove> {
 Swing Swing::read(const scene::StepSource& source) {
   Swing step;
   source.fields.number("angle_deg", step.angle, {-3600, 3600}, scene::kDegree).required("angle_deg").finish();
-  source.require(source.machine && !source.machine->swing_joint.empty(),
+  source.require(source.machine && !source.machine->arm.swing.empty(),
                  "swing needs a machine with <navvy:arm>/swing_joint");
   return step;
 }

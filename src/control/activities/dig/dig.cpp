@@ -27,8 +27,8 @@ Dig Dig::read(const scene::StepSource& source) {
       .whole("max_cycles", step.max_cycles, {1, 100000})
       .finish();
   // What inverse kinematics needs; the swing joint is asked for by the operator.
-  const bool can = machine && !machine->buckets.empty() && !machine->boom_joint.empty() &&
-                   !machine->stick_joint.empty() && !machine->bucket_joint.empty();
+  const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() && !machine->arm.stick.empty() &&
+                   !machine->arm.bucket.empty();
   source.require(can, "dig needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, bucket)");
   source.on_site("from_m", step.from);
   source.on_site("to_m", step.to);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A wheel by Bekker's and Janosi's laws: its limits.
-#include "lab/theory/wheel_formula.h"
+#include "terramechanics/rigid_wheel.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/math.h"
 
-namespace navvy::lab {
+namespace navvy::terramechanics {
 namespace {
 
 scene::Soil plain() {
@@ -23,7 +23,7 @@ scene::Soil plain() {
   return soil;
 }
 
-TEST(WheelFormula, SmoothWheelSinksByBekkersClosedForm) {
+TEST(RigidWheel, SmoothWheelSinksByBekkersClosedForm) {
   // n = 1, no shear, small entry angle: W = (2/3) k b sqrt(2 r) z^(3/2).
   scene::Soil soil = plain();
   soil.tool_friction_angle = 0;
@@ -35,7 +35,7 @@ TEST(WheelFormula, SmoothWheelSinksByBekkersClosedForm) {
   EXPECT_NEAR(-force.drawbar, 0.5 * 1e6 * 0.2 * force.sinkage * force.sinkage, 0.01 * -force.drawbar);
 }
 
-TEST(WheelFormula, SinksByBekkersClosedFormInMeasuredSand) {
+TEST(RigidWheel, SinksByBekkersClosedFormInMeasuredSand) {
   // z = (3 W / ((3 - n) b k sqrt(D)))^(2 / (2 n + 1)) [Bekker 1956], for small entry angles: 26.0 mm.
   scene::Soil sand = plain();
   sand.tool_friction_angle = 0;
@@ -43,7 +43,7 @@ TEST(WheelFormula, SinksByBekkersClosedFormInMeasuredSand) {
   EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);  // entry angle 53 degrees
 }
 
-TEST(WheelFormula, SpinningWheelBearsTheRimsFriction) {
+TEST(RigidWheel, SpinningWheelBearsTheRimsFriction) {
   scene::Soil soil = plain();
   soil.janosi_k = 1e-5;  // fully mobilised
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.9}, soil);
@@ -52,13 +52,13 @@ TEST(WheelFormula, SpinningWheelBearsTheRimsFriction) {
   EXPECT_GT(force.drawbar, 0);
 }
 
-TEST(WheelFormula, LockedWheelIsDragged) {
+TEST(RigidWheel, LockedWheelIsDragged) {
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, -1}, plain());
   EXPECT_LT(force.drawbar, -std::tan(radians(20)) * 300);
   EXPECT_LT(force.torque, 0);
 }
 
-TEST(WheelFormula, PullGrowsWithSlip) {
+TEST(RigidWheel, PullGrowsWithSlip) {
   double before = -1e9;
   for (const double slip : {-1.0, -0.5, -0.2, 0.0, 0.1, 0.3, 0.6}) {
     const double pull = rigid_wheel({0.5, 0.2, 300, slip}, plain()).drawbar;
@@ -67,11 +67,11 @@ TEST(WheelFormula, PullGrowsWithSlip) {
   }
 }
 
-TEST(WheelFormula, SaysWhenTheGroundDoesNotCarryTheLoad) {
+TEST(RigidWheel, SaysWhenTheGroundDoesNotCarryTheLoad) {
   scene::Soil mud = plain();
   mud.bekker_kphi = 1000;
   EXPECT_FALSE(rigid_wheel({0.5, 0.2, 3000, 0}, mud).carried);
 }
 
 }  // namespace
-}  // namespace navvy::lab
+}  // namespace navvy::terramechanics

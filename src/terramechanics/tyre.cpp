@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/tyre.h"
+#include "terramechanics/tyre.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace navvy::vehicle {
+namespace navvy::terramechanics {
 namespace {
 
 constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
@@ -44,6 +44,8 @@ Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3&
   return {-ray, std::clamp(radius - reach, 0.0, radius)};
 }
 
+/// Deflection and mean normal of one track: rays from the centre that meet ground are weighed by their dip squared, so
+/// that the deepest one leads and the normal turns without jumps as the wheel rolls over an edge.
 Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, const GroundQuery& ground) {
   Track track;
   const Vec3 forward = spin_axis.cross(Vec3::UnitZ());
@@ -67,6 +69,7 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
   return track;
 }
 
+/// Spring and damper of the carcass [N], never pulling, bounded where the tread meets the rim.
 double radial_force(const scene::Wheel& tyre, double share, double deflection, double closing) {
   const double force = share * (tyre.stiffness * deflection + tyre.damping * closing);
   // Leaving the ground, the spring gives back less and less, nothing at the rebound speed.
@@ -89,6 +92,7 @@ Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, dou
   return force;
 }
 
+/// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
   const Vec3 p = X.translation(), left = X.linear().col(1);
   const double aside = 0.5 * tyre.twin_spacing + tyre.width;
@@ -102,10 +106,16 @@ double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& groun
 
 }  // namespace
 
+double tyre_friction(const scene::Wheel& tyre, const SoilState& ground) {
+  (void)ground;  // decides nothing yet: every soil grips as the tyre says
+  return tyre.friction;
+}
+
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
                      TyreState& state) {
   TyreForce out;
   const Vec3 center = motion.X_WWheel.translation(), axis = motion.X_WWheel.linear().col(1);
+  // The tyres of a pair, or the middles of the two halves of a single tyre, which then resists leaning.
   const double offset = tyre.twin_spacing > 0 ? 0.5 * tyre.twin_spacing : 0.25 * tyre.width;
   const double rim_mass = motion.spin_inertia / (tyre.radius * tyre.radius);
   double rim_speed = 0, ground_speed = 0, load = 0;
@@ -118,16 +128,18 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
       bristle.setZero();
       continue;
     }
+    // What the tread does at the contact: the carrier's motion there, and the rim's by the spin.
     const double loaded = tyre.radius - track.deflection;
     const Vec3 p = arm - loaded * in_plane.normalized();  // contact from the centre
     const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p);
     const Vec3 v_rim = motion.spin * axis.cross(p);
     const double normal_force = radial_force(tyre, 0.5, track.deflection, -track.normal.dot(v_carrier));
 
+    // Tangential forces act in the plane of the ground, forward and left.
     const Vec3 ahead = axis.cross(track.normal).normalized(), left = track.normal.cross(ahead);
     const Vec3 v_slip = v_carrier + v_rim;
-    const double own = ground.friction(center.x() + p.x(), center.y() + p.y());
-    const double limit = (own >= 0 ? own : tyre.friction) * normal_force;
+    const SoilState soil = ground.soil(center.x() + p.x(), center.y() + p.y());
+    const double limit = tyre_friction(tyre, soil) * normal_force;
     const double rolling = -v_rim.dot(ahead);
     const Vec2 f =
         bristle_force(tyre, 0.5, Vec2(v_slip.dot(ahead), v_slip.dot(left)), rolling, limit, rim_mass, dt, bristle);
@@ -143,6 +155,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     ground_speed += normal_force * v_carrier.dot(ahead);
     load += normal_force;
   }
+  // Slip of the wheel as a whole, weighed by what each track carries.
   if (load > 0) {
     rim_speed /= load;
     ground_speed /= load;
@@ -152,4 +165,4 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
   return out;
 }
 
-}  // namespace navvy::vehicle
+}  // namespace navvy::terramechanics

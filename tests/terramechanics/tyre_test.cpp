@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/tyre.h"
+#include "terramechanics/tyre.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "vehicle/drive_train.h"
-#include "vehicle/machines.h"
+#include "terramechanics/grounds.h"
 
-namespace navvy::vehicle {
+namespace navvy::terramechanics {
 namespace {
-
-using testing::flat;
-using testing::FunctionGround;
 
 constexpr double kStep = 1.0 / 600;
 
@@ -34,7 +30,7 @@ TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
   const scene::Wheel tyre = twin();
   // The exact deflection of a disc on a plane, whatever ray finds it.
   for (const double angle : {0.0, 3.0, 7.5, 11.0, 20.0}) {
-    const FunctionGround ground = testing::slope(radians(angle));
+    const FunctionGround ground = slope(radians(angle));
     const double away = tyre.radius - 0.03;  // of the centre from the plane
     TyreState state;
     const TyreForce out = tyre_force(tyre, at(away / std::cos(radians(angle))), ground, kStep, state);
@@ -57,7 +53,9 @@ TEST(TyreForce, FrictionIsLimitedByCoulomb) {
   motion.v_W = Vec3(3, 4, 0);  // locked wheel dragged askew
   TyreState state;
   TyreForce out;
-  for (int i = 0; i < 100; ++i) out = tyre_force(twin(), motion, flat(0.6), kStep, state);
+  scene::Wheel tyre = twin();
+  tyre.friction = 0.6;
+  for (int i = 0; i < 100; ++i) out = tyre_force(tyre, motion, flat(), kStep, state);
   const double normal = out.force_W.z();
   EXPECT_NEAR(out.force_W.head<2>().norm(), 0.6 * normal, 1e-6 * normal);
   EXPECT_NEAR(out.force_W.y() / out.force_W.x(), 4.0 / 3.0, 1e-6);
@@ -99,26 +97,31 @@ TEST(TyreForce, TwinOnAnEdgeStandsOnOneTyre) {
   EXPECT_GT(out.moment_W.x(), 0);  // lifts the left side
 }
 
-TEST(Ackermann, MatchesTheClosedFormAndKeepsTheInnerLimit) {
-  scene::Drive drive;
-  const double R = 8;
-  const SteerAngles angles = ackermann(drive, std::atan(drive.wheelbase / R));
-  EXPECT_NEAR(std::tan(angles.left), 2.8 / (R - 0.97), 1e-12);
-  EXPECT_NEAR(std::tan(angles.right), 2.8 / (R + 0.97), 1e-12);
-  const SteerAngles most = ackermann(drive, -1.5);
-  EXPECT_NEAR(most.right, -drive.max_steer, 1e-12);
-  EXPECT_LT(std::abs(most.left), std::abs(most.right));
+TEST(TyreFriction, IsTheTyresOwnWhateverTheSoilSoFar) {
+  scene::Wheel tyre;
+  tyre.friction = 0.7;
+  scene::Soil clay;
+  clay.friction_angle = radians(5);
+  EXPECT_EQ(tyre_friction(tyre, {}), 0.7);
+  EXPECT_EQ(tyre_friction(tyre, {&clay, 1.2}), 0.7);
 }
 
-TEST(DriveTrain, KeepsWithinTractiveForceAndPower) {
-  scene::Drive drive;
-  DriveTrain train;
-  double torque = 0;
-  for (int i = 0; i < 3000; ++i) torque = train.wheel_torque(drive, 2, 0.0, 0.5, 2, 18000, 1e5, kStep);
-  EXPECT_NEAR(torque * 2 / 0.5, drive.tractive_force, 1e-6);
-  torque = train.wheel_torque(drive, 2.5, 2 / 0.5, 0.5, 2, 18000, 1e5, kStep);
-  EXPECT_LE(torque * 2 / 0.5 * 2, drive.power * (1 + 1e-12));
+TEST(TyreForce, AsksForTheSoilUnderEachTrackThatTouches) {
+  const scene::Soil loam;
+  std::vector<Vec2> asked;
+  FunctionGround ground([](double, double y) { return y > 0 ? 0.0 : -1.0; });
+  ground.set_soil([&](double x, double y) {
+    asked.emplace_back(x, y);
+    return SoilState{&loam, 1.1};
+  });
+  TyreState state;
+  tyre_force(twin(), at(0.49, 3), ground, kStep, state);
+  ASSERT_EQ(asked.size(), 1u);  // the other tyre hangs over the edge
+  EXPECT_NEAR(asked[0].x(), 3, 1e-9);
+  EXPECT_NEAR(asked[0].y(), 0.16, 1e-9);
+  EXPECT_NEAR(ground.at(3, 0.16).soil.density(), loam.bank_density / 1.1, 1e-9);
+  EXPECT_EQ(flat().at(3, 0.16).soil.density(), 0);  // a firm floor
 }
 
 }  // namespace
-}  // namespace navvy::vehicle
+}  // namespace navvy::terramechanics
