@@ -48,7 +48,7 @@ TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
   EXPECT_EQ(world.soils[0].cohesion, 8000);  // --set soil.cohesion_pa=8000
   ASSERT_EQ(world.machines.size(), 1u);
   EXPECT_EQ(world.machines[0].name, "bucket");
-  EXPECT_EQ(world.machines[0].machine.joints.size(), 4u);
+  EXPECT_EQ(world.machines[0].machine.joints.size(), 3u);
   EXPECT_EQ(world.machines[0].program.steps.size(), 1u);
 }
 

@@ -258,7 +258,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
   run_to(*session, 0.5);
   for (int m = 0; m < 2; ++m) {
     double load = 0;
-    for (int w = 0; w < 4; ++w) load += session->world().wheel(m, w).force_W.z();
+    for (int w = 0; w < 4; ++w) load += session->world().machine(m).wheel(w).state().force_W.z();
     // 18 t standing still; the springs still ring a little.
     EXPECT_NEAR(load, 18000 * kGravity, 0.15 * 18000 * kGravity) << "machine " << m;
   }

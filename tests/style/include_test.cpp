@@ -162,7 +162,6 @@ const Names& inner() {
 const std::map<std::string, std::string>& insiders() {
   static const std::map<std::string, std::string> table = {
       {"src/cli/lab_command.cpp", "runs the laboratory, whose rigs are built of the solver itself"},
-      {"src/cli/bench_command.cpp", "measures the solver itself"},
   };
   return table;
 }
