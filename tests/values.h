@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures that a test measured, printed as tests/README.md lists them.
+// Figures that a test measured, printed as tests/validation/table.py reads them.
 #pragma once
 
 #include <cstdio>

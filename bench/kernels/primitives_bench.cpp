@@ -10,6 +10,7 @@
 #include "device/buffer.h"
 #include "device/device.h"
 #include "device/program.h"
+#include "heightfield/change_follower.h"
 #include "heightfield/ground.h"
 
 namespace {
@@ -91,6 +92,55 @@ void ground_sample_untouched(benchmark::State& state) {
   benchmark::DoNotOptimize(sum);
 }
 BENCHMARK(ground_sample_untouched)->Arg(1000)->Arg(10000);
+
+/// Height of a column of ground that was dug.
+void ground_height_touched(benchmark::State& state) {
+  heightfield::Ground ground = make_ground(1000);
+  std::vector<heightfield::Layer> taken;
+  for (int iy = 100; iy < 200; ++iy)
+    for (int ix = 100; ix < 200; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
+  int ix = 100;
+  double sum = 0;
+  for (auto _ : state) {
+    ix = ix < 199 ? ix + 1 : 100;
+    sum += ground.height(ix, 150);
+  }
+  benchmark::DoNotOptimize(sum);
+}
+BENCHMARK(ground_height_touched);
+
+/// Digs a little off a hundred columns of a 1 km2 site, `apart` columns from each other.
+void dig_hundred(heightfield::Ground& ground, int apart) {
+  std::vector<heightfield::Layer> taken;
+  for (int i = 0; i < 100; ++i) {
+    const int ix = 3000 + apart * (i % 10), iy = 3000 + apart * (i / 10);
+    ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
+  }
+}
+
+/// A view after a step in which 100 columns of 1 km2 changed; the argument is how far they lie from each other.
+void terrain_view(benchmark::State& state) {
+  heightfield::Ground ground = make_ground(10000);
+  for (auto _ : state) {
+    state.PauseTiming();
+    dig_hundred(ground, static_cast<int>(state.range(0)));
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(ground.view());
+  }
+}
+BENCHMARK(terrain_view)->Arg(1)->Arg(40)->Iterations(2000);
+
+/// The same step as a whole: digging, with the copies of shared tiles, a view, and the list of what changed.
+void terrain_dig_view_and_follow(benchmark::State& state) {
+  heightfield::Ground ground = make_ground(10000);
+  heightfield::ChangeFollower follower;
+  follower.take(ground.view());
+  for (auto _ : state) {
+    dig_hundred(ground, static_cast<int>(state.range(0)));
+    benchmark::DoNotOptimize(follower.take(ground.view()));
+  }
+}
+BENCHMARK(terrain_dig_view_and_follow)->Arg(1)->Arg(40)->Iterations(2000)->Unit(benchmark::kMicrosecond);
 
 /// Taking soil off a column and putting it back.
 void ground_take_and_put(benchmark::State& state) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats at a time through the compiler's vectors, and the soil law compiled for them.
+// Sixteen floats at a time through the compiler's vectors, and the arithmetic of kernels/soil compiled for them: the
+// dialect of kernels/README.md.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+
+#include "soil/layout.h"
 
 namespace navvy::bench {
 
@@ -12,29 +15,37 @@ using Four = float __attribute__((vector_size(16)));
 
 inline Lanes load(const float* at) { return *reinterpret_cast<const Lanes*>(at); }
 inline void store(const Lanes& value, float* at) { *reinterpret_cast<Lanes*>(at) = value; }
-inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes largest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-inline Lanes root(const Lanes& a) {
+
+using real = Lanes;
+using ints = int __attribute__((vector_size(64)));
+using scalar = float;
+using columns = float;  ///< the ground is level around a node
+#define INLINED inline
+
+inline Lanes fmin(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+inline Lanes fmax(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+inline Lanes fmin(const Lanes& a, float b) { return fmin(a, Lanes{} + b); }
+inline Lanes fmax(const Lanes& a, float b) { return fmax(a, Lanes{} + b); }
+inline Lanes fabs(const Lanes& a) { return fmax(a, -a); }
+inline Lanes sqrt(const Lanes& a) {
   Lanes out;
   for (int l = 0; l < 16; ++l) out[l] = std::sqrt(a[l]);
   return out;
 }
+inline Lanes floor(const Lanes& a) {
+  Lanes out;
+  for (int l = 0; l < 16; ++l) out[l] = std::floor(a[l]);
+  return out;
+}
+inline Lanes step(float edge, const Lanes& x) { return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f; }
+inline ints isfinite(const Lanes& a) { return a - a == Lanes{}; }
+inline float fmax(float a, float b) { return a > b ? a : b; }
+inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
+inline float mean_of(columns t) { return t; }
+inline bool all(bool of_columns) { return of_columns; }
 
-#define LAW_T Lanes
-#define LAW_LIT(x) (static_cast<float>(x))
-#define LAW_MIN(a, b) least(a, Lanes{} + (b))
-#define LAW_MAX(a, b) largest(a, Lanes{} + (b))
-#define LAW_SQRT(a) root(a)
-#define LAW_STEP(edge, x) ((x) < (Lanes{} + (edge)) ? Lanes{} : Lanes{} + 1.0f)
-#define LAW_FN inline
-#include "soil/law.h"  // NOLINT: on purpose inside the namespace
-#undef LAW_T
-#undef LAW_LIT
-#undef LAW_MIN
-#undef LAW_MAX
-#undef LAW_SQRT
-#undef LAW_STEP
-#undef LAW_FN
+#include "soil/node.h"   // NOLINT: on purpose inside the namespace
+#include "soil/point.h"  // NOLINT: the same
 
 /// Base node and quadratic weights of sixteen particles; offsets in cells from their home's corner.
 struct Weights {
@@ -43,10 +54,9 @@ struct Weights {
     for (int a = 0; a < 3; ++a) {
       for (int l = 0; l < 16; ++l) base[a][l] = static_cast<int>(std::floor(at[a][l] - 0.5f));
       for (int l = 0; l < 16; ++l) f[a][l] = at[a][l] - static_cast<float>(base[a][l]);
-      const Lanes p = 1.5f - f[a], q = f[a] - 1.0f, r = f[a] - 0.5f;
-      store(0.5f * p * p, w[a][0]);
-      store(0.75f - q * q, w[a][1]);
-      store(0.5f * r * r, w[a][2]);
+      Lanes weight[3];
+      spline(f[a], weight);
+      for (int i = 0; i < 3; ++i) store(weight[i], w[a][i]);
     }
   }
   Lanes f[3];  ///< offset from the base node

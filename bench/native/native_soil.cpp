@@ -16,19 +16,13 @@ constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their dr
 constexpr std::size_t kCells = 216;
 constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
 
-/// Share of a node's kernel above level ground that ends `t` cells below it (kernels/soil/room.h).
-float room_above(float t) {
-  const float a = std::clamp(t, -0.5f, 0.5f), low = std::clamp(1.5f + t, 0.0f, 1.0f),
-              high = std::clamp(1.5f - t, 0.0f, 1.0f);
-  const float share = 0.5f + a * (0.75f - a * a / 3) + (low * low * low - high * high * high) / 6;
-  return std::max(share, 0.25f);
-}
-
 LawSoil law_of(const scene::Soil& soil, double cell) {
-  const soil::LawConstants k = soil::law_constants(soil, cell);
-  const auto all = [](double value) { return Lanes{} + static_cast<float>(value); };
-  return {all(k.bulk),        all(k.shear),       all(k.alpha),     all(k.k_residual), all(k.k_bond),
-          all(k.inv_remould), all(k.inv_opening), all(k.viscosity), all(k.swell),      all(k.loosening)};
+  const soil::LawConstants law = soil::law_constants(soil, cell);
+  LawSoil out;
+#define LANES_CONSTANT(name) out.name = Lanes{} + static_cast<float>(law.name);
+  LAW_CONSTANTS(LANES_CONSTANT)
+#undef LANES_CONSTANT
+  return out;
 }
 
 /// Home block, cell of the base node floor(x - 0.5) in it, then the order of ids.
@@ -56,7 +50,11 @@ SortKey sort_key(const soil::Particle& p, std::size_t index) {
 }  // namespace
 
 NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
-    : soil_(soil), cell_(static_cast<float>(cell)), ground_(static_cast<float>(ground)), sums_(kCells) {}
+    : soil_(soil),
+      cell_(static_cast<float>(cell)),
+      ground_(static_cast<float>(ground)),
+      sums_(kCells),
+      openings_(kCells) {}
 
 void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
   std::vector<soil::Particle> all = this->particles();
@@ -74,16 +72,13 @@ std::vector<soil::Particle> NativeSoil::particles() const {
       const Pack& pack = packs_[home.first + i / kLanes];
       const std::size_t l = i % kLanes;
       soil::Particle& p = out[pack.id[l]];
-      for (std::size_t a = 0; a < 3; ++a) {
-        p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
-        p.x[a] = pack.x[a][l];
-        p.v[a] = pack.v[a][l];
-      }
-      for (std::size_t k = 0; k < 9; ++k) p.c[k] = pack.c[k][l];
-      for (std::size_t k = 0; k < 6; ++k) p.s[k] = pack.s[k][l];
-      p.j = pack.j[l];
-      p.j0 = pack.j0[l];
-      p.shear = pack.shear[l];
+      for (std::size_t a = 0; a < 3; ++a) p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
+#define GET_ONE(NAME, member, rest) p.member = pack.member[l];
+#define GET_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) p.member[k] = pack.member[k][l];
+      FLOAT_FIELDS(GET_ONE, GET_MANY)
+#undef GET_ONE
+#undef GET_MANY
       p.mass = static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
       p.id = pack.id[l];
     }
@@ -130,20 +125,22 @@ void NativeSoil::append(const soil::Particle& p) {
   const std::size_t l = home.count++ % kLanes;
   if (l == 0) {
     packs_.emplace_back();  // lanes without a particle: no mass, inside the home
-    for (auto& axis : packs_.back().x) std::fill(std::begin(axis), std::end(axis), 2.0f);
-    std::fill(std::begin(packs_.back().j), std::end(packs_.back().j), 1.0f);
-    std::fill(std::begin(packs_.back().j0), std::end(packs_.back().j0), 1.0f);
+#define REST_ONE(NAME, member, rest) std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
+#define REST_MANY(NAME, member, count, rest) \
+  for (auto& lanes : packs_.back().member) std::fill(std::begin(lanes), std::end(lanes), rest);
+    FLOAT_FIELDS(REST_ONE, REST_MANY)
+#undef REST_ONE
+#undef REST_MANY
   }
   Pack& pack = packs_.back();
-  for (std::size_t a = 0; a < 3; ++a) {
-    pack.x[a][l] = p.x[a] + static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
-    pack.v[a][l] = p.v[a];
-  }
-  for (std::size_t k = 0; k < 9; ++k) pack.c[k][l] = p.c[k];
-  for (std::size_t k = 0; k < 6; ++k) pack.s[k][l] = p.s[k];
-  pack.j[l] = p.j;
-  pack.j0[l] = p.j0;
-  pack.shear[l] = p.shear;
+#define PUT_ONE(NAME, member, rest) pack.member[l] = p.member;
+#define PUT_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) pack.member[k][l] = p.member[k];
+  FLOAT_FIELDS(PUT_ONE, PUT_MANY)
+#undef PUT_ONE
+#undef PUT_MANY
+  for (std::size_t a = 0; a < 3; ++a)
+    pack.x[a][l] += static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
   pack.mass[l] = static_cast<float>(kilograms(p.mass));
   pack.id[l] = p.id;
 }
@@ -165,6 +162,19 @@ bool NativeSoil::sum_openings(const Home& home) {
     sum[1] += pack.mass[l] * pack.j0[l];
     if (pack.j[l] > pack.j0[l]) sum[2] = 1;
   }
+  // Sixteen cells at a time; sums in mass quanta, as the kernels have them.
+  constexpr float kQuanta = 1 / MASS_QUANTUM;
+  for (std::size_t first = 0; first < kCells; first += kLanes) {
+    const std::size_t cells = std::min(kLanes, kCells - first);
+    Lanes volume{}, bank{}, opened{};
+    for (std::size_t l = 0; l < cells; ++l) {
+      volume[l] = kQuanta * sums_[first + l][0];
+      bank[l] = kQuanta * sums_[first + l][1];
+      opened[l] = sums_[first + l][2];
+    }
+    const Lanes mean = mean_opening(volume, bank, opened);
+    for (std::size_t l = 0; l < cells; ++l) openings_[first + l] = mean[l];
+  }
   return true;
 }
 
@@ -177,29 +187,26 @@ void NativeSoil::scatter(const Home& home, float dt) {
   for (std::size_t first = 0; first < home.count; first += kLanes) {
     Pack& pack = packs_[home.first + first / kLanes];
     const std::size_t lanes = std::min(kLanes, home.count - first);
-    Lanes c[9], s[6], sigma[6];
+    Lanes c[9], v[3], sigma[6], opening{};
     for (int k = 0; k < 9; ++k) c[k] = load(pack.c[k]);
-    for (int k = 0; k < 6; ++k) s[k] = load(pack.s[k]);
+    for (int k = 0; k < 3; ++k) v[k] = load(pack.v[k]);
     if (open)
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const std::array<float, 3>& sum = sums_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
-        if (sum[2] > 0) pack.j[l] += mixing * (pack.j0[l] * (sum[0] / sum[1]) - pack.j[l]);
-      }
-    Lanes j = load(pack.j), j0 = load(pack.j0), shear = load(pack.shear);
-    law_update(c, Lanes{} + dt, &law, s, &j, &j0, &shear, sigma);
-    for (int k = 0; k < 6; ++k) store(s[k], pack.s[k]);
-    store(j, pack.j);
-    store(j0, pack.j0);
-    store(shear, pack.shear);
+      for (std::size_t l = 0; l < lanes; ++l) opening[l] = openings_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
+    LawState state;
+#define LOAD_ONE(NAME, member, rest) state.member = load(pack.member);
+#define LOAD_MANY(NAME, member, count, rest) \
+  for (int k = 0; k < (count); ++k) state.member[k] = load(pack.member[k]);
+    LAW_STATE_FIELDS(LOAD_ONE, LOAD_MANY)
+    advance_state(c, dt, &law, opening, mixing, &state, sigma);
+#define STORE_ONE(NAME, member, rest) store(state.member, pack.member);
+#define STORE_MANY(NAME, member, count, rest) \
+  for (int k = 0; k < (count); ++k) store(state.member[k], pack.member[k]);
+    LAW_STATE_FIELDS(STORE_ONE, STORE_MANY)
 
-    // A = m C dx - dt 4/dx V sigma per node step; momentum at the base node.
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
-    const Lanes mass = load(pack.mass), cm = mass * dx, sv = (4 * dt / dx) * inv_density * mass * j;
-    const int at[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    const Lanes mass = load(pack.mass);
     Lanes a[9], p[3];
-    for (int i = 0; i < 9; ++i) a[i] = cm * c[i] - sv * sigma[at[i]];
-    for (int i = 0; i < 3; ++i)
-      p[i] = mass * load(pack.v[i]) - (a[3 * i] * w.f[0] + a[3 * i + 1] * w.f[1] + a[3 * i + 2] * w.f[2]);
+    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, dt, dx, p, a);
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
@@ -235,7 +242,7 @@ void NativeSoil::update_grid(float dt) {
       Float4 node = grid_[n];
       const float mass = node[3];
       if (mass > empty && !held) {
-        node *= 1 / mass;
+        node *= INVERSE_MASS(mass);
         node[2] -= fall;
       } else {
         node = Float4{};
@@ -247,7 +254,7 @@ void NativeSoil::update_grid(float dt) {
 }
 
 float NativeSoil::gather(const Home& home, float dt) {
-  const float dx = cell_, scale = 4 / dx;
+  const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
   const auto closing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::closing_time()));
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
@@ -287,16 +294,14 @@ float NativeSoil::gather(const Home& home, float dt) {
     const Four* moments[3] = {mx, my, mz};
     for (int axis = 0; axis < 3; ++axis) {
       unturn(moments[axis], m);
-      for (int i = 0; i < 3; ++i) store(scale * (m[i] - w.f[axis] * u[i]), pack.c[3 * i + axis]);
+      for (int i = 0; i < 3; ++i) store(velocity_gradient(m[i], w.f[axis], u[i], dx), pack.c[3 * i + axis]);
     }
-    const Lanes j = load(pack.j), j0 = load(pack.j0);
-    const Lanes packed = full / largest(u[3], Lanes{} + static_cast<float>(kMassQuantum));
-    store(j - closing * largest(least(j, j0) - packed, Lanes{}), pack.j);
+    store(closed(load(pack.j), load(pack.j0), u[3], full, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
       store(load(pack.x[a]) + (dt / dx) * u[a], pack.x[a]);
-      fastest = largest(fastest, largest(u[a], -u[a]));
     }
+    fastest = fmax(fastest, fastest_component(u));
   }
   float out = 0;
   for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/soil.h"
+#include "soil/particle_fields.h"
 #include "soil/particles/particle.h"
 
 namespace navvy::bench {
@@ -31,8 +32,12 @@ class NativeSoil {
   static constexpr std::size_t kLanes = 16;
   /// Fields of sixteen particles side by side; the homes' runs begin at a pack.
   struct alignas(64) Pack {
-    float x[3][kLanes], v[3][kLanes], c[9][kLanes], s[6][kLanes];
-    float j[kLanes], j0[kLanes], shear[kLanes], mass[kLanes];
+#define PACK_ONE(NAME, member, rest) float member[kLanes];
+#define PACK_MANY(NAME, member, count, rest) float member[count][kLanes];
+    FLOAT_FIELDS(PACK_ONE, PACK_MANY)
+#undef PACK_ONE
+#undef PACK_MANY
+    float mass[kLanes];  ///< [kg]
     std::uint32_t id[kLanes];
   };
   /// One 4^3 block of cells: its packs and how many of their lanes are particles.
@@ -63,8 +68,10 @@ class NativeSoil {
   std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
   std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
   std::size_t row_ = 0, rows_ = 0;
-  std::vector<Float4> grid_;                ///< momentum and mass, then velocity and mass per room
-  std::vector<std::array<float, 3>> sums_;  ///< per cell of a home: volume, bank volume, 1 when any is open
+  std::vector<Float4> grid_;  ///< momentum and mass, then velocity and mass per room
+  // Per cell of a home: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
+  std::vector<std::array<float, 3>> sums_;
+  std::vector<float> openings_;
 };
 
 }  // namespace navvy::bench

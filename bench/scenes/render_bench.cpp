@@ -31,12 +31,10 @@ void move_on(scene::Frame& frame, int picture) {
   for (std::size_t i = 0; i < frame.particles.position.size(); i += 3)
     frame.particles.position[i] += static_cast<float>(step);
   scene::FrameGround& g = frame.ground;
-  g.dirty_x0 = static_cast<int>((3.5 - g.origin.x()) / g.cell);
-  g.dirty_y0 = static_cast<int>((-1.0 - g.origin.y()) / g.cell);
-  g.dirty_x1 = g.dirty_x0 + 20;
-  g.dirty_y1 = g.dirty_y0 + 20;
-  for (int y = g.dirty_y0; y < g.dirty_y1; ++y)
-    for (int x = g.dirty_x0; x < g.dirty_x1; ++x)
+  const int x0 = static_cast<int>((3.5 - g.origin.x()) / g.cell), y0 = static_cast<int>((-1.0 - g.origin.y()) / g.cell);
+  g.changed = {{x0, y0, x0 + 20, y0 + 20}};
+  for (int y = y0; y < y0 + 20; ++y)
+    for (int x = x0; x < x0 + 20; ++x)
       g.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.nx) + static_cast<std::size_t>(x)] +=
           static_cast<float>(step);
   ++g.revision;

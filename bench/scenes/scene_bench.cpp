@@ -10,7 +10,7 @@
 #include "bench.h"
 #include "core/stopwatch.h"
 #include "scene_io/loader.h"
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace {
 
@@ -18,14 +18,14 @@ using namespace navvy;
 
 /// Runs the scene from its start for `seconds`; the median and spread are of one run, there is one.
 void measure_scene(device::Device& device, const std::string& file, double seconds) {
-  sim::Session session(scene_io::load_world(file), device);
+  session::Session session(scene_io::load_world(file), device);
   const Stopwatch watch;
   while (!session.done() && session.world().time() < seconds) session.step();
   device.finish();
   bench::Row row;
   row.timing.best = row.timing.median = watch.seconds();
   row.timing.runs = 1;
-  const soil::SolverStats& stats = session.world().soil().stats();
+  const sim::SoilCounts stats = session.world().soil_counts();
   row.bench =
       "scene:" + std::filesystem::path(file).stem().string() + "_" + std::to_string(static_cast<int>(seconds)) + "s";
   row.steps = stats.steps;

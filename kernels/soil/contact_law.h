@@ -1,60 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one side of a plate and one node near it do to each other: the contact's weight, the area of plate the node
-// stands for, the most it holds in shear. One source for the kernel (float) and for the host's twin (double).
-//
-// The includer defines before inclusion: CONTACT_T (scalar), CONTACT_LIT(x), CONTACT_MIN, CONTACT_MAX, CONTACT_ABS and
-// CONTACT_FN (function specifiers). Lengths in cells unless said.
+// stands for, the most it holds in shear, the impulse. One source for the kernels and for the double twin, in the dialect
+// of kernels/README.md. Lengths in cells unless said.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 #define NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 
-typedef struct Reach {
-  CONTACT_T h, ramp, edge, edge_ramp;  // see ContactSettings
-  CONTACT_T rate;                      // dt / reference step
-  CONTACT_T patch;                     // face of a cell x dt [m2 s]
-  CONTACT_T opening;                   // soil that leaves the plate faster has let go [m/s]
-} Reach;
+#include "soil/tool.h"
 
-CONTACT_FN CONTACT_T contact_unit(CONTACT_T x) {
-  return CONTACT_MIN(CONTACT_MAX(x, CONTACT_LIT(0.0)), CONTACT_LIT(1.0));
+// See REACH_FIELDS of tool.h.
+#define REACH_SCALAR(name) scalar name;
+typedef struct Reach {
+  REACH_FIELDS(REACH_SCALAR)
+} Reach;
+#undef REACH_SCALAR
+
+INLINED scalar contact_unit(scalar x) {
+  return fmin(fmax(x, 0.0f), 1.0f);
 }
 
 // How far a node this far along the plate from its free edge counts: 0 at the edge, 1 inside.
-CONTACT_FN CONTACT_T contact_along(CONTACT_T inset, const Reach* r) {
-  return contact_unit((inset - r->edge + CONTACT_LIT(0.5) * r->edge_ramp) / r->edge_ramp);
+INLINED scalar contact_along(scalar inset, const Reach* r) {
+  return contact_unit((inset - r->edge + 0.5f * r->edge_ramp) / r->edge_ramp);
 }
 
-// Weight of the contact at a node, 0..1, made independent of the step.
+// Weight of the contact at a node, 0..1, made independent of the step [docs/tools.md, contact weights].
 // b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
-CONTACT_FN CONTACT_T contact_weight(CONTACT_T clearance, CONTACT_T inset, const Reach* r) {
-  const CONTACT_T near = contact_unit((r->h + CONTACT_LIT(0.5) * r->ramp - clearance) / r->ramp);
-  const CONTACT_T b = near * contact_along(inset, r);
-  return b * r->rate / (CONTACT_LIT(1.0) + (r->rate - CONTACT_LIT(1.0)) * b);
+INLINED scalar contact_weight(scalar clearance, scalar inset, const Reach* r) {
+  const scalar near = contact_unit((r->h + 0.5f * r->ramp - clearance) / r->ramp);
+  const scalar b = near * contact_along(inset, r);
+  return b * r->rate / (1.0f + (r->rate - 1.0f) * b);
 }
 
 // Along a plate: how much of its area a node stands for. What is cut off at a free edge is given to the nodes just
 // inside.
-CONTACT_FN CONTACT_T contact_inner(CONTACT_T inset, const Reach* r) {
-  const CONTACT_T inside = (inset - r->edge) / r->edge_ramp - CONTACT_LIT(0.5);
-  const CONTACT_T hat = CONTACT_MAX(CONTACT_LIT(0.0), CONTACT_LIT(1.0) - CONTACT_ABS(inside));
+INLINED scalar contact_inner(scalar inset, const Reach* r) {
+  const scalar inside = (inset - r->edge) / r->edge_ramp - 0.5f;
+  const scalar hat = fmax(0.0f, 1.0f - fabs(inside));
   return contact_along(inset, r) + hat * (r->edge / r->edge_ramp);
 }
 
 // Area of plate a node stands for [cell faces]. A hat across the plate, whose sum over a row of nodes is 1 wherever the
 // plate lies between them; its middle half a cell nearer than the reach, where soil that touches always has mass. The
-// sum over a plate is its area but for corners, for which the host scales the tool (TOOL_ADHESION).
-CONTACT_FN CONTACT_T contact_area(CONTACT_T clearance, CONTACT_T inset, const Reach* r) {
-  const CONTACT_T off = clearance - (r->h - CONTACT_LIT(0.5));
-  return CONTACT_MAX(CONTACT_LIT(0.0), CONTACT_LIT(1.0) - CONTACT_ABS(off)) * contact_inner(inset, r);
+// sum over a plate is its area but for corners, for which the host scales the tool (Tool.adhesion).
+INLINED scalar contact_area(scalar clearance, scalar inset, const Reach* r) {
+  const scalar off = clearance - (r->h - 0.5f);
+  return fmax(0.0f, 1.0f - fabs(off)) * contact_inner(inset, r);
 }
 
 // Share of the area that soil touches: its mass over what a full node would hold in its room. Soil at its loose density
 // touches everywhere.  tuned: none; 0.75 = 1 / 1.33, a large swell.
-CONTACT_FN CONTACT_T contact_touch(CONTACT_T fill) { return contact_unit(fill * CONTACT_LIT(1.0 / 0.75)); }
+INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * (scalar)(1.0 / 0.75)); }
 
 // What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push, before the weight b [N s]. It
-// holds in shear only and ends with the contact: soil carries no tension, so there is nothing to pull at.
-CONTACT_FN CONTACT_T contact_stick(CONTACT_T adhesion, CONTACT_T area, CONTACT_T b, const Reach* r) {
+// holds in shear only and ends with the contact: soil carries no tension, so there is nothing to pull at
+// [docs/tools.md, adhesion].
+INLINED scalar contact_stick(scalar adhesion, scalar area, scalar b, const Reach* r) {
   return adhesion * area * r->patch / b;
+}
+
+// One side of one node.
+typedef struct ContactNode {
+  scalar3 v, r, n;           // velocity [m/s], lever arm from the tool's origin [m], normal away from the plate
+  scalar m, b, mu, stick;    // mass [kg], weight, tan of the friction angle, most shear without any push [N s]
+} ContactNode;
+
+// How an impulse came about.
+typedef struct ContactBranch {
+  bool acts, pushing, sticking;  // at all; in the normal direction; slip is stopped whole
+} ContactBranch;
+
+// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]: fractional
+// [weight b], unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0.
+INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
+                                ContactBranch* branch) {
+  const scalar3 rel = node->v - (speed + cross(spin, node->r));
+  const scalar rn = dot(rel, node->n);
+  branch->pushing = rn < 0.0f;
+  branch->acts = branch->pushing || (node->stick > 0.0f && rn < opening);
+  branch->sticking = false;
+  if (!branch->acts) return (scalar)(0.0) * node->n;
+  const scalar jn = branch->pushing ? -node->m * rn : 0.0f;
+  const scalar3 slip = rel - rn * node->n;
+  const scalar speed_t = sqrt(dot(slip, slip));
+  const scalar most = node->mu * jn + node->stick;
+  branch->sticking = node->m * speed_t <= most;
+  const scalar stopped = branch->sticking ? node->m : most / fmax(speed_t, (scalar)(1e-12));
+  return node->b * (jn * node->n - slip * stopped);
 }
 
 #endif  // NAVVY_KERNELS_SOIL_CONTACT_LAW_H

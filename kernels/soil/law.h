@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The soil law: one source for the kernels (lanes of float16) and for the double-precision reference.
+// The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the double twin.
 //
-// Rate-form Drucker-Prager, plane-strain matched, with
+// Rate-form Drucker-Prager [Drucker 1952], matched in plane strain [docs/soil.md, yield], with
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
 //   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
@@ -10,111 +10,114 @@
 //   - dilatancy: shear widens J0 also against pressure, less and less until it is loose;
 //   - compaction: pressure above what the density state bears makes J0 denser for good;
 //   - mu(I): friction grows with the inertial number of the flow.
-// Only + - * / sqrt min max, so that contraction-free builds agree bit for bit.
+// Only + - * / sqrt min max, so that contraction-free builds agree bit for bit. NaN inputs must stay visible: min and
+// max may drop them, which is why callers check the whole state and not only the stress (advance_state in point.h).
 //
-// The includer defines before inclusion: LAW_T (scalar or lanes), LAW_LIT(x) (a literal of its scalar type), LAW_MIN,
-// LAW_MAX, LAW_SQRT, LAW_STEP(edge, x) (0 where x < edge, else 1) and LAW_FN (function specifiers). NaN inputs must stay
-// visible: min and max may drop them, which is why callers check the whole state and not only the stress.
+// Written in the dialect of kernels/README.md: `real` is what is computed with, `scalar` its element. Literals that a
+// float holds exactly stand as floats; the others are cast to scalar, so that the twin has them in double.
 #ifndef NAVVY_KERNELS_SOIL_LAW_H
 #define NAVVY_KERNELS_SOIL_LAW_H
 
-// One soil as the law needs it. Stresses [Pa].
+#include "soil/law_constants.h"
+#include "soil/layout.h"
+#include "soil/particle_fields.h"
+
+#ifdef LAW_EXTENDED
+#define LAW_CONSTANTS(X) ALL_LAW_CONSTANTS(X)
+#else
+#define LAW_CONSTANTS(X) BASIC_LAW_CONSTANTS(X)
+#endif
+
+// One soil as the law needs it, see law_constants.h.
+#define LAW_REAL(name) real name;
 typedef struct LawSoil {
-  LAW_T bulk;        // K
-  LAW_T shear;       // G
-  LAW_T alpha;       // sin(friction angle)
-  LAW_T k_residual;  // residual cohesion x cos(friction angle)
-  LAW_T k_bond;      // (intact - residual cohesion) x cos(friction angle)
-  LAW_T inv_remould; // 1 / remoulding strain
-  LAW_T inv_opening; // 1 / opening strain
-  LAW_T viscosity;   // [Pa s], where it does not yield
-  LAW_T swell;       // largest J0
-  LAW_T loosening;   // growth of J0 per plastic shear, as far as J allows
-#ifdef LAW_EXTENDED
-  LAW_T dilatancy;   // b: plastic volume strain per plastic shear in bank state
-  LAW_T inv_range;   // 1 / (swell - 1), 0 without swell
-  LAW_T matched;     // yield stress that plane strain needs at b / that without dilatancy - 1
-  LAW_T alpha_fast;  // growth of alpha from slow to fast flow
-  LAW_T grain;       // diameter x sqrt(density) of the grains
-  LAW_T inertial;    // inertial number at half that growth
-  LAW_T cap;         // mean pressure that bank soil bears without getting denser
-  LAW_T cap_growth;  // growth of it, as a share, per volume strain
-#endif
+  LAW_CONSTANTS(LAW_REAL)
 } LawSoil;
+#undef LAW_REAL
 
-// Advances stress and state by dt [s] under the velocity gradient c (row major, c[3*i+j] = dv_i/dx_j [1/s]).
-// s: deviatoric stress xx yy zz xy yz xz; j: volume ratio; j0: density state; shear: plastic shear.
-// sigma: the stress the grid feels, same order, with pressure and viscosity. Positive in tension.
-LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, LAW_T* j, LAW_T* j0, LAW_T* shear,
-                       LAW_T* sigma) {
-  const LAW_T trace = c[0] + c[4] + c[8];
-  const LAW_T third = trace * LAW_LIT(1.0 / 3.0);
-  const LAW_T dxx = c[0] - third, dyy = c[4] - third, dzz = c[8] - third;
-  const LAW_T dxy = LAW_LIT(0.5) * (c[1] + c[3]), wxy = LAW_LIT(0.5) * (c[1] - c[3]);
-  const LAW_T dyz = LAW_LIT(0.5) * (c[5] + c[7]), wyz = LAW_LIT(0.5) * (c[5] - c[7]);
-  const LAW_T dxz = LAW_LIT(0.5) * (c[2] + c[6]), wxz = LAW_LIT(0.5) * (c[2] - c[6]);
+// What the law advances, see particle_fields.h.
+#define STATE_REAL(NAME, member, rest) real member;
+#define STATE_REALS(NAME, member, count, rest) real member[count];
+typedef struct LawState {
+  LAW_STATE_FIELDS(STATE_REAL, STATE_REALS)
+} LawState;
+#undef STATE_REAL
+#undef STATE_REALS
 
-  // Trial stress: elastic shear plus the Jaumann turn W s - s W.
-  const LAW_T g2 = LAW_LIT(2.0) * soil->shear;
-  const LAW_T xx = s[0] + dt * (g2 * dxx + LAW_LIT(2.0) * (wxy * s[3] + wxz * s[5]));
-  const LAW_T yy = s[1] + dt * (g2 * dyy + LAW_LIT(2.0) * (wyz * s[4] - wxy * s[3]));
-  const LAW_T zz = s[2] + dt * (g2 * dzz - LAW_LIT(2.0) * (wxz * s[5] + wyz * s[4]));
-  const LAW_T xy = s[3] + dt * (g2 * dxy + wxy * (s[1] - s[0]) + wxz * s[4] + wyz * s[5]);
-  const LAW_T yz = s[4] + dt * (g2 * dyz + wyz * (s[2] - s[1]) - wxy * s[5] - wxz * s[3]);
-  const LAW_T xz = s[5] + dt * (g2 * dxz + wxz * (s[2] - s[0]) + wxy * s[4] - wyz * s[3]);
+// Advances the state by dt [s] under the velocity gradient c. sigma: the stress the grid feels, order of state->s, with
+// pressure and viscosity. Positive in tension.
+INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state, real* sigma) {
+  const real* s = state->s;
+  real j = state->j, j0 = state->j0;
+  const real trace = c[0] + c[4] + c[8];
+  const real third = trace * (scalar)(1.0 / 3.0);
+  const real dxx = c[0] - third, dyy = c[4] - third, dzz = c[8] - third;
+  const real dxy = 0.5f * (c[1] + c[3]), wxy = 0.5f * (c[1] - c[3]);
+  const real dyz = 0.5f * (c[5] + c[7]), wyz = 0.5f * (c[5] - c[7]);
+  const real dxz = 0.5f * (c[2] + c[6]), wxz = 0.5f * (c[2] - c[6]);
 
-  // Pressure from the tracked volume; opened soil has none.
-  *j = LAW_MAX(*j * (LAW_LIT(1.0) + dt * trace), LAW_LIT(0.2));  // a floor far below any real state: p stays finite
+  // Trial stress: elastic shear plus the Jaumann turn W s - s W [docs/soil.md, stress update].
+  const real g2 = 2.0f * soil->shear;
+  const real xx = s[0] + dt * (g2 * dxx + 2.0f * (wxy * s[3] + wxz * s[5]));
+  const real yy = s[1] + dt * (g2 * dyy + 2.0f * (wyz * s[4] - wxy * s[3]));
+  const real zz = s[2] + dt * (g2 * dzz - 2.0f * (wxz * s[5] + wyz * s[4]));
+  const real xy = s[3] + dt * (g2 * dxy + wxy * (s[1] - s[0]) + wxz * s[4] + wyz * s[5]);
+  const real yz = s[4] + dt * (g2 * dyz + wyz * (s[2] - s[1]) - wxy * s[5] - wxz * s[3]);
+  const real xz = s[5] + dt * (g2 * dxz + wxz * (s[2] - s[0]) + wxy * s[4] - wyz * s[3]);
+
+  // Pressure from the tracked volume; opened soil has none [Dunatunga 2015] [docs/soil.md, opening].
+  j = fmax(j * (1.0f + dt * trace), (scalar)(0.2));  // a floor far below any real state: p stays finite
 #ifdef LAW_EXTENDED
-  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again.
-  const LAW_T line = LAW_LIT(1.0) + soil->cap_growth * (LAW_LIT(1.0) - *j0);
-  const LAW_T over =
-      LAW_MAX(soil->bulk * (LAW_LIT(1.0) - *j / *j0) - soil->cap * LAW_MAX(line, LAW_LIT(0.05)), LAW_LIT(0.0));
-  const LAW_T slope = soil->bulk / *j0 + soil->cap * soil->cap_growth * LAW_STEP(LAW_LIT(0.05), line);
-  *j0 = LAW_MAX(*j0 - over / slope, LAW_MIN(*j0, LAW_LIT(DENSEST_STATE)));
+  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again
+  // [docs/soil.md, compaction].
+  const real line = 1.0f + soil->cap_growth * (1.0f - j0);
+  const real over = fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
+  const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
+  j0 = fmax(j0 - over / slope, fmin(j0, (scalar)(DENSEST_STATE)));
 #endif
-  const LAW_T open = *j / *j0 - LAW_LIT(1.0);
-  const LAW_T p = soil->bulk * LAW_MAX(-open, LAW_LIT(0.0));
+  const real open = j / j0 - 1.0f;
+  const real p = soil->bulk * fmax(-open, 0.0f);
 
-  // Yield stress, radial return.
-  const LAW_T soft = LAW_LIT(1.0) + *shear * soil->inv_remould;
-  const LAW_T fade = LAW_MIN(LAW_MAX(LAW_LIT(1.0) - open * soil->inv_opening, LAW_LIT(0.0)), LAW_LIT(1.0));
+  // Yield stress, its cohesion faded [docs/soil.md, cohesion]; return [Klar 2016] [docs/soil.md, return mapping].
+  const real soft = 1.0f + state->shear * soil->inv_remould;
+  const real fade = fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
 #ifdef LAW_EXTENDED
-  const LAW_T dense = LAW_MIN(LAW_MAX((soil->swell - *j0) * soil->inv_range, LAW_LIT(0.0)), LAW_LIT(1.0));
-  const LAW_T rate = LAW_SQRT(LAW_LIT(2.0) * (dxx * dxx + dyy * dyy + dzz * dzz) +
-                              LAW_LIT(4.0) * (dxy * dxy + dyz * dyz + dxz * dxz));
-  const LAW_T flow = soil->grain * rate;
-  const LAW_T fast = flow / (flow + soil->inertial * LAW_SQRT(p) + LAW_LIT(1e-9));
-  const LAW_T scale = LAW_LIT(1.0) + soil->matched * dense;
-  const LAW_T alpha = scale * (soil->alpha + soil->alpha_fast * fast);
-  const LAW_T q_yield = alpha * p + scale * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+  const real dense = fmin(fmax((soil->swell - j0) * soil->inv_range, 0.0f), 1.0f);
+  // mu(I) [Jop 2006] on sin phi [docs/soil.md, flow rate].
+  const real rate =
+      sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
+  const real flow = soil->grain * rate;
+  const real fast = flow / (flow + soil->inertial * sqrt(p) + (scalar)(1e-9));
+  const real scale = 1.0f + soil->matched * dense;
+  const real alpha = scale * (soil->alpha + soil->alpha_fast * fast);
+  const real q_yield = alpha * p + scale * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
 #else
-  const LAW_T q_yield = soil->alpha * p + (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+  const real q_yield = soil->alpha * p + (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
 #endif
-  const LAW_T q =
-      LAW_SQRT(LAW_LIT(0.5) * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
-  const LAW_T keep = LAW_MIN(q_yield / LAW_MAX(q, LAW_LIT(1e-9)), LAW_LIT(1.0));
+  const real q = sqrt(0.5f * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
+  const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
-  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up.
-  const LAW_T b = soil->dilatancy * dense;
-  const LAW_T harder = alpha * soil->bulk * b * LAW_STEP(LAW_LIT(0.0), -open);
-  const LAW_T slip = q * (LAW_LIT(1.0) - keep) / (soil->shear + harder);
-  const LAW_T stay = keep + (LAW_LIT(1.0) - keep) * (harder / (soil->shear + harder));
-  *j0 = LAW_MIN(*j0 * (LAW_LIT(1.0) + b * slip), LAW_MAX(soil->swell, *j0));
-  const LAW_T pressure = soil->bulk * LAW_MAX(LAW_LIT(1.0) - *j / *j0, LAW_LIT(0.0));
+  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up
+  // [docs/soil.md, dilatancy].
+  const real b = soil->dilatancy * dense;
+  const real harder = alpha * soil->bulk * b * step(0.0f, -open);
+  const real slip = q * (1.0f - keep) / (soil->shear + harder);
+  const real stay = keep + (1.0f - keep) * (harder / (soil->shear + harder));
+  j0 = fmin(j0 * (1.0f + b * slip), fmax(soil->swell, j0));
+  const real pressure = soil->bulk * fmax(1.0f - j / j0, 0.0f);
 #else
-  const LAW_T slip = q * (LAW_LIT(1.0) - keep) / soil->shear;
-  const LAW_T stay = keep, pressure = p;
+  const real slip = q * (1.0f - keep) / soil->shear;
+  const real stay = keep, pressure = p;
 #endif
-  s[0] = xx * stay;
-  s[1] = yy * stay;
-  s[2] = zz * stay;
-  s[3] = xy * stay;
-  s[4] = yz * stay;
-  s[5] = xz * stay;
+  state->s[0] = xx * stay;
+  state->s[1] = yy * stay;
+  state->s[2] = zz * stay;
+  state->s[3] = xy * stay;
+  state->s[4] = yz * stay;
+  state->s[5] = xz * stay;
 
-  // Viscosity where the step was elastic.
-  const LAW_T eta2 = LAW_LIT(2.0) * soil->viscosity * LAW_STEP(LAW_LIT(1.0), keep);
+  // Viscosity where the step was elastic [docs/soil.md, viscosity].
+  const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   sigma[0] = s[0] + eta2 * dxx - pressure;
   sigma[1] = s[1] + eta2 * dyy - pressure;
   sigma[2] = s[2] + eta2 * dzz - pressure;
@@ -122,11 +125,12 @@ LAW_FN void law_update(const LAW_T* c, LAW_T dt, const LawSoil* soil, LAW_T* s, 
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
-  // Plastic shear, and the density state it loosens: never further than J allows, so that
+  // Plastic shear, and the density state it loosens [docs/soil.md, swell]: never further than J allows, so that
   // loosening makes no pressure out of nothing.
-  *shear = *shear + slip;
-  const LAW_T grown = LAW_MIN(*j0 + soil->loosening * slip, *j);
-  *j0 = LAW_MAX(*j0, LAW_MIN(grown, soil->swell));
+  state->shear = state->shear + slip;
+  const real grown = fmin(j0 + soil->loosening * slip, j);
+  state->j0 = fmax(j0, fmin(grown, soil->swell));
+  state->j = j;
 }
 
 #endif  // NAVVY_KERNELS_SOIL_LAW_H

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or soil/groups/group.h).
 //
-// A triangle is SHELL_WORDS float4s, lengths in cells from its tool's window corner: corners a b c (a.w = tool, b.w =
-// distance of the farthest corner from their centre), unit normal (w = 0), pseudo-normals of the edges ab bc ca and of
-// the corners a b c (w = 1 on a free edge). The sign of the distance comes from the pseudo-normal of the feature that is
-// closest [Baerentzen & Aanaes 2005], which is right on folds of either kind: with plain face normals a point before an
-// inner corner would see one face from behind.
+// Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance comes from the
+// pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on folds of either kind: with
+// plain face normals a point before an inner corner would see one face from behind.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 
-#define SHELL_NORMAL 3  // feature 0 is the face, 1..3 the edges, 4..6 the corners: word = SHELL_NORMAL + feature
+#include "soil/tool.h"
 
 typedef struct Closest {
   real distance2;   // [cells^2]
   real x, y, z;     // the closest point, from its tool's window corner
-  ints feature;    // 8 * triangle + feature, -1: none
+  ints feature;     // 8 * triangle + feature, -1: none
 } Closest;
 
 static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature, int corner_a, int corner_b,
@@ -35,14 +33,15 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
 
 // Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips the triangle when
 // all points are farther than `far` from its plane, or from its centre by more than `far` and its radius.
-static inline void closest_triangle(real px, real py, real pz, global const float4* triangles, int t, float far,
+static inline void closest_triangle(real px, real py, real pz, global const ShellTriangle* triangles, int t, float far,
                                     Closest* best) {
-  global const float4* at = triangles + SHELL_WORDS * t;
-  const float3 a = at[0].xyz, b = at[1].xyz, c = at[2].xyz, n = at[3].xyz;
+  global const ShellTriangle* triangle = triangles + t;
+  const float3 a = vload3(0, triangle->a), b = vload3(0, triangle->b), c = vload3(0, triangle->c);
+  const float3 n = vload3(0, triangle->feature[0].normal);
   const real height = (px - a.x) * n.x + (py - a.y) * n.y + (pz - a.z) * n.z;
   if (!some(fabs(height) < far)) return;
   const float3 centre = (a + b + c) * (1.0f / 3.0f);
-  const float reach = far + at[1].w;
+  const float reach = far + triangle->radius;
   const real ox = px - centre.x, oy = py - centre.y, oz = pz - centre.z;
   if (!some(ox * ox + oy * oy + oz * oz < reach * reach)) return;
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
@@ -68,20 +67,29 @@ static inline real segment_distance2(real px, real py, real pz, float3 a, float3
   return dx * dx + dy * dy + dz * dz;
 }
 
+// Distance squared along the plate to its free edge; only rims of the same tool count.
+static inline real inset2_of(real px, real py, real pz, ints tool, global const ShellRim* rims, int count) {
+  real inset2 = INFINITY;
+  for (int r = 0; r < count; ++r) {
+    const real e2 = segment_distance2(px, py, pz, vload3(0, rims[r].start), vload3(0, rims[r].along));
+    inset2 = select(inset2, fmin(inset2, e2), tool == (ints)(rims[r].tool));
+  }
+  return inset2;
+}
+
 // Block from whose corner the tool's coordinates count.
-static inline int3 window_of(global const float* tools, int tool) {
-  return as_int3(vload3(0, tools + TOOL_WORDS * tool + TOOL_WINDOW));
+static inline int3 window_of(global const Tool* tools, int tool) {
+  return vload3(0, tools[tool].window);
 }
 
 // Nearest of the candidate triangles list[begin..end) of points of block `key`.
-static inline void query(real x, real y, real z, int3 key, global const float4* triangles, global const float* tools,
+static inline void query(real x, real y, real z, int3 key, global const ShellTriangle* triangles, global const Tool* tools,
                          global const int* list, int begin, int end, float far, Closest* best) {
   best->distance2 = INFINITY;
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;
   for (int i = begin; i < end; ++i) {
-    const int tool = as_int(triangles[SHELL_WORDS * list[i]].w);
-    const float3 shift = convert_float3(4 * (key - window_of(tools, tool)));
+    const float3 shift = convert_float3(4 * (key - window_of(tools, triangles[list[i]].tool)));
     closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], far, best);
   }
 }

@@ -6,39 +6,49 @@
 
 #include "soil/shell_query.h"
 
-// What one point learns from its closest feature. Normal points to the front.
-static inline bool resolve(global const float4* triangles, int feature, float3 away, float distance2, float* phi,
+// What one point learns from its closest feature. The normal points away from the plate in front, to it behind: to the
+// front either way.
+static inline bool resolve(global const ShellTriangle* triangles, int feature, float3 away, float distance2, float* phi,
                            float3* normal, bool* rim) {
   if (feature < 0) return false;
-  const float4 pseudo = triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL + (feature & 7)];
+  global const ShellTriangle* triangle = triangles + (feature >> 3);
+  global const ShellFeature* closest = triangle->feature + (feature & 7);
   const float d = sqrt(distance2);
-  const float sign = dot(away, pseudo.xyz) >= 0.0f ? 1.0f : -1.0f;
+  const float sign = dot(away, vload3(0, closest->normal)) >= 0.0f ? 1.0f : -1.0f;
   *phi = sign * d;
   // On the plate itself the direction is the plate's.
-  *normal = d > 1e-4f ? away * (sign / d) : triangles[SHELL_WORDS * (feature >> 3) + SHELL_NORMAL].xyz;
-  *rim = pseudo.w > 0.0f;
+  *normal = d > 1e-4f ? away * (sign / d) : vload3(0, triangle->feature[0].normal);
+  *rim = closest->free > 0.0f;
   return true;
 }
 
-// One particle near a shell. side = 1 + 2 tool + behind, 0: none.
-typedef struct Kept {
+// Which field of velocities a node has: 0 one, 1 split and in front, 2 split and behind.
+static inline int split_of(bool rim, float phi, float band) { return rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2; }
+
+static inline NodeShell node_shell_of(float3 normal, float phi, float inset) {
+  const NodeShell out = {{normal.x, normal.y, normal.z}, phi, inset, {0.0f, 0.0f, 0.0f}};
+  return out;
+}
+
+// One particle near a shell. side = 1 + 2 tool + behind, 0: none [docs/tools.md, sides].
+typedef struct SideResult {
   float3 x;  // position [cells from its block's corner]
   int side;
   float push;  // out of the plate [cells]
   int crossed;
-} Kept;
+} SideResult;
 
 // The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
 // plate comes back to its surface.
-static inline Kept keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest, float band,
-                             float longest_push, global const float4* triangles, global const float* tools) {
-  Kept out = {x, 0, 0.0f, 0};
+static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest, float band,
+                             float longest_push, global const ShellTriangle* triangles, global const Tool* tools) {
+  SideResult out = {x, 0, 0.0f, 0};
   float phi = 0.0f;
   float3 normal = (float3)(0.0f);
   bool rim = true;
   int tool = -1;
   if (feature >= 0 && distance2 < 4.0f * band * band) {
-    tool = as_int(triangles[SHELL_WORDS * (feature >> 3)].w);
+    tool = triangles[feature >> 3].tool;
     const float3 here = convert_float3(4 * (key - window_of(tools, tool))) + x;
     resolve(triangles, feature, here - closest, distance2, &phi, &normal, &rim);
   }
@@ -47,7 +57,7 @@ static inline Kept keep_side(float3 x, int old_side, int3 key, int feature, floa
   if (!rim && fabs(phi) < band) {
     out.side = same_tool ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
     const float s = (out.side & 1) == 0 ? -1.0f : 1.0f;
-    const float depth = tools[TOOL_WORDS * tool + TOOL_HALF] - s * phi;
+    const float depth = tools[tool].half_thickness - s * phi;
     if (depth > 0.0f) {
       out.push = fmin(depth, longest_push);
       out.x += s * out.push * normal;

@@ -3,21 +3,27 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace CLI {
+// CLI11 takes seconds to compile: only sources include it.
 class App;
-}
+}  // namespace CLI
 
 namespace navvy::cli {
 
 /// What the chosen subcommand does; returns the exit status.
 using Action = std::function<int()>;
 
-void add_run(CLI::App& app, Action& action);
+/// `command_line` goes into the run's folder, the program's name first.
+void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line);
+/// Those that only tell: faults, devices, soils, channels.
 void add_check(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);
 void add_soils(CLI::App& app, Action& action);
 void add_channels(CLI::App& app, Action& action);
+/// Virtual soil rigs, and rows of measured speed.
 void add_lab(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 

@@ -18,12 +18,14 @@ namespace navvy::cli {
 
 using nlohmann::json;
 
-ControlStdio::ControlStdio(sim::Session& session, double rate, std::function<bool()> stop)
+/// A control step is a whole number of base steps: exchanges fall on the same steps on every machine.
+ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop)
     : stop_(std::move(stop)),
       session_(session),
       world_(session.world()),
       interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world_.dt()))))) {}
 
+/// The next line without its end; false when the stream ended or `stop` said so.
 bool ControlStdio::read_line(std::string& line) {
   // Not through std::cin: a signal that comes just before a blocking read would be lost in it.
   constexpr int kPatience = 100;  // [ms]
@@ -31,6 +33,7 @@ bool ControlStdio::read_line(std::string& line) {
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, kPatience);
     if (stop_()) return false;
+    // Nothing yet, or a signal: ask `stop` again.
     if (ready <= 0) continue;
     char bytes[4096];
     const ssize_t got = read(STDIN_FILENO, bytes, sizeof bytes);
@@ -47,6 +50,7 @@ bool ControlStdio::read_line(std::string& line) {
   return true;
 }
 
+/// Outputs first, then inputs: the controller answers what it has just been told.
 bool ControlStdio::exchange() {
   if (world_.steps() % interval_ != 0) return true;
   json out;
@@ -55,15 +59,19 @@ bool ControlStdio::exchange() {
   for (std::size_t i = 0; i < world_.outputs().size(); ++i)
     values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
   std::cout << out.dump() << "\n" << std::flush;
+  // Lock step: simulated time stands still until the answer is there.
   std::string line;
   if (!read_line(line)) return false;
   ++lines_;
+  // A controller's slip stops the run with the line's number: going on would hide it.
   const auto fault = [&](const std::string& element, const std::string& value, const std::string& rule) {
     return InputError(Fault{Fault::Severity::kError, "standard input", static_cast<int>(lines_), element, value, rule,
                             R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
   };
+  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
   const json in = json::parse(line, nullptr, false);
   if (!in.is_object()) throw fault("line", line.substr(0, 80), "must be one JSON object");
+  // A misspelt key would otherwise be an input that never arrives.
   for (const auto& [key, value] : in.items())
     if (key != "inputs" && key != "end") throw fault(key, value.dump().substr(0, 80), "must be 'inputs' or 'end'");
   if (in.contains("end")) {
@@ -75,10 +83,10 @@ bool ControlStdio::exchange() {
   for (const auto& [name, value] : in["inputs"].items()) {
     if (!value.is_number()) throw fault(name, value.dump(), "must be a number");
     try {
-      const int channel = world_.input(name);
-      session_.take_over(name);
-      world_.set(channel, value.get<double>());
+      // By name each time: controllers send few inputs, and the map is fast.
+      session_.set(name, value.get<double>());
     } catch (const InputError& error) {
+      // The world knows the channel; here the line is added.
       const Fault& cause = error.faults().front();
       throw InputError(Fault{cause.severity, "standard input", static_cast<int>(lines_), cause.element, cause.value,
                              cause.rule, cause.remedy});

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::cli {
 
@@ -16,7 +16,7 @@ namespace navvy::cli {
 class ControlStdio {
  public:
   /// @param stop asked while it waits for a line: true ends the wait as the end of the stream does
-  ControlStdio(sim::Session& session, double rate, std::function<bool()> stop);
+  ControlStdio(session::Session& session, double rate, std::function<bool()> stop);
   /// Exchanges when a control step is due. Returns false when the controller wants to end.
   /// @throws InputError naming line and key when the line is not as described.
   bool exchange();
@@ -26,8 +26,9 @@ class ControlStdio {
 
   std::function<bool()> stop_;
   std::string unread_;  ///< what came after the last line
-  sim::Session& session_;
-  sim::World& world_;
+  session::Session& session_;
+  const sim::World& world_;
+  /// Exchanges fall on multiples of it.
   std::uint64_t interval_;  ///< base steps per control step
   std::uint64_t lines_ = 0;
 };

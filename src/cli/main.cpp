@@ -18,6 +18,7 @@ namespace {
 
 using namespace navvy;
 
+/// Libraries hand out lines; what becomes of them is the program's choice.
 void install_log_sink() {
   // stderr, so that results on stdout stay clean for pipes.
   auto logger = spdlog::stderr_color_mt("navvy");
@@ -40,10 +41,12 @@ void install_log_sink() {
   });
 }
 
+/// Every kind of failure has an exit status of its own, which scripts may rely on (cli/exit_code.h).
 int guarded(const cli::Action& action) {
   try {
     return action();
   } catch (const InputError& error) {
+    // What the user can mend comes without the word "error" before it: each fault carries its own.
     std::cerr << error.what() << "\n";
     return cli::kBadInput;
   } catch (const device::DeviceError& error) {
@@ -56,6 +59,7 @@ int guarded(const cli::Action& action) {
     std::cerr << "error: " << error.what() << "\n";
     return cli::kSimulation;
   } catch (const std::bad_alloc&) {
+    // Host memory; the device's has its own error.
     std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a smaller site\n";
     return cli::kInternal;
   } catch (const std::exception& error) {
@@ -67,23 +71,28 @@ int guarded(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // The first lines of the help are what a newcomer types.
   CLI::App app(
       "Navvy: terrain and excavation simulator on OpenCL.\n"
       "Start with: navvy run scenarios/trench.sdf");
   app.set_version_flag("--version", NAVVY_VERSION);
+  // Parsing only fills `action`: nothing runs before the whole command line is understood.
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
       "written, 5 the simulation stopped itself (failed.snapshot is left), 130 interrupted.\n"
       "scenarios/README.md explains scene files from the first line on.");
+  // Filled by the subcommand that was typed.
   cli::Action action;
-  cli::add_run(app, action);
+  // The whole command line goes into the run's folder.
+  cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
   cli::add_devices(app, action);
   cli::add_soils(app, action);
   cli::add_channels(app, action);
   cli::add_lab(app, action);
   cli::add_bench(app, action);
+  // CLI11 would answer an unknown word with the help of the whole program; a short line is kinder.
   const std::vector<CLI::App*> commands = app.get_subcommands({});
   const auto is_chosen = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_chosen)) {
@@ -95,8 +104,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    // Help and version end well; whatever else the parser complains of is bad input.
     return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
   }
+  // Only now: parsing says what it has to say by itself.
   install_log_sink();
   return guarded(action);
 }

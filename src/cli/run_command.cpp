@@ -21,11 +21,12 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "record/recorder.h"
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::cli {
 namespace {
 
+// A signal may come at any moment and may do no more than this.
 std::atomic<bool> interrupted{false};
 extern "C" void on_signal(int) { interrupted = true; }
 
@@ -39,6 +40,7 @@ struct RunOptions {
   double snapshot_at = -1;
   double hash_every = 0;
   bool quiet = false;
+  std::vector<std::string> command;  ///< the whole command line, for the run's folder
 };
 
 /// One line on a terminal, rewritten twice a second; nothing when stderr is a file or pipe.
@@ -46,8 +48,10 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
   void show(const record::Progress& p) {
+    // Twice a second: a terminal is slower than a step.
     if (!on_ || watch_.seconds() < 0.5) return;
     watch_.restart();
+    // One line, cleared to its end.
     std::fprintf(stderr,
                  "\r%7.1f / %.0f s  x%.2f real time  %6d particles  cycle %d  %-10s  at most %3.0f s left \033[K",
                  p.time, p.duration, p.real_time_factor, p.particles, p.cycles, p.phase.c_str(), p.remaining);
@@ -64,36 +68,45 @@ class ProgressLine {
   Stopwatch watch_;
 };
 
+/// Named by the scene and not by its file: a scene read from a run's folder goes back there.
 std::string default_out(const scene::World& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
 
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
-int step_to_the_end(const RunOptions& options, sim::Session& session, record::Recorder& recorder) {
+int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder) {
   ProgressLine line(options.quiet || !options.control.empty());
+  // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
+  // The line of control ends its wait when Ctrl-C comes.
   if (!options.control.empty())
     control = std::make_unique<ControlStdio>(session, options.control_rate, [] { return interrupted.load(); });
   bool snapshot_due = !options.snapshot.empty();
   try {
+    // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
+    // start.
     while (!session.done() && !interrupted) {
       if (control && !control->exchange()) break;
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
         snapshot_due = false;
       }
+      // All that a step changes is recorded before the next one.
       session.step();
       recorder.observe();
       line.show(recorder.progress());
     }
   } catch (const std::exception& error) {
+    // The first cause is what the user reads; a second one in closing the files is only logged.
     line.end();
     try {
       recorder.finish("failed", error.what());
     } catch (const std::exception& second) {
       log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + second.what());
     }
+    // The exit status says which kind of failure it was.
     throw;
   }
   line.end();
+  // Asked for and not written: that must not go unnoticed.
   if (snapshot_due)
     log_warning("no snapshot: the run ended at " + std::to_string(session.world().time()) + " s, before --snapshot-at");
   recorder.finish(interrupted ? "interrupted" : "finished");
@@ -103,6 +116,7 @@ int step_to_the_end(const RunOptions& options, sim::Session& session, record::Re
 /// A snapshot that cannot be read is bad input, told before the scene is built.
 void require_snapshot(const std::string& path) {
   if (path.empty() || (std::filesystem::is_regular_file(path) && std::ifstream(path).is_open())) return;
+  // Where snapshots come from is what a user asks next.
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, "no such snapshot, or it cannot be read",
                          "--snapshot FILE --snapshot-at T writes one; a run that stopped itself leaves failed.snapshot "
                          "among its results"});
@@ -112,18 +126,26 @@ int run(const RunOptions& options) {
   if (!options.control.empty() && options.control != "stdio")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control, "only 'stdio' is known",
                            "leave it out to let the scene's program drive"});
+  // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
-  const scene::World description = options.scene.load();
-  device::Device device(options.scene.device);
-  if (!options.quiet) log_info("device " + device.info().text());
   record::Options record_options;
+  const scene::World description = options.scene.load(&record_options.scene_text);
+  // The scene is sound from here on; a device may still be missing.
+  device::Device device(options.scene.device);
+  // Said before the run: the first thing to look at when it is slow.
+  if (!options.quiet) log_info("device " + device.info().text());
+  record_options.command = options.command;
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
   record_options.render = description.recording.render;
   record_options.hash_every = options.hash_every;
-  sim::Session session(description, device);
+  // The session builds the world; from here on errors leave a folder behind.
+  session::Session session(description, device);
+  // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume);
   record::Recorder recorder(session, record_options);
+  // Hours must not end at a path that cannot be written.
   if (!options.snapshot.empty()) require_writable(options.snapshot);
+  // Ctrl-C ends the run between two steps, with all results written.
   struct sigaction action = {};
   action.sa_handler = on_signal;
   // A read of standard input must end at Ctrl-C, or a silent controller could hold the program for ever.
@@ -132,6 +154,7 @@ int run(const RunOptions& options) {
   sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   const int code = step_to_the_end(options, session, recorder);
+  // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
   std::fprintf(say, "results: %s/summary.json\n", record_options.directory.c_str());
   return code;
@@ -139,10 +162,12 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line) {
   auto options = std::make_shared<RunOptions>();
+  options->command = std::move(command_line);
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
+  // What follows leaves the scene alone and goes into the run.
   command->add_option("--out", options->out, "directory of the results");
   command->add_option("--control", options->control,
                       "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
@@ -151,6 +176,7 @@ void add_run(CLI::App& app, Action& action) {
       ->needs("--control");
   command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
   command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");
+  // Either of the two alone is a slip.
   command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
   command

@@ -12,6 +12,7 @@ namespace navvy::cli {
 namespace {
 
 Vec2 parse_pair(const std::string& option, const std::string& text) {
+  // The whole text must be two numbers: "1,2m" is a slip, not 1 and 2.
   std::size_t used = 0, rest = 0;
   try {
     const double x = std::stod(text, &used);
@@ -22,16 +23,19 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
   } catch (const std::exception&) {
     // falls through to the message below
   }
+  // Option and text as typed.
   throw InputError(Fault{Fault::Severity::kError, "", 0, option, text, "two numbers in metres, separated by a comma",
                          "for example " + option + " 120,80"});
 }
 
 /// Names the shipped ones: a name without a path was meant to be one of them, or a file here.
 InputError no_such_scene(const std::string& name) {
+  // All data directories, as the look-up goes through all of them.
   std::set<std::string> known;
   std::error_code ignored;
   for (const std::string& directory : scene_io::data_directories())
     for (const auto& entry : std::filesystem::directory_iterator(directory + "/scenarios", ignored))
+      // Their READMEs and maps lie beside them.
       if (entry.path().extension() == ".sdf") known.insert(entry.path().stem().string());
   std::string list;
   for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
@@ -42,8 +46,10 @@ InputError no_such_scene(const std::string& name) {
 }  // namespace
 
 void SceneOptions::add_values_to(CLI::App& command) {
+  // One value each, or the scene's name after it would be taken for a second one.
   command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
       ->allow_extra_args(false);
+  // A seed of a hill's own stays.
   command.add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
@@ -54,6 +60,7 @@ void SceneOptions::add_values_to(CLI::App& command) {
 }
 
 void SceneOptions::add_to(CLI::App& command) {
+  // Everything a run may be given beside values.
   command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
       ->required();
   command.add_option(
@@ -66,12 +73,15 @@ void SceneOptions::add_to(CLI::App& command) {
 
 scene_io::Overrides SceneOptions::overrides() const {
   scene_io::Overrides out;
+  // The loader applies them to the text before it reads, so that the same rules hold.
   for (const std::string& setting : set) out.set.push_back(scene_io::parse_setting(setting));
   out.seed = seed;
+  // Zero stands for "not given".
   if (duration > 0) out.duration = duration;
   if (no_render) out.render = false;
   if (!terrain.empty()) out.terrain = terrain;
   if (!at.empty()) {
+    // A prefix and not an option of its own: both ways answer the same question.
     const std::string local = "local:";
     out.at_is_local = at.rfind(local, 0) == 0;
     out.at = parse_pair("--at", out.at_is_local ? at.substr(local.size()) : at);
@@ -80,19 +90,22 @@ scene_io::Overrides SceneOptions::overrides() const {
   return out;
 }
 
-scene::World SceneOptions::load() const {
+scene::World SceneOptions::load(std::string* resolved) const {
+  // A file of the user's goes before a shipped scene of the same name.
   std::string path = file;
   if (!std::filesystem::exists(path)) {
     for (const std::string& candidate : {file, "scenarios/" + file, "scenarios/" + file + ".sdf"}) {
       const std::string found = scene_io::find_data(candidate);
+      // First match wins, as everywhere data is looked for.
       if (!found.empty()) {
         path = found;
         break;
       }
     }
   }
+  // With a path the loader's own message is the better one.
   if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
-  return scene_io::load_world(path, overrides());
+  return scene_io::load_world(path, overrides(), resolved);
 }
 
 }  // namespace navvy::cli

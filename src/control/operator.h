@@ -16,7 +16,7 @@
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "scene/program.h"
-#include "vehicle/engine.h"
+#include "vehicle/machine_state.h"
 
 namespace navvy::control {
 

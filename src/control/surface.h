@@ -2,25 +2,30 @@
 // The surface an operator looks at.
 #pragma once
 
-#include "heightfield/ground.h"
+#include "heightfield/terrain.h"
 
 namespace navvy::control {
 
-/// Height of what can be seen from the cab [m] in W: resting ground, and loose soil on it when the view knows it.
+/// Where an operator's eyes get the terrain from. Who implements it decides which surface that is, and may take its
+/// view when it is first asked in a step: most steps look at nothing.
 class SurfaceView {
  public:
   virtual ~SurfaceView() = default;
-  virtual double height(double x, double y) const = 0;
+  /// What can be seen from the cab now; valid until the world steps on.
+  virtual const heightfield::Terrain& terrain() const = 0;
+  /// Its height at W (x, y) [m].
+  double height(double x, double y) const { return terrain().sample(x, y); }
 };
 
-/// The resting ground alone.
+/// A terrain that is at hand: a ground's resting columns, or a view.
 class GroundSurface final : public SurfaceView {
  public:
-  explicit GroundSurface(const heightfield::Ground& ground) : ground_(ground) {}
-  double height(double x, double y) const override { return ground_.sample(x, y); }
+  /// `terrain` must outlive it.
+  explicit GroundSurface(const heightfield::Terrain& terrain) : terrain_(terrain) {}
+  const heightfield::Terrain& terrain() const override { return terrain_; }
 
  private:
-  const heightfield::Ground& ground_;
+  const heightfield::Terrain& terrain_;
 };
 
 }  // namespace navvy::control

@@ -22,4 +22,14 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+std::string nearest_name(const std::vector<std::string>& names, const std::string& wanted) {
+  std::string nearest;
+  std::size_t least = static_cast<std::size_t>(-1);
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(name, wanted);
+    if (distance < least) least = distance, nearest = name;
+  }
+  return nearest;
+}
+
 }  // namespace navvy

@@ -17,7 +17,7 @@ constexpr double kSinkSpeed = 0.2;
 constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
 constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
 constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
-constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m (SOIL_SOLVER section 5)
+constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
 
 }  // namespace
 
@@ -132,17 +132,15 @@ void Coupling::update_ground_patch() {
     const Vec2i high = ground_.column_at(p.x() + kPatchMargin, p.y() + kPatchMargin);
     need.include({low.x(), low.y(), high.x() + 1, high.y() + 1});
   }
+  // Asked at every look, so that the next answer is about the time since this one.
+  const std::vector<heightfield::CellRect> changed = patch_changes_.take(ground_.view());
   const bool inside = need.x0 >= patch_.x0 && need.y0 >= patch_.y0 && need.x1 <= patch_.x1 && need.y1 <= patch_.y1;
   if (inside) {
-    const heightfield::CellRect changed = ground_.changed_since(patch_sequence_);
-    const bool touched = !changed.empty() && changed.x0 < patch_.x1 && changed.x1 > patch_.x0 &&
-                         changed.y0 < patch_.y1 && changed.y1 > patch_.y0;
-    if (!touched) return;
+    if (std::none_of(changed.begin(), changed.end(), [&](const auto& rect) { return rect.meets(patch_); })) return;
   } else {
     const int margin = static_cast<int>(std::lround(0.5 * kPatchMargin / cell));
     patch_ = {need.x0 - margin, need.y0 - margin, need.x1 + margin, need.y1 + margin};
   }
-  patch_sequence_ = ground_.sequence();
   const int stride = patch_stride();
   const int nx = (patch_.x1 - patch_.x0) / stride + 1, ny = (patch_.y1 - patch_.y0) / stride + 1;
   patch_height_.clear();
@@ -177,10 +175,9 @@ void Coupling::hash(StateHash& hash) const {
 }
 
 void Coupling::save(StateWriter& writer) const {
-  writer.begin("coupling", 2);
+  writer.begin("coupling", 3);
   writer.value(steps_);
   writer.value(patch_);
-  writer.value(patch_sequence_);
   writer.vector(patch_height_);
   writer.value(static_cast<std::uint64_t>(tools_.size()));
   for (const ToolLoad& tool : tools_) {
@@ -192,10 +189,9 @@ void Coupling::save(StateWriter& writer) const {
 }
 
 void Coupling::load(StateReader& reader) {
-  reader.begin("coupling", 2);
+  reader.begin("coupling", 3);
   steps_ = reader.value<std::uint64_t>();
   patch_ = reader.value<heightfield::CellRect>();
-  patch_sequence_ = reader.value<std::uint64_t>();
   patch_height_ = reader.vector<float>();
   if (reader.value<std::uint64_t>() != tools_.size())
     throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "coupling", "",
@@ -206,6 +202,8 @@ void Coupling::load(StateReader& reader) {
     tool.rock_W = reader.vec3();
   }
   reader.end();
+  // The patch as it was saved; the next look renews it from whatever the ground is then.
+  patch_changes_.forget();
   if (!patch_height_.empty()) upload_ground_patch();
   ruts_.load(reader);
 }

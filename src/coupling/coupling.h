@@ -8,6 +8,7 @@
 #include "core/state_io.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
+#include "heightfield/change_follower.h"
 #include "heightfield/ground.h"
 #include "scene/world.h"
 #include "soil/solver.h"
@@ -79,7 +80,7 @@ class Coupling {
   std::uint64_t steps_ = 0;
   // Patch of ground that rigid bodies collide with: its columns, every how many of them, their heights.
   heightfield::CellRect patch_;
-  std::uint64_t patch_sequence_ = 0;
+  heightfield::ChangeFollower patch_changes_;
   std::vector<float> patch_height_;
   TimeShare time_share_;
 };

@@ -15,7 +15,7 @@
 
 namespace navvy::coupling {
 
-/// Presses ruts by Bekker's law p = (kc/b + kphi) z^n [Bekker 1969, as in Wong 2008, eq. 2.46].
+/// Presses ruts by Bekker's law p = (kc/b + kphi) z^n [Bekker 1969] [Wong 2008, eq. 2.46].
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
 /// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises.

@@ -65,9 +65,10 @@ void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, b
 
 void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
-  const Device::State& device = *memory_->device;
+  Device::State& device = *memory_->device;
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
         "clEnqueueReadBuffer", device);
+  device.compiling.reset();
 }
 
 void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes) {
@@ -97,7 +98,7 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 }
 
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
-  const Device::State& device = *memory_->device;
+  Device::State& device = *memory_->device;
   cl_map_flags flags = CL_MAP_READ;
   if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
   if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
@@ -105,6 +106,7 @@ void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool 
   void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
                                 nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
+  if (wait) device.compiling.reset();
   return at;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "device/kernel_cache.h"
 #include "device/opencl_private.h"
 
 namespace navvy::device {
@@ -70,6 +71,8 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
 }
 
 std::vector<Found> find_devices() {
+  // Before the first call into OpenCL: PoCL reads its folder from the environment when its platform comes up.
+  prepare_kernel_cache();
   std::vector<Found> found;
   cl_uint platform_count = 0;
   if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return found;
@@ -115,6 +118,13 @@ int match(const std::vector<Found>& found, const std::string& choice) {
 }
 
 [[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice, bool from_environment) {
+  const KernelCacheStatus& cache = prepare_kernel_cache();
+  if (found.empty() && cache.folder.empty()) {
+    // PoCL offers no device when it has nowhere to put its kernels: installing it again would not help.
+    throw DeviceError(
+        "no OpenCL device, and no folder can be written for compiled kernels, without which PoCL offers none: " +
+        cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
+  }
   if (found.empty()) {
     throw DeviceError(
         "no OpenCL device: no platform is installed or none offers a device; install one, for example the CPU device "
@@ -157,6 +167,8 @@ Device::State::~State() {
   for (auto& [name, event] : events) clReleaseEvent(event);
   if (queue != nullptr) clReleaseCommandQueue(queue);
   if (context != nullptr) clReleaseContext(context);
+  // Also for a process that is killed later: what was compiled so far need not be compiled again.
+  seal_kernel_cache();
 }
 
 void Device::State::open_queue() {
@@ -168,6 +180,7 @@ void Device::State::open_queue() {
 
 void Device::State::finish() {
   check(clFinish(queue), "clFinish", *this);
+  compiling.reset();
   collect();
 }
 

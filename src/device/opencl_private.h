@@ -6,11 +6,13 @@
 #include <CL/cl.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "device/device.h"
+#include "device/slow_call.h"
 
 namespace navvy::device {
 
@@ -23,6 +25,9 @@ struct Device::State {
   std::uint64_t memory_used = 0;                         ///< by buffers [bytes]
   std::vector<std::pair<std::string, cl_event>> events;  ///< launches not yet added to `times`
   std::map<std::string, KernelTime> times;
+  /// Since a kernel was launched for the first time: the driver may compile its machine code only then. Ends with the
+  /// next wait.
+  std::unique_ptr<SlowCall> compiling;
 
   State() = default;
   State(const State&) = delete;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "device/kernel_cache.h"
 #include "device/opencl_private.h"
 
 namespace navvy::device {
@@ -27,6 +28,7 @@ struct Kernel::State {
   cl_kernel kernel = nullptr;
   cl_uint arguments = 0;
   std::size_t group[3] = {1, 1, 1};  ///< work-group the kernel asks for
+  bool launched = false;             ///< at least once
 
   State() = default;
   State(const State&) = delete;
@@ -37,6 +39,15 @@ struct Kernel::State {
 };
 
 namespace {
+
+/// What is told of a driver that takes its time over `what`.
+std::unique_ptr<SlowCall> tell_if_slow(const Device::State& device, const std::string& what) {
+  const std::string& folder = prepare_kernel_cache().folder;
+  return std::make_unique<SlowCall>(
+      "the OpenCL driver (" + device.info.platform + ") is still compiling " + what + " for " + device.info.name +
+      ", after " + std::to_string(static_cast<int>(SlowCall::kPatience)) + " s; some drivers take minutes" +
+      (folder.empty() ? "" : ", once: the result is kept in " + folder));
+}
 
 std::string build_log(cl_program program, const Device::State& device) {
   std::size_t size = 0;
@@ -63,6 +74,7 @@ std::shared_ptr<Program::State> build(Device& device, const std::string& name, c
   std::string flags;
   for (const std::string& flag : compiler_flags(device.info())) flags += flag + " ";
   for (const std::string& option : options) flags += option + " ";
+  const auto slow = tell_if_slow(*state->device, "kernels/" + name);
   code = clBuildProgram(state->program, 1, &state->device->device, flags.c_str(), nullptr, nullptr);
   if (code != CL_SUCCESS) {
     throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " + device.info().name +
@@ -169,6 +181,8 @@ void Kernel::launch(const Range& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
   Device::State& device = *state_->program->device;
   cl_event event = nullptr;
+  if (!state_->launched && !device.compiling) device.compiling = tell_if_slow(device, "kernel " + state_->name);
+  state_->launched = true;
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
   check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0, nullptr,
                                device.profiling ? &event : nullptr),

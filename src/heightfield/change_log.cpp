@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Who asks often gets exact answers, who asks seldom a bounding one, and nobody has to be known by name.
 #include "heightfield/change_log.h"
 
 #include <algorithm>
@@ -11,20 +12,6 @@ constexpr std::size_t kMostEdits = 2048;
 
 }  // namespace
 
-void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
-
-void CellRect::include(const CellRect& other) {
-  if (other.empty()) return;
-  if (empty()) {
-    *this = other;
-    return;
-  }
-  x0 = std::min(x0, other.x0);
-  y0 = std::min(y0, other.y0);
-  x1 = std::max(x1, other.x1);
-  y1 = std::max(y1, other.y1);
-}
-
 void ChangeLog::add(int ix, int iy) {
   ++sequence_;
   // The same column edited again (take then put, layer by layer) extends its own entry.
@@ -35,6 +22,7 @@ void ChangeLog::add(int ix, int iy) {
       return;
     }
   }
+  // Full: pairs in the older half are united, which frees a quarter at once and keeps the cost per edit constant.
   if (edits_.size() == kMostEdits) {
     for (std::size_t i = 0; i < kMostEdits / 4; ++i) {
       Edit united = edits_[2 * i];
@@ -49,6 +37,7 @@ void ChangeLog::add(int ix, int iy) {
 
 CellRect ChangeLog::since(std::uint64_t sequence, const CellRect& everything) const {
   if (sequence > sequence_) return everything;
+  // From the newest back, as questions are mostly about the last step.
   CellRect rect;
   for (auto edit = edits_.rbegin(); edit != edits_.rend() && edit->last > sequence; ++edit) rect.include(edit->rect);
   return rect;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/state_io.h"
-#include "heightfield/ground.h"
+#include "heightfield/cell_rect.h"
 
 namespace navvy::heightfield {
 
@@ -14,12 +14,14 @@ namespace navvy::heightfield {
 /// its older half are united, so a question about long ago gets a bounding superset. Adding costs amortised O(1).
 class ChangeLog {
  public:
-  /// Counts one edit of column (ix, iy).
+  /// Counts one edit of column (ix, iy). Edits of the same column in a row share an entry.
   void add(int ix, int iy);
+  /// Number of edits so far.
   std::uint64_t sequence() const { return sequence_; }
   /// Rectangle changed after `sequence`; `everything` when `sequence` lies in the future (a snapshot was loaded).
   CellRect since(std::uint64_t sequence, const CellRect& everything) const;
 
+  /// All of it, as the soil's next look at what changed depends on it.
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
 

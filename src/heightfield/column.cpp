@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Layers are cut, put down and pressed in whole units of mass: what leaves one column arrives in another to the last
+// unit, whatever rounding its thickness suffers.
 #include "heightfield/column.h"
 
 #include <algorithm>
@@ -26,6 +28,7 @@ bool alike(const Layer& a, const Layer& b) {
 
 // Adds b to a: masses and volumes are summed, shear is the mass mean.
 void unite(Layer& a, const Layer& b) {
+  // Volume is what neighbours feel, so volumes add; shear is a memory of the material and goes with the mass.
   const double ma = static_cast<double>(a.mass), mb = static_cast<double>(b.mass), m = ma + mb;
   a.specific_volume = static_cast<float>((ma * a.specific_volume + mb * b.specific_volume) / m);
   a.plastic_shear = static_cast<float>((ma * a.plastic_shear + mb * b.plastic_shear) / m);
@@ -52,6 +55,7 @@ void shorten(Column& column) {
 
 // Splits layer `i` so that `top` [m] of it becomes layer i + 1.
 void split(Column& column, std::size_t i, double top, const UnitThickness& unit) {
+  // By rounded mass; the two halves sum to what was there.
   Layer upper = column[i];
   upper.mass = std::llround(top / (static_cast<double>(upper.specific_volume) * unit[upper.soil]));
   upper.mass = std::clamp<std::int64_t>(upper.mass, 0, column[i].mass);
@@ -62,6 +66,7 @@ void split(Column& column, std::size_t i, double top, const UnitThickness& unit)
 }  // namespace
 
 void take_above(Column& column, double height, const UnitThickness& unit, std::vector<Layer>& taken) {
+  // The first layer that reaches above the height is the one to cut.
   double bottom = 0;
   std::size_t i = 0;
   while (i < column.size()) {
@@ -99,6 +104,7 @@ void compact(Column& column, double drop, double zone, float min_specific_volume
       split(column, i, zone, unit);
       ++i;
     }
+    // From the surface down, until the drop is used up or everything is as dense as it gets.
     Layer& layer = column[i];
     if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
     const double old = thickness(layer, unit);
@@ -108,6 +114,7 @@ void compact(Column& column, double drop, double zone, float min_specific_volume
         target == least ? min_specific_volume : static_cast<float>(layer.specific_volume * (target / old));
     drop -= old - target;
   }
+  // A split may have left nothing of a layer, and splits of many passes add up.
   std::erase_if(column, [](const Layer& layer) { return layer.mass == 0; });
   while (column.size() > kMostLayers) {
     const std::size_t before = column.size();

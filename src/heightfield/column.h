@@ -6,15 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layer.h"
 
 namespace navvy::heightfield {
-
-using Column = std::vector<Layer>;
 
 /// Metres of thickness that one mass unit at specific volume 1 makes, per soil: kMassQuantum / (bank_density cell^2).
 using UnitThickness = std::vector<double>;
 
+/// Thickness of one layer [m].
 inline double thickness(const Layer& layer, const UnitThickness& unit) {
   return static_cast<double>(layer.mass) * static_cast<double>(layer.specific_volume) * unit[layer.soil];
 }
@@ -30,7 +29,8 @@ inline double column_height(std::span<const Layer> layers, const UnitThickness& 
 /// Moves everything above `height` [m over the bottom] from `column` to the end of `taken`, bottom first.
 void take_above(Column& column, double height, const UnitThickness& unit, std::vector<Layer>& taken);
 
-/// Puts `layer` on top, merged into the top layer when both are alike.
+/// Puts `layer` on top, merged into the top layer when both are alike. A column of very many layers unites neighbours,
+/// so it stays short however often it is worked.
 void put(Column& column, const Layer& layer);
 
 /// Lowers the column by `drop` [m] by raising the density of its uppermost `zone` [m], deeper where that does not

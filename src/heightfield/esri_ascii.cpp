@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A text format of rows from north to south. Written to a file beside the target and renamed at the end, so that a
+// reader never meets half a map.
 #include "heightfield/esri_ascii.h"
 
 #include <unistd.h>
@@ -26,9 +28,11 @@ void append(std::string& out, T value) {
   out.append(buffer, end.ptr);
 }
 
-std::string header(const Ground& ground) {
-  const Ground::Setup& setup = ground.setup();
-  std::string out = "ncols " + std::to_string(ground.nx()) + "\nnrows " + std::to_string(ground.ny()) + "\nxllcorner ";
+// Corner and cell in the file's own coordinates; the format knows square cells and no CRS.
+std::string header(const Terrain& terrain) {
+  const GroundSetup& setup = terrain.setup();
+  std::string out =
+      "ncols " + std::to_string(terrain.nx()) + "\nnrows " + std::to_string(terrain.ny()) + "\nxllcorner ";
   append(out, setup.easting);
   out += "\nyllcorner ";
   append(out, setup.northing);
@@ -41,8 +45,9 @@ std::string header(const Ground& ground) {
 
 }  // namespace
 
-void write_esri_ascii(const Ground& ground, const std::string& path) {
+void write_esri_ascii(const Terrain& terrain, const std::string& path) {
   const std::string part = partial_name(path);
+  // Nothing is left behind by a failure.
   const auto fail = [&](int code) {
     ::unlink(part.c_str());
     throw FileError("cannot write '" + path + "': " + std::strerror(code));
@@ -52,16 +57,16 @@ void write_esri_ascii(const Ground& ground, const std::string& path) {
   const auto write = [&](const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(errno);
   };
-  write(header(ground));
+  write(header(terrain));
   // North first; 32 rows at a time because that is how the ground keeps them.
   std::vector<float> rows;
-  for (int bottom = (ground.ny() - 1) / 32 * 32; bottom >= 0; bottom -= 32) {
-    const int top = std::min(bottom + 32, ground.ny());
-    file_rows(ground, bottom, top, rows);
+  for (int bottom = (terrain.ny() - 1) / 32 * 32; bottom >= 0; bottom -= 32) {
+    const int top = std::min(bottom + 32, terrain.ny());
+    file_rows(terrain, bottom, top, rows);
     for (int iy = top - 1; iy >= bottom; --iy) {
       std::string line;
-      const float* row = rows.data() + static_cast<std::size_t>(iy - bottom) * ground.nx();
-      for (int ix = 0; ix < ground.nx(); ++ix) {
+      const float* row = rows.data() + static_cast<std::size_t>(iy - bottom) * terrain.nx();
+      for (int ix = 0; ix < terrain.nx(); ++ix) {
         if (ix > 0) line += ' ';
         append(line, row[ix]);
       }
@@ -69,6 +74,7 @@ void write_esri_ascii(const Ground& ground, const std::string& path) {
       write(line);
     }
   }
+  // A full disk may show only here.
   if (std::fclose(file.release()) != 0) fail(errno);
   commit_file(path);
 }

@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "heightfield/ground.h"
+#include "heightfield/terrain.h"
 
 namespace navvy::heightfield {
 
 /// Writes the present heights of the whole site, north row first, in the coordinates, units and datum of the file the
 /// site came from; every float reads back to the same bits. The format holds no CRS. Atomic.
 /// @throws FileError naming path and cause.
-void write_esri_ascii(const Ground& ground, const std::string& path);
+void write_esri_ascii(const Terrain& terrain, const std::string& path);
 
 }  // namespace navvy::heightfield

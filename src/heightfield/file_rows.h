@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/terrain.h"
 
 namespace navvy::heightfield {
 
@@ -12,6 +12,6 @@ namespace navvy::heightfield {
 inline constexpr double kExportNodata = -9999;
 
 /// Rows [y0, y1) of the whole site, row y0 first, x fastest; in double until the last rounding to float.
-void file_rows(const Ground& ground, int y0, int y1, std::vector<float>& out);
+void file_rows(const Terrain& terrain, int y0, int y1, std::vector<float>& out);
 
 }  // namespace navvy::heightfield

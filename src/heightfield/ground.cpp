@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// Columns and their changes. Reading what can be seen of them stands in terrain.cpp, storing them in tiles.cpp, what
+// can be done to one of them in column.cpp; here they are checked, changed, counted and saved.
 #include "heightfield/ground.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <mutex>
 
 #include "core/error.h"
 #include "heightfield/change_log.h"
 #include "heightfield/column.h"
+#include "heightfield/terrain_view.h"
 #include "heightfield/tiles.h"
 
 namespace navvy::heightfield {
@@ -17,6 +20,7 @@ namespace {
 constexpr double kCompactionCells = 2.0;
 constexpr std::uint32_t kStateVersion = 1;
 
+/// Collects what is wrong with a setup, so that one message tells all of it.
 class SetupCheck {
  public:
   void require(bool good, const std::string& element, const std::string& value, const std::string& rule,
@@ -31,6 +35,7 @@ class SetupCheck {
   std::vector<Fault> faults_;
 };
 
+// Every layer must name a soil and have a thickness; of the last one the thickness does not count.
 void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLayer>& layers, SetupCheck& check) {
   check.require(!layers.empty(), "ground/layers", "", "needs at least one layer", "add a navvy:layer");
   for (const scene::GroundLayer& layer : layers) {
@@ -42,7 +47,8 @@ void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLay
   }
 }
 
-void check_setup(const Ground::Setup& setup) {
+// The setup as it came, or one error with every fault.
+Ground::Setup checked(Ground::Setup setup) {
   SetupCheck check;
   // Columns are numbered with int; 2^30 a side would be 100 000 km of 0.1 m cells.
   const int most = 1 << 30;
@@ -52,6 +58,7 @@ void check_setup(const Ground::Setup& setup) {
                 "must be a finite length > 0 m");
   check.require(std::isfinite(setup.datum) && setup.origin.allFinite(), "ground/origin", "",
                 "datum and origin must be finite");
+  // What the source answers is checked column by column when it is asked.
   check.require(setup.surface != nullptr, "ground/surface", "", "a source of heights is needed");
   check.require(!setup.soils.empty() && setup.soils.size() < 65536, "ground/soils", std::to_string(setup.soils.size()),
                 "needs 1 to 65535 soils");
@@ -61,134 +68,64 @@ void check_setup(const Ground::Setup& setup) {
   check_layers(setup, setup.layers, check);
   for (const scene::GroundPatch& patch : setup.patches) check_layers(setup, patch.layers, check);
   check.finish();
-}
-
-// Like std::clamp, but a NaN gives `low` instead of an undefined conversion later.
-double bounded(double value, double low, double high) { return value > low ? std::min(value, high) : low; }
-
-// Smallest t in [0, range] with f0 + f1 t + f2 t^2 <= 0, negative when there is none.
-double first_root(double f0, double f1, double f2, double range) {
-  if (f0 <= 0) return 0;
-  const double end = f0 + (f1 + f2 * range) * range;
-  // Roots by the form that does not cancel [Press et al. 2007, Numerical Recipes, 5.6].
-  const double discriminant = f1 * f1 - 4 * f2 * f0;
-  if (discriminant >= 0) {
-    const double q = -0.5 * (f1 + std::copysign(std::sqrt(discriminant), f1));
-    double best = -1;
-    for (const double t : {q != 0 ? f0 / q : -1.0, f2 != 0 ? q / f2 : -1.0})
-      if (t >= 0 && t <= range && (best < 0 || t < best)) best = t;
-    if (best >= 0) return best;
-  }
-  return end <= 0 ? range : -1;
+  return setup;
 }
 
 }  // namespace
 
 struct Ground::State {
-  explicit State(Setup s) : setup(std::move(s)), tiles(setup) {}
-  Setup setup;
+  explicit State(const std::shared_ptr<const StartSite>& site) : tiles(site) {}
   Tiles tiles;
   ChangeLog changes;
-
-  double height(int ix, int iy) const {
-    return tiles.heights(ix / kTileSide, iy / kTileSide)[(iy % kTileSide) * kTileSide + ix % kTileSide];
-  }
-  double clamped_height(int ix, int iy) const {
-    return height(std::clamp(ix, 0, setup.nx - 1), std::clamp(iy, 0, setup.ny - 1));
-  }
-  /// Heights at the corners (ix, iy), (ix+1, iy), (ix, iy+1), (ix+1, iy+1) of the dual cell between column centres.
-  void corners(int ix, int iy, double z[4]) const {
-    if (ix >= 0 && iy >= 0 && ix + 1 < setup.nx && iy + 1 < setup.ny && ix % kTileSide + 1 < kTileSide &&
-        iy % kTileSide + 1 < kTileSide) {
-      const double* h = tiles.heights(ix / kTileSide, iy / kTileSide) + (iy % kTileSide) * kTileSide + ix % kTileSide;
-      z[0] = h[0], z[1] = h[1], z[2] = h[kTileSide], z[3] = h[kTileSide + 1];
-      return;
-    }
-    z[0] = clamped_height(ix, iy), z[1] = clamped_height(ix + 1, iy);
-    z[2] = clamped_height(ix, iy + 1), z[3] = clamped_height(ix + 1, iy + 1);
-  }
-  /// Dual cell that holds W (x, y) and the position in it, 0..1; far outside the site the last one.
-  void locate(double x, double y, int& ix, int& iy, double& u, double& v) const {
-    const double gx = bounded((x - setup.origin.x()) / setup.cell - 0.5, -1, setup.nx);
-    const double gy = bounded((y - setup.origin.y()) / setup.cell - 0.5, -1, setup.ny);
-    ix = static_cast<int>(std::floor(gx));
-    iy = static_cast<int>(std::floor(gy));
-    u = gx - ix;
-    v = gy - iy;
-  }
-  void changed(int ix, int iy) {
-    tiles.update_height(ix, iy);
-    changes.add(ix, iy);
-  }
-  void require_inside(int ix, int iy) const {
-    if (ix < 0 || iy < 0 || ix >= setup.nx || iy >= setup.ny)
-      throw Error("Ground: column (" + std::to_string(ix) + ", " + std::to_string(iy) + ") is outside the site of " +
-                  std::to_string(setup.nx) + " x " + std::to_string(setup.ny));
-  }
+  std::mutex view;  // views may be taken from several threads
 };
 
-Ground::Ground(Setup setup) {
-  check_setup(setup);
-  state_ = std::make_unique<State>(std::move(setup));
-}
+Ground::Ground(Setup setup)
+    : Terrain(std::make_shared<StartHeights>(std::make_shared<StartSite>(checked(std::move(setup))))),
+      state_(std::make_unique<State>(start_->shared_site())) {}
+// Defined where State is known.
 Ground::~Ground() = default;
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
 
-int Ground::nx() const { return state_->setup.nx; }
-int Ground::ny() const { return state_->setup.ny; }
-double Ground::cell() const { return state_->setup.cell; }
-const Vec2& Ground::origin() const { return state_->setup.origin; }
-double Ground::datum() const { return state_->setup.datum; }
-const Ground::Setup& Ground::setup() const { return state_->setup; }
 std::size_t Ground::touched_tiles() const { return state_->tiles.touched().size(); }
 
-Vec2i Ground::column_at(double x, double y) const {
-  // Far outside it saturates: no undefined conversion, and still outside.
-  const Setup& s = state_->setup;
-  const double far = 1e9;
-  return {static_cast<int>(bounded(std::floor((x - s.origin.x()) / s.cell), -far, far)),
-          static_cast<int>(bounded(std::floor((y - s.origin.y()) / s.cell), -far, far))};
+void Ground::require_inside(int ix, int iy) const {
+  if (!contains(ix, iy))
+    throw Error("Ground: column (" + std::to_string(ix) + ", " + std::to_string(iy) + ") is outside the site of " +
+                std::to_string(nx()) + " x " + std::to_string(ny()));
 }
 
-double Ground::height(int ix, int iy) const { return state_->clamped_height(ix, iy); }
-
-double Ground::start_height(int ix, int iy) const {
-  ix = std::clamp(ix, 0, nx() - 1);
-  iy = std::clamp(iy, 0, ny() - 1);
-  return state_->tiles.start_heights(ix / kTileSide, iy / kTileSide)[(iy % kTileSide) * kTileSide + ix % kTileSide];
+// After every change of a column's layers.
+void Ground::changed(int ix, int iy) {
+  state_->tiles.update_surface(ix, iy, table_, *start_);
+  state_->changes.add(ix, iy);
+  sequence_ = state_->changes.sequence();
+  // Reading may not throw remembered heights away, as others may be reading them; here nobody is, and views keep
+  // theirs alive.
+  if (start_->worn()) start_ = std::make_shared<StartHeights>(start_->shared_site());
 }
 
-double Ground::sample(double x, double y) const {
-  int ix, iy;
-  double u, v, z[4];
-  state_->locate(x, y, ix, iy, u, v);
-  state_->corners(ix, iy, z);
-  return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
-}
-
-Vec3 Ground::normal(double x, double y) const {
-  int ix, iy;
-  double u, v, z[4];
-  state_->locate(x, y, ix, iy, u, v);
-  state_->corners(ix, iy, z);
-  const double dx = ((1 - v) * (z[1] - z[0]) + v * (z[3] - z[2])) / cell();
-  const double dy = ((1 - u) * (z[2] - z[0]) + u * (z[3] - z[1])) / cell();
-  return Vec3(-dx, -dy, 1).normalized();
+TerrainView Ground::view(double time) const {
+  // Marks tiles as shared, which is why views are taken one at a time; readers of the ground do not mind.
+  const std::lock_guard lock(state_->view);
+  table_.freeze();
+  return TerrainView(*this, time);
 }
 
 void Ground::column(int ix, int iy, std::vector<Layer>& out) const {
-  state_->require_inside(ix, iy);
+  require_inside(ix, iy);
+  // Only changed columns are stored; all others are what the source says.
   const Column* found = state_->tiles.find_column(ix, iy);
   if (found != nullptr)
     out = *found;
   else
-    state_->tiles.start_column(ix, iy, out);
+    start_->site().column(ix, iy, out);
 }
 
 void Ground::start_column(int ix, int iy, std::vector<Layer>& out) const {
-  state_->require_inside(ix, iy);
-  state_->tiles.start_column(ix, iy, out);
+  require_inside(ix, iy);
+  start_->site().column(ix, iy, out);
 }
 
 std::vector<Layer> Ground::layers(int ix, int iy) const {
@@ -197,41 +134,39 @@ std::vector<Layer> Ground::layers(int ix, int iy) const {
   return out;
 }
 
-std::uint16_t Ground::surface_soil(int ix, int iy) const {
-  ix = std::clamp(ix, 0, nx() - 1);
-  iy = std::clamp(iy, 0, ny() - 1);
-  const Column* found = state_->tiles.find_column(ix, iy);
-  return found != nullptr && !found->empty() ? found->back().soil : state_->tiles.start_surface_soil(ix, iy);
-}
-
 void Ground::take_above(int ix, int iy, double z, std::vector<Layer>& taken) {
-  state_->require_inside(ix, iy);
+  require_inside(ix, iy);
+  // Nothing above: the column must not even be touched. Also where z is no number.
   if (!(z < height(ix, iy))) return;
   heightfield::take_above(state_->tiles.touch_column(ix, iy), z - datum(), state_->tiles.unit(), taken);
-  state_->changed(ix, iy);
+  changed(ix, iy);
 }
 
 void Ground::put(int ix, int iy, const Layer& layer) {
-  state_->require_inside(ix, iy);
+  require_inside(ix, iy);
+  // Nothing is put down often, by exchanges that round to no unit; worse than nothing is a fault of the caller.
   if (layer.mass == 0) return;
-  if (layer.mass < 0 || layer.soil >= state_->setup.soils.size() || !std::isfinite(layer.specific_volume) ||
+  if (layer.mass < 0 || layer.soil >= setup().soils.size() || !std::isfinite(layer.specific_volume) ||
       !(layer.specific_volume > 0) || !std::isfinite(layer.plastic_shear))
     throw Error("Ground::put: a layer of soil " + std::to_string(layer.soil) + ", mass " + std::to_string(layer.mass) +
                 " units, specific volume " + std::to_string(layer.specific_volume) + " is not soil");
   heightfield::put(state_->tiles.touch_column(ix, iy), layer);
-  state_->changed(ix, iy);
+  changed(ix, iy);
 }
 
 void Ground::compact_to(int ix, int iy, double height_wanted, float min_specific_volume) {
-  state_->require_inside(ix, iy);
+  require_inside(ix, iy);
+  // Ruts ask for any height; only what lies below the surface is work.
   const double drop = height(ix, iy) - height_wanted;
   if (!(drop > 0) || !(min_specific_volume > 0)) return;
+  // Pressed by so much, not to that height: the drop is what the law of ruts gave.
   compact(state_->tiles.touch_column(ix, iy), drop, kCompactionCells * cell(), min_specific_volume,
           state_->tiles.unit());
-  state_->changed(ix, iy);
+  changed(ix, iy);
 }
 
 std::vector<std::int64_t> Ground::mass_change() const {
+  // Exact integers: the ledger of a run must come out at zero, not near it.
   std::vector<std::int64_t> sum = state_->tiles.start_mass();
   for (std::int64_t& mass : sum) mass = -mass;
   for (const auto& [key, tile] : state_->tiles.touched())
@@ -241,21 +176,23 @@ std::vector<std::int64_t> Ground::mass_change() const {
 }
 
 void Ground::volume_change(double& raised, double& lowered) const {
+  // From heights, as a surveyor would; with mass_change it tells how much was loosened.
   raised = lowered = 0;
-  for (const auto& [key, tile] : state_->tiles.touched())
-    for (int i = 0; i < kTileColumns; ++i)
+  for (const auto& [key, tile] : state_->tiles.touched()) {
+    const SurfaceTile& surface =
+        *table_.find(static_cast<int>(key % table_.tiles_x()), static_cast<int>(key / table_.tiles_x()));
+    for (std::size_t i = 0; i < kTileColumns; ++i)
       if (tile->slot[i] >= 0) {
-        const double change = (tile->height[i] - tile->start_height[i]) * cell() * cell();
+        const double change = (surface.height[i] - (*surface.start)[i]) * cell() * cell();
         (change > 0 ? raised : lowered) += std::abs(change);
       }
+  }
 }
 
-std::uint64_t Ground::sequence() const { return state_->changes.sequence(); }
-CellRect Ground::changed_since(std::uint64_t sequence) const {
-  return state_->changes.since(sequence, CellRect{0, 0, nx(), ny()});
-}
+CellRect Ground::changed_since(std::uint64_t sequence) const { return state_->changes.since(sequence, site_rect()); }
 
 CellRect Ground::touched_rect() const {
+  // Whole tiles, cut at the site's edge.
   CellRect rect;
   for (const auto& [key, tile] : state_->tiles.touched()) {
     const int x = static_cast<int>(key % state_->tiles.tiles_x()) * kTileSide;
@@ -265,65 +202,10 @@ CellRect Ground::touched_rect() const {
   return rect;
 }
 
-void Ground::copy_heights(const CellRect& rect, std::vector<float>& out) const {
-  out.clear();
-  if (rect.empty()) return;
-  out.resize(static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0));
-  // Tile by tile, so that each untouched tile is computed once even when the cache is too small for a row of them.
-  const auto tile_of = [](int i, int n) { return std::clamp(i, 0, n - 1) / kTileSide; };
-  for (int ty = tile_of(rect.y0, ny()); ty <= tile_of(rect.y1 - 1, ny()); ++ty)
-    for (int tx = tile_of(rect.x0, nx()); tx <= tile_of(rect.x1 - 1, nx()); ++tx) {
-      // The tiles at the edge of the site also answer for what lies outside.
-      const int last_tx = (nx() - 1) / kTileSide, last_ty = (ny() - 1) / kTileSide;
-      const int x0 = tx == 0 ? rect.x0 : std::max(rect.x0, tx * kTileSide);
-      const int x1 = tx == last_tx ? rect.x1 : std::min(rect.x1, (tx + 1) * kTileSide);
-      const int y0 = ty == 0 ? rect.y0 : std::max(rect.y0, ty * kTileSide);
-      const int y1 = ty == last_ty ? rect.y1 : std::min(rect.y1, (ty + 1) * kTileSide);
-      const double* h = state_->tiles.heights(tx, ty);
-      for (int iy = y0; iy < y1; ++iy) {
-        float* row = out.data() + static_cast<std::size_t>(iy - rect.y0) * (rect.x1 - rect.x0);
-        const double* from = h + (std::clamp(iy, 0, ny() - 1) % kTileSide) * kTileSide;
-        for (int ix = x0; ix < x1; ++ix)
-          row[ix - rect.x0] = static_cast<float>(from[std::clamp(ix, 0, nx() - 1) % kTileSide]);
-      }
-    }
-}
-
-double Ground::ray(const Vec3& p, const Vec3& d, double range) const {
-  const double cell = this->cell();
-  const auto along = [&](int axis) { return (p[axis] - origin()[axis]) / cell - 0.5; };
-  const double gx = along(0), gy = along(1), dx = d.x() / cell, dy = d.y() / cell;
-  int ix = static_cast<int>(bounded(std::floor(gx), -1e9, 1e9));
-  int iy = static_cast<int>(bounded(std::floor(gy), -1e9, 1e9));
-  if (!p.allFinite() || !d.allFinite()) return -1;
-  if (p.z() <= sample(p.x(), p.y())) return 0;
-  const double infinity = std::numeric_limits<double>::infinity();
-  const auto exit_of = [&](double g, double dg, int i) {
-    return dg > 0 ? (i + 1 - g) / dg : dg < 0 ? (i - g) / dg : infinity;
-  };
-  // Walk the dual cells between column centres; in each the surface is bilinear and the ray's height above it a
-  // quadratic in t.
-  double t0 = 0;
-  while (t0 < range) {
-    const double tx = exit_of(gx, dx, ix), ty = exit_of(gy, dy, iy);
-    const double t1 = std::min({tx, ty, range});
-    double z[4];
-    state_->corners(ix, iy, z);
-    const double b = z[1] - z[0], c = z[2] - z[0], e = z[3] - z[2] - b;
-    const double u = gx + dx * t0 - ix, v = gy + dy * t0 - iy;
-    const double f0 = p.z() + d.z() * t0 - (z[0] + b * u + c * v + e * u * v);
-    const double f1 = d.z() - b * dx - c * dy - e * (u * dy + v * dx), f2 = -e * dx * dy;
-    const double hit = first_root(f0, f1, f2, t1 - t0);
-    if (hit >= 0) return t0 + hit;
-    if (tx <= ty) ix += dx > 0 ? 1 : -1;
-    if (ty <= tx) iy += dy > 0 ? 1 : -1;
-    t0 = std::max(t1, t0);
-  }
-  return -1;
-}
-
 void Ground::hash(StateHash& hash) const {
+  // In the order of tiles and of columns within them, not of the edits that brought them into being.
   for (const auto& [key, tile] : state_->tiles.touched()) {
+    // A tile without changed columns counts too: it was touched.
     hash.value(key);
     for (int i = 0; i < kTileColumns; ++i) {
       if (tile->slot[i] < 0) continue;
@@ -339,12 +221,13 @@ void Ground::hash(StateHash& hash) const {
 }
 
 void Ground::save(StateWriter& writer) const {
-  const Setup& s = state_->setup;
+  const Setup& s = setup();
   writer.begin("ground", kStateVersion);
   writer.value(s.nx);
   writer.value(s.ny);
   writer.value(s.cell);
   writer.value(s.datum);
+  // Layers only: heights and start columns follow from them and from the source.
   writer.value(static_cast<std::uint64_t>(touched_tiles()));
   for (const auto& [key, tile] : state_->tiles.touched()) {
     writer.value(key);
@@ -367,7 +250,8 @@ void Ground::save(StateWriter& writer) const {
 }
 
 void Ground::load(StateReader& reader) {
-  const Setup& s = state_->setup;
+  const Setup& s = setup();
+  // A snapshot is input like any other: every number is checked before it becomes soil.
   const auto require = [](bool good, const char* rule) {
     if (!good)
       throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "ground", "", rule,
@@ -377,7 +261,9 @@ void Ground::load(StateReader& reader) {
   const auto snx = reader.value<int>(), sny = reader.value<int>();
   const auto scell = reader.value<double>(), sdatum = reader.value<double>();
   require(snx == s.nx && sny == s.ny && scell == s.cell && sdatum == s.datum, "the site has another size or datum");
+  // Views taken so far keep their tiles; the table starts anew.
   state_->tiles.clear();
+  table_.clear();
   const auto tiles = reader.value<std::uint64_t>();
   for (std::uint64_t t = 0; t < tiles; ++t) {
     const auto key = reader.value<std::int64_t>();
@@ -387,8 +273,10 @@ void Ground::load(StateReader& reader) {
       const int i = reader.value<std::uint16_t>();
       const std::int64_t ix = key % state_->tiles.tiles_x() * kTileSide + i % kTileSide;
       const std::int64_t iy = key / state_->tiles.tiles_x() * kTileSide + i / kTileSide;
+      // The last tiles of a row or column reach beyond the site.
       require(ix < s.nx && iy < s.ny && i < kTileColumns, "a column is outside the site");
       Column& column = state_->tiles.touch_column(static_cast<int>(ix), static_cast<int>(iy));
+      // Touching it has counted its start mass; its layers are those of the snapshot.
       column.clear();
       const auto count = reader.value<std::uint32_t>();
       for (std::uint32_t k = 0; k < count; ++k) {
@@ -402,10 +290,12 @@ void Ground::load(StateReader& reader) {
                 "a layer is not soil");
         column.push_back(layer);
       }
-      state_->tiles.update_height(static_cast<int>(ix), static_cast<int>(iy));
+      state_->tiles.update_surface(static_cast<int>(ix), static_cast<int>(iy), table_, *start_);
     }
   }
+  // Number and list of edits as well, so that who continues the run sees the same changes as who never stopped.
   state_->changes.load(reader);
+  sequence_ = state_->changes.sequence();
   reader.end();
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Shapes of a scene as heights. Everything here is a function of place and of the feature's own numbers: no tables, no
+// state, so tiles can be made in any order and by any thread.
 #include "heightfield/procedural.h"
 
 #include <algorithm>
@@ -13,6 +15,7 @@ using scene::GroundFeature;
 
 // Random number in [-0.5, 0.5) that belongs to a lattice point.
 double lattice(std::int64_t i, std::int64_t j, std::uint64_t seed) {
+  // Two rounds, one a coordinate, so that neighbours on the lattice have nothing in common.
   Random random(seed ^ (static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15ULL));
   Random second(random.next() ^ (static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fULL));
   return second.uniform() - 0.5;
@@ -36,6 +39,7 @@ double hills(const GroundFeature& f, double along, double across) {
          (0.75 * value_noise(x, y, f.seed) + 0.25 * value_noise(1.6 * x + 1.2 * y, 1.6 * y - 1.2 * x, ~f.seed));
 }
 
+// The floor is flat; outside it the walls lean from the distance to the floor's rectangle, which rounds their corners.
 double trench(const GroundFeature& f, double along, double across) {
   const double du = std::max(std::abs(along) - f.length / 2, 0.0), dv = std::max(std::abs(across) - f.width / 2, 0.0);
   const double outside = std::hypot(du, dv);
@@ -43,12 +47,14 @@ double trench(const GroundFeature& f, double along, double across) {
   return f.angle > 0 ? -std::max(0.0, f.height - outside / std::tan(f.angle)) : 0;
 }
 
+// Level behind the toe, then a face, then level again; a negative height is a step down.
 double bank(const GroundFeature& f, double left) {
   if (left < 0) return 0;
   const bool vertical = f.angle <= 0 || f.angle >= kPi / 2;
   return vertical ? f.height : std::clamp(left * std::tan(f.angle), std::min(f.height, 0.0), std::max(f.height, 0.0));
 }
 
+// Height that one feature adds at W (x, y) [m].
 double shape(const GroundFeature& f, double friction_angle, double x, double y) {
   const double c = std::cos(f.yaw), s = std::sin(f.yaw), dx = x - f.center.x(), dy = y - f.center.y();
   const double along = c * dx + s * dy, across = c * dy - s * dx;
@@ -69,9 +75,11 @@ double shape(const GroundFeature& f, double friction_angle, double x, double y) 
   return 0;
 }
 
+// A bound, not the minimum: bedrock lies below it by the depth of the scene, so a little too low does no harm.
 double lowest(const GroundFeature& f, const Vec2& min, const Vec2& max) {
   switch (f.kind) {
     case GroundFeature::Kind::kSlope: {
+      // A plane is lowest at a corner.
       double low = shape(f, 0, min.x(), min.y());
       for (const Vec2& p : {Vec2(max.x(), min.y()), Vec2(min.x(), max.y()), max})
         low = std::min(low, shape(f, 0, p.x(), p.y()));
@@ -96,6 +104,7 @@ ProceduralSurface::ProceduralSurface(const scene::Ground& ground, double frictio
     : base_(ground.surface), friction_angle_(friction_angle), features_(ground.features) {}
 
 double ProceduralSurface::operator()(double x, double y) const {
+  // Summed in the order of the file, so that two builds agree to the bit.
   double z = base_;
   for (const GroundFeature& feature : features_) z += shape(feature, friction_angle_, x, y);
   return z;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A map at its own resolution. It is kept as read and interpolated for each column, instead of being resampled to
+// columns at once: a map of 1 m under columns of 0.1 m is a hundredth of their number.
 #include "heightfield/raster.h"
 
 #include <algorithm>
@@ -21,12 +23,14 @@ float mean_of_neighbours(const HeightRaster& raster, int ix, int iy) {
       sum += weight * raster.at(x, y);
       weights += weight;
     }
+  // 0 / 0 is the NaN that is wanted.
   return static_cast<float>(sum / weights);
 }
 
 }  // namespace
 
 double HeightRaster::sample(double x, double y) const {
+  // Outside the outermost centres the nearest value: a site may reach half a cell beyond them.
   const double gx = std::clamp((x - x0) / cell_x, 0.0, nx - 1.0), gy = std::clamp((y - y0) / cell_y, 0.0, ny - 1.0);
   const int ix = static_cast<int>(gx), iy = static_cast<int>(gy);
   const int jx = std::min(ix + 1, nx - 1), jy = std::min(iy + 1, ny - 1);
@@ -37,6 +41,7 @@ double HeightRaster::sample(double x, double y) const {
 double HeightRaster::mean(double x, double y, double edge) const {
   const int sx = static_cast<int>(std::clamp(std::ceil(edge / cell_x - 1e-9), 1.0, double{kMostSamples}));
   const int sy = static_cast<int>(std::clamp(std::ceil(edge / cell_y - 1e-9), 1.0, double{kMostSamples}));
+  // Where the map is the coarser one, its own smoothness is all there is.
   if (sx == 1 && sy == 1) return sample(x, y);
   double sum = 0;
   for (int j = 0; j < sy; ++j)
@@ -46,6 +51,7 @@ double HeightRaster::mean(double x, double y, double edge) const {
 
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
+  // From the known cells inwards, ring by ring, each cell queued once.
   std::vector<std::int64_t> ring, next;
   std::vector<char> queued(raster.z.size(), 0);
   const auto queue_gaps_around = [&](std::int64_t i, std::vector<std::int64_t>& out) {
@@ -80,6 +86,7 @@ GapFill fill_gaps(HeightRaster& raster) {
 }
 
 SlopeRange slopes(const HeightRaster& raster, double limit) {
+  // Tangents, as an angle is needed of three of them only.
   std::vector<float> tangents;
   for (int iy = 0; iy + 1 < raster.ny; ++iy)
     for (int ix = 0; ix + 1 < raster.nx; ++ix) {
@@ -90,6 +97,7 @@ SlopeRange slopes(const HeightRaster& raster, double limit) {
     }
   SlopeRange range;
   if (tangents.empty()) return range;
+  // Enough order for the median; the rest need not be sorted.
   const auto middle = tangents.begin() + static_cast<std::ptrdiff_t>(tangents.size() / 2);
   std::nth_element(tangents.begin(), middle, tangents.end());
   range.median = std::atan(*middle);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Relaxation by pairs: wherever two neighbours differ by more than repose allows, half of the excess moves. It is not
+// how soil slides; it finds a surface near the given one that the running simulation leaves alone.
 #include "heightfield/settle.h"
 
 #include <algorithm>
@@ -21,6 +23,7 @@ bool exchange(double& a, double& b, double most, double tolerance) {
 }  // namespace
 
 int settle(DenseSurface& surface, double repose, int most_sweeps) {
+  // In heights, not angles: one comparison a pair.
   const double most = std::tan(repose) * surface.cell, tolerance = 0.02 * most;
   const auto rows = static_cast<std::size_t>(surface.ny);
   // Only rows in which or beside which something moved are looked at again, between the columns that moved.
@@ -29,6 +32,7 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
   };
   std::vector<Span> active(rows, Span{0, surface.nx});
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    // Wide enough for the columns whose drops the move has changed: the pair and its neighbours.
     std::vector<Span> next(rows, Span{surface.nx, 0});
     bool moved = false;
     const auto wake = [&](int ix, int iy) {
@@ -50,6 +54,7 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
         }
       }
     }
+    // Nothing moved, so nothing would.
     if (!moved) return sweep;
     active = std::move(next);
   }

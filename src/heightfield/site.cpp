@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The way from a scene to a ground: check the numbers, take the surface from shapes or from a map, settle it if asked.
 #include "heightfield/site.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ void settle_site(const scene::World& world, Ground::Setup& setup) {
          "needs the whole surface in memory: at most " + std::to_string(kMostSettledColumns) +
              " columns, this site has " + std::to_string(static_cast<std::int64_t>(setup.nx) * setup.ny),
          "choose a smaller size, a larger cell or steep = hold");
+  // The one case in which a whole surface is kept; shared by whoever copies the source.
   auto dense = std::make_shared<DenseSurface>();
   dense->nx = setup.nx;
   dense->ny = setup.ny;
@@ -71,9 +73,11 @@ void make_procedural(const scene::World& world, Ground::Setup& setup) {
   setup.surface = [surface, origin, cell](int ix, int iy) {
     return surface(origin.x() + (ix + 0.5) * cell, origin.y() + (iy + 0.5) * cell);
   };
+  // The datum holds for all columns, so it is bounded over the whole site, centre to centre.
   const Vec2 half = Vec2::Constant(cell / 2);
   setup.datum =
       surface.lower_bound(origin + half, origin + cell * Vec2(setup.nx, setup.ny) - half) - world.ground.depth;
+  // No file coordinates: exports are in W.
   setup.easting = origin.x();
   setup.northing = origin.y();
 }
@@ -87,12 +91,14 @@ int site_columns(double length, double cell) {
 }
 
 Ground make_ground(const scene::World& world, std::string* report) {
+  // Sizes first: everything else is counted in columns.
   check_size(world);
   const scene::Ground& ground = world.ground;
   Ground::Setup setup;
   setup.cell = world.solver.cell;
   setup.nx = site_columns(ground.size.x(), setup.cell);
   setup.ny = site_columns(ground.size.y(), setup.cell);
+  // The middle of the site is W (0, 0) unless the scene says otherwise.
   setup.origin = ground.has_origin ? ground.origin : Vec2(-0.5 * setup.cell * Vec2(setup.nx, setup.ny));
   setup.soils = world.soils;
   setup.layers = ground.layers;
@@ -109,6 +115,7 @@ Ground make_ground(const scene::World& world, std::string* report) {
          "build with -DNAVVY_WITH_GDAL=ON (Debian package libgdal-dev) or describe the ground by shapes");
 #endif
   }
+  // Last, as it needs the finished surface.
   if (ground.steep == scene::SteepGround::kSettle) settle_site(world, setup);
   return Ground(std::move(setup));
 }

@@ -10,7 +10,7 @@
 #include "core/math.h"
 #include "core/stopwatch.h"
 #include "heightfield/ground.h"
-#include "lab/lab.h"
+#include "lab/rig.h"
 #include "scene/machine.h"
 #include "scene/world.h"
 #include "soil/particles/particle.h"
@@ -24,7 +24,8 @@ struct Box {
   bool contains(const Vec3& p) const { return (p.array() >= low.array()).all() && (p.array() < high.array()).all(); }
 };
 
-/// A square site.
+/// A square piece of ground. Cells of its columns and of the soil's grid are the same, and nodes lie at z = 0, so that
+/// a bed of whole cells begins and ends on planes of the grid.
 struct SiteOptions {
   double size = 40;            ///< edge [m], rounded to whole cells
   std::optional<Vec2> corner;  ///< W of its lower-left corner [m]; without, W's origin is its middle
@@ -34,6 +35,9 @@ struct SiteOptions {
   bool exchange = false;                              ///< ground wakes and takes soil back by itself
   double courant = 0.5;                               ///< share of cell / sound speed
 };
+
+/// The least whole number of cells that holds `length`, as a length [m]; a billionth of a cell is rounding.
+double whole_cells(double length, double cell);
 
 /// Flat ground with a pit that particles are to fill: for SiteOptions::surface.
 std::function<double(double, double)> pit(const Box& box);
@@ -53,13 +57,17 @@ struct Tool {
 
 /// Soil, tools and clock of one experiment.
 ///
-/// `step` and `run` move everything; `finish` writes the common lines of a report. Repeatable on one device.
+/// A rig makes one, inserts soil, adds tools, steps and reads; `finish` then writes the common lines of the report.
+/// Particles live on the device: `solver().particles()` reads all of them back and is no call for every step.
+/// Repeatable bit for bit on one device.
+/// @throws InputError for a soil or cell that the solver refuses, SimulationError when the soil stops itself.
 class Site {
  public:
   Site(device::Device& device, std::vector<scene::Soil> soils, double cell, const SiteOptions& options = {});
   /// With the setup's device, soil, cell and progress.
   explicit Site(const Setup& setup, const SiteOptions& options = {});
 
+  // What it is made of; the solver is replaced by set_gravity, so keep no reference to it.
   soil::Solver& solver() { return *solver_; }
   const soil::Solver& solver() const { return *solver_; }
   heightfield::Ground& ground() { return ground_; }
@@ -81,16 +89,18 @@ class Site {
   void rest(std::vector<soil::Particle>& particles, const std::function<double(double, double)>& surface,
             double surcharge = 0) const;
   void rest(std::vector<soil::Particle>& particles, double surface, double surcharge = 0) const;
-  Vec3 position(const soil::Particle& particle) const;
+  Vec3 position(const soil::Particle& particle) const;  ///< in W [m]
   /// Pressure that the law carries at a particle's volume ratio, positive in compression [Pa].
   double pressure(const soil::Particle& particle) const;
 
+  /// Puts a shell into the soil at a pose, at rest and scripted; returns its number for `tool`.
   int add_tool(const scene::Shell& shell, const Pose& X_WT);
+  /// @throws std::out_of_range for a number that add_tool did not give.
   Tool& tool(int index) { return tools_.at(static_cast<std::size_t>(index)); }
 
   /// The stable step at the tools' present speed, or at `speed` when that is more [s].
   double step_limit(double speed = 0) const;
-  /// One step of soil and tools.
+  /// One step [s] of soil and tools: free tools take up the impulses of the soil at its end.
   void step(double dt);
   /// Steps for `seconds` at the step limit (or at most `dt` when given); calls `each` after every step.
   void run(double seconds, const std::function<void()>& each = {}, double dt = 0);
@@ -100,13 +110,14 @@ class Site {
   /// How long the whole experiment will take, for the progress report [s simulated].
   void expect(double seconds) { expected_ = seconds; }
   double worst_residual() const { return worst_residual_; }  ///< of action and reaction, share of the scale
-  std::string digest() const;
+  std::string digest() const;                                ///< of the soil's state, as `state_hash` of a report
   /// Fills particles, steps, times, ledger and hash.
   void finish(Report& report) const;
 
  private:
   void make_solver();
-  void push_tool(Tool& tool, double dt) const;
+  void push_tool(Tool& tool, double dt) const;  ///< weight and outside forces, before the soil
+  // After the soil: its impulse, then the pose.
   static void move_tool(Tool& tool, double dt);
 
   device::Device* device_;
@@ -119,7 +130,9 @@ class Site {
   std::vector<soil::ToolImpulse> impulses_;
   std::function<void(double)> progress_;
   Stopwatch watch_;
-  double time_ = 0, expected_ = 0, worst_residual_ = 0, shown_ = 0;
+  double time_ = 0, expected_ = 0;  ///< [s]
+  double worst_residual_ = 0;
+  double shown_ = 0;  ///< share that progress_ was told last
 };
 
 }  // namespace navvy::lab

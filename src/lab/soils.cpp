@@ -11,8 +11,10 @@ namespace navvy::lab {
 scene::Soil clean_sand(double phi_degrees) {
   scene::Soil soil;
   soil.name = "sand";
+  // A soil made for experiments, not one that was measured.
   soil.source = "laboratory default";
   soil.bank_density = 1600;
+  // No swell: a bed keeps its volume whatever is done to it, which most closed forms suppose.
   soil.swell = 1;
   soil.friction_angle = radians(phi_degrees);
   soil.cohesion = soil.residual_cohesion = 0;
@@ -23,12 +25,20 @@ scene::Soil clean_sand(double phi_degrees) {
 scene::Soil cohesive(double phi_degrees, double cohesion) {
   scene::Soil soil = clean_sand(phi_degrees);
   soil.name = "cohesive";
+  // Remoulding costs nothing: a failed cut is held against the same strength as a standing one.
   soil.cohesion = soil.residual_cohesion = cohesion;
   return soil;
 }
 
+scene::Soil without_tool_friction(scene::Soil soil) {
+  soil.tool_friction_angle = soil.adhesion = 0;
+  return soil;
+}
+
 double friction_from_repose(double repose) {
+  // Flowing soil mobilises tau / sigma_n = sin phi on the slope it comes to rest at.
   const double sine = std::tan(repose);
+  // Beyond 45 degrees no friction alone holds a slope by this rule.
   if (repose > 0 && sine < 1) return std::asin(sine);
   throw InputError(Fault{Fault::Severity::kError, "", 0, "repose", std::to_string(degrees(repose)) + " deg",
                          "above 0 and below 45 degrees", "give phi and cohesion instead"});

@@ -17,18 +17,23 @@ void ToolDriver::set_twist(const Vec3& v_W, const Vec3& w_W) {
 
 void ToolDriver::step(double dt) {
   const Vec3 before = pose().translation();
+  // Every tool of the site moves; this driver books its own.
   site_->step(dt);
   const soil::ToolImpulse& impulse = site_->tool(tool_).impulse;
+  // Length of the way of the frame's origin, whatever direction it takes.
   travelled_ += (pose().translation() - before).norm();
   trace_.time.push_back(site_->time());
   trace_.travel.push_back(travelled_);
+  // An impulse over the step is the mean force in it: nothing is lost between two entries.
   trace_.force.push_back(impulse.J_W / dt);
   trace_.moment.push_back(impulse.L_W / dt);
 }
 
 Vec3 ToolDriver::run(double seconds, double dt) {
+  // At the speed set before the stretch.
   double limit = site_->step_limit();
   if (dt > 0) limit = std::min(limit, dt);
+  // Equal steps, so that the plain mean over entries is the mean over time.
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / limit - 1e-9)));
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < steps; ++i) {
@@ -39,6 +44,7 @@ Vec3 ToolDriver::run(double seconds, double dt) {
 }
 
 Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {
+  // The origin moves straight; a turning tool is driven by set_twist and run.
   set_twist(v_W);
   return run(distance / v_W.norm(), dt);
 }
@@ -46,15 +52,18 @@ Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {
 void ToolDriver::write(Report& report, double cutoff, const std::string& prefix) const {
   report.series.push_back({prefix + "time", "s", trace_.time});
   report.series.push_back({prefix + "travel", "m", trace_.travel});
+  // Components in W; a tool that turns is still read in the world's axes.
   const char* const names[] = {"force_x", "force_y", "force_z"};
   for (int a = 0; a < 3; ++a) {
     std::vector<double> values;
     for (const Vec3& force : trace_.force) values.push_back(force[a]);
+    // Only what is written is smoothed; results are means of the raw forces.
     if (cutoff > 0) values = low_pass(trace_.time, values, cutoff);
     report.series.push_back({prefix + names[a], "N", std::move(values)});
   }
 }
 
+// By travel, not by time: windows of experiments are given along the way.
 Vec3 mean_force(const Trace& trace, double from, double to) {
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -63,10 +72,12 @@ Vec3 mean_force(const Trace& trace, double from, double to) {
     sum += trace.force[i];
     ++count;
   }
+  // Not zero where nothing was measured: a missing window must not look like a free blade.
   return count > 0 ? Vec3(sum / count) : Vec3::Constant(kNone);
 }
 
 Vec3 force_scatter(const Trace& trace, double from, double to) {
+  // Two passes: the mean is a hundred times the scatter at times.
   const Vec3 mean = mean_force(trace, from, to);
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -81,9 +92,11 @@ Vec3 force_scatter(const Trace& trace, double from, double to) {
 std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values, double cutoff) {
   std::vector<double> out = values;
   const auto follow = [&](std::size_t to, std::size_t from) {
+    // Backward Euler of a first-order filter, stable for any spacing of the samples.
     const double step = 2 * kPi * cutoff * std::abs(time[to] - time[from]);
     out[to] = out[from] + (out[to] - out[from]) * step / (1 + step);
   };
+  // Forth and back: the lags cancel.
   for (std::size_t i = 1; i < out.size(); ++i) follow(i, i - 1);
   for (std::size_t i = out.size(); i-- > 1;) follow(i - 1, i);
   return out;

@@ -8,7 +8,7 @@
 
 namespace navvy::lab {
 
-/// What a tool felt, one entry per step.
+/// What a tool felt, one entry per step; all four have one length. Vectors in W.
 struct Trace {
   std::vector<double> time;    ///< at the end of the step [s]
   std::vector<double> travel;  ///< path length of the frame's origin since the driver was made [m]
@@ -16,14 +16,17 @@ struct Trace {
   std::vector<Vec3> moment;    ///< about the frame's origin [N m]
 };
 
-/// One shell on a prescribed path. All tools of the site move with every step; each driver keeps its own trace.
+/// One shell on a prescribed path. All tools of the site move with every step; each driver keeps its own trace, so two
+/// drivers must not both step. The site must outlive it.
 class ToolDriver {
  public:
+  /// Adds the shell to the site, at rest.
   ToolDriver(Site& site, const scene::Shell& shell, const Pose& X_WT);
 
   Site& site() { return *site_; }
-  int tool() const { return tool_; }
+  int tool() const { return tool_; }  ///< its number in the site
   const Pose& pose() const;
+  /// Kept until it is set again; w turns about the frame's origin [m/s], [rad/s].
   void set_twist(const Vec3& v_W, const Vec3& w_W = Vec3::Zero());
 
   /// One step; books the trace.

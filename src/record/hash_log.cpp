@@ -15,17 +15,20 @@ constexpr double kHair = 1e-9;
 
 }  // namespace
 
-HashLog::HashLog(const sim::Session& session, std::string path, double every)
+HashLog::HashLog(const session::Session& session, std::string path, double every)
     : session_(session), path_(std::move(path)), every_(every), text_("step,time_s,state") {
+  // The header names the parts there are: a scene with sensors has more columns.
   for (const auto& [part, hash] : session_.hash_parts()) text_ += "," + part;
   text_ += '\n';
   const sim::World& world = session_.world();
+  // A resumed run goes on at the next distance, so that its rows equal those of the whole run.
   if (world.steps() > 0) next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
   observe();
 }
 
 void HashLog::row() {
   const sim::World& world = session_.world();
+  // Time with six digits tells steps apart; the step itself is exact.
   char start[64];
   std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()), world.time());
   text_ += start + session_.state_hash();
@@ -33,10 +36,12 @@ void HashLog::row() {
   text_ += '\n';
   empty_ = false;
   last_step_ = world.steps();
+  // Replaced whole: a kill leaves complete rows.
   write_file_atomically(path_, text_);
 }
 
 void HashLog::observe() {
+  // At most one row a step.
   const double count = session_.world().time() / every_ + kHair;
   if (count < static_cast<double>(next_)) return;
   row();
@@ -44,6 +49,7 @@ void HashLog::observe() {
 }
 
 void HashLog::finish() {
+  // The last state has a row even between two distances.
   if (empty_ || last_step_ != session_.world().steps()) row();
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::record {
 
@@ -14,8 +14,9 @@ namespace navvy::record {
 class HashLog {
  public:
   /// `every` [s]; a row at the start of a fresh run, none where a resumed one begins.
-  HashLog(const sim::Session& session, std::string path, double every);
+  HashLog(const session::Session& session, std::string path, double every);
   /// Called after each step: adds the row that is due and replaces the file whole. @throws FileError.
+  /// At most one row a step.
   void observe();
   /// The state the run ends with. @throws FileError.
   void finish();
@@ -23,7 +24,7 @@ class HashLog {
  private:
   void row();
 
-  const sim::Session& session_;
+  const session::Session& session_;
   std::string path_;
   double every_;
   std::uint64_t next_ = 0;       ///< counts distances

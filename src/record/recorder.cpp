@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "core/stopwatch.h"
 #include "record/hash_log.h"
+#include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
 #include "render/renderer.h"
@@ -21,21 +22,25 @@ namespace fs = std::filesystem;
 namespace {
 
 /// How many whole periods of `rate` [Hz] have passed by `time` (with a hair for rounding of time = steps x dt).
+// A count is exact where a sum of periods would drift.
 std::uint64_t count_at(double time, double rate) { return static_cast<std::uint64_t>(std::floor(time * rate + 1e-9)); }
 
 }  // namespace
 
 struct Recorder::State {
-  State(sim::Session& s, Options o)
+  // Telemetry and frames look at the same session; neither keeps more than a reference.
+  State(session::Session& s, Options o)
       : session(s), options(std::move(o)), telemetry(s, options.directory + "/telemetry.csv"), frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
+    // Frames are counted from time zero: a resumed run goes on with the numbers of the whole one.
     for (const scene::Camera& camera : s.world().description().cameras)
       next_frame.push_back(count_at(status.start_time, camera.rate));
     next_sample = count_at(status.start_time, s.world().description().recording.telemetry_rate);
   }
 
-  sim::Session& session;
+  // Telemetry is written at checkpoints, pictures and hashes at once.
+  session::Session& session;
   Options options;
   Telemetry telemetry;
   sim::FrameBuilder frames;
@@ -57,45 +62,60 @@ struct Recorder::State {
 namespace {
 
 /// True when `count / rate` has been reached by `time` (with a hair for rounding of time = steps x dt).
+// Counted periods, not a time of the next sample: rounding then never adds up.
 bool due(double time, std::uint64_t count, double rate) {
   return rate > 0 && time * rate >= static_cast<double>(count) - 1e-9;
 }
 
 /// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
 std::string clean(const std::string& directory) {
+  // A path that ends in a slash has no file name; its parent is the folder.
   const fs::path path = fs::path(directory).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).string();
 }
 
 void make_directory(const std::string& directory) {
+  // Results of hours are never overwritten; only one generation is kept.
   std::error_code code;
   if (fs::exists(directory + "/summary.json", code)) {
     fs::remove_all(directory + ".previous", code);
     fs::rename(directory, directory + ".previous", code);
     if (code) throw FileError("cannot move earlier results '" + directory + "' aside: " + code.message());
   }
+  // Also every folder above: --out may be deep.
   fs::create_directories(directory + "/frames", code);
   if (code) throw FileError("cannot create '" + directory + "': " + code.message());
 }
 
 }  // namespace
 
-Recorder::Recorder(sim::Session& session, Options options) {
+Recorder::Recorder(session::Session& session, Options options) {
+  // Nothing is written before the folder stands; what cannot be made is told before the first step.
   options.directory = clean(options.directory);
   make_directory(options.directory);
+  // Telemetry and frames are made with their paths in the new folder.
   state_ = std::make_unique<State>(session, std::move(options));
   State& s = *state_;
-  write_terrain(session.world().ground(), s.path("terrain_start.tif"));
+  // First of all: whatever becomes of the run, its folder says what it was.
+  const scene::World& scene = session.world().description();
+  if (!s.options.scene_text.empty()) write_file_atomically(s.path("scene.sdf"), s.options.scene_text);
+  write_file_atomically(s.path("run.json"),
+                        run_json({kRunFormat, navvy_version(), s.options.command, scene.file, session.device_name()}));
+  write_terrain(session.world(), s.path("terrain_start.tif"));
+  // The first row is the state before any step.
   s.sample_when_due();
+  // The renderer takes a graphics context, which runs without pictures do not need.
   if (s.options.render) s.renderer = std::make_unique<render::Renderer>();
   s.draw_when_due();
   if (s.options.hash_every > 0)
     s.hashes = std::make_unique<HashLog>(session, s.path("hashes.csv"), s.options.hash_every);
+  // A summary from the start on: its being there marks the folder as a run's.
   s.checkpoint(true);
 }
 
 Recorder::~Recorder() = default;
 
+/// At most one row a step: a rate above the step's gives every step.
 void Recorder::State::sample_when_due() {
   const double rate = session.world().description().recording.telemetry_rate;
   const double time = session.world().time();
@@ -106,18 +126,21 @@ void Recorder::State::sample_when_due() {
 }
 
 void Recorder::State::draw_when_due() {
+  // One frame for all cameras of this instant: filling it costs more than a view of it.
   if (!renderer) return;
   const auto& cameras = session.world().description().cameras;
   const double time = session.world().time();
   const scene::Frame* frame = nullptr;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (!due(time, next_frame[i], cameras[i].rate)) continue;
+    // Drawing is counted apart: the real-time factor is the simulation's.
     const Lap lap(status.render_time);
     if (frame == nullptr) frame = &frames.build();
     const render::Image image = renderer->render(*frame, frames.camera(cameras[i]));
     char name[32];
     std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(next_frame[i]));
     render::write_png(path("frames/" + cameras[i].name + name), image);
+    // The number of a picture tells its time: name_N.png is N periods from the start.
     next_frame[i] = count_at(time, cameras[i].rate) + 1;
     ++status.frames;
   }
@@ -126,19 +149,24 @@ void Recorder::State::draw_when_due() {
 void Recorder::State::hash_when_due() {
   if (!hashes) return;
   const Lap lap(status.record_time);
+  // A pass over everything, so only when asked for.
   hashes->observe();
 }
 
 void Recorder::State::checkpoint(bool force) {
+  // Wall time of the simulation alone.
   status.wall_time = total.seconds() - status.render_time - status.record_time;
   if (!force && since_checkpoint.seconds() < options.checkpoint) return;
   const Lap lap(status.record_time);
+  // At most every other second unless it is the last.
   telemetry.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
   write_file_atomically(path("summary.json"), summary_json(session, status, force));
+  // Counted from the end of the writing, or a slow disk would do nothing else.
   since_checkpoint.restart();
 }
 
+/// In the order of cost: a full disk is noticed at the cheapest.
 void Recorder::observe() {
   state_->sample_when_due();
   state_->draw_when_due();
@@ -148,17 +176,20 @@ void Recorder::observe() {
 
 void Recorder::finish(const std::string& status, const std::string& message) {
   State& s = *state_;
+  // Failing while finishing must not write a second, half different summary.
   if (s.finished) return;
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
   if (status == "failed") {
+    // The state of the fault, to be looked at or gone on from.
     StateWriter writer;
     s.session.save(writer);
     write_file_atomically(s.path("failed.snapshot"), writer.bytes());
   }
   if (s.hashes) s.hashes->finish();
-  write_terrain(s.session.world().ground(), s.path("terrain_end.tif"));
+  // The end of the ground, also of a run that failed: it shows where.
+  write_terrain(s.session.world(), s.path("terrain_end.tif"));
   s.checkpoint(true);
 }
 
@@ -168,10 +199,11 @@ Progress Recorder::progress() const {
   Progress out;
   out.time = world.time();
   out.duration = world.description().recording.duration;
+  // What a resumed run had done before does not count as its own speed.
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
   out.remaining = out.real_time_factor > 0 ? (out.duration - out.time) / out.real_time_factor : 0;
-  out.particles = world.soil().stats().particles;
+  out.particles = world.soil_counts().particles;
   out.cycles = static_cast<int>(s.session.cycles().size());
   out.frames = s.status.frames;
   out.phase = world.description().machines.empty() ? "" : s.session.phase(0);

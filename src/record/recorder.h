@@ -6,20 +6,27 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "record/summary.h"
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::record {
 
+/// What a caller wants of a run's folder; defaults are those of `navvy run`.
 struct Options {
   std::string directory;  ///< results go here; one that holds an earlier run is kept as "<directory>.previous"
   bool render = true;
   double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
   double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
+  /// The scene as scene_io::load_world wrote it out, for scene.sdf; empty: no such file, the folder cannot be run
+  /// again.
+  std::string scene_text;
+  std::vector<std::string> command;  ///< that started the run, for run.json
 };
 
 /// What a progress line shows.
+/// Read as often as wanted: it costs nothing.
 struct Progress {
   double time = 0, duration = 0;  ///< simulated, most it may take [s]
   double real_time_factor = 0;
@@ -28,19 +35,20 @@ struct Progress {
   std::string phase;
 };
 
-/// Writes summary.json (with the state's hash at the start and at the end only), telemetry.csv, hashes.csv when asked,
-/// terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png and, after a failure, failed.snapshot. Not thread-safe;
-/// draws on the calling thread.
+/// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and at the end only),
+/// telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png and, after a
+/// failure, failed.snapshot. Not thread-safe; draws on the calling thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start. @throws FileError.
-  Recorder(sim::Session& session, Options options);
+  Recorder(session::Session& session, Options options);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
   void observe();
+  /// Once; later calls do nothing.
   /// Final files; status "finished", "interrupted" or "failed". After a failure also the snapshot of the last state.
   void finish(const std::string& status, const std::string& message = "");
   Progress progress() const;

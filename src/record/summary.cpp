@@ -11,8 +11,10 @@ namespace {
 using nlohmann::json;
 
 /// Shares of the wall time spent stepping, by module; the rest is "other".
-json time_shares(const sim::Session& session, const RunStatus& status) {
-  const coupling::TimeShare& share = session.world().coupling().time_share();
+/// They add up to one, so that what nobody measures shows as "other".
+json time_shares(const session::Session& session, const RunStatus& status) {
+  const sim::WallTimes share = session.world().wall_times();
+  // A run of no time at all divides by a hair.
   const double total = std::max(status.wall_time + status.render_time + status.record_time, 1e-9);
   json out;
   out["vehicle"] = share.vehicle / total;
@@ -21,15 +23,17 @@ json time_shares(const sim::Session& session, const RunStatus& status) {
   out["control"] = session.control_time() / total;
   out["render"] = status.render_time / total;
   out["record"] = status.record_time / total;
+  // Shares of parts that overlap nothing.
   double known = 0;
   for (const auto& value : out) known += value.get<double>();
   out["other"] = std::max(0.0, 1 - known);
   return out;
 }
 
-json cycle_list(const sim::Session& session) {
+/// One entry a cycle of any machine, in the order in which they ended.
+json cycle_list(const session::Session& session) {
   json cycles = json::array();
-  for (const sim::Cycle& cycle : session.cycles())
+  for (const session::Cycle& cycle : session.cycles())
     cycles.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
                       {"start_s", cycle.start},
                       {"lift_out_s", cycle.lift_out},
@@ -41,9 +45,10 @@ json cycle_list(const sim::Session& session) {
   return cycles;
 }
 
-json tip_list(const sim::Session& session) {
+/// The same of tips of beds.
+json tip_list(const session::Session& session) {
   json tips = json::array();
-  for (const sim::BedTip& tip : session.tips())
+  for (const session::BedTip& tip : session.tips())
     tips.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
                     {"start_s", tip.start},
                     {"end_s", tip.end},
@@ -53,33 +58,33 @@ json tip_list(const sim::Session& session) {
 }
 
 /// What buckets and beds hold now, by "machine/shell".
-json carried(const sim::Session& session) {
+json carried(const session::Session& session) {
   json out = json::object();
-  for (const coupling::ToolLoad& tool : session.world().coupling().tools()) {
-    const scene::MachineInWorld& placed =
-        session.world().description().machines[static_cast<std::size_t>(tool.machine)];
-    if (placed.machine.is_bucket(tool.shell) || placed.machine.is_bed(tool.shell))
-      out[placed.name + "/" + placed.machine.shells[static_cast<std::size_t>(tool.shell)].name] =
-          session.world().coupling().payload(tool);
-  }
+  // Blades and plates carry nothing worth a line.
+  for (const sim::ToolHandle& tool : session.world().tools())
+    if (tool.is_bucket() || tool.is_bed())
+      out[session.world().machine(tool.machine()).name() + "/" + tool.name()] = tool.payload();
   return out;
 }
 
-json ledger(const sim::Session& session) {
-  const soil::Ledger sums = session.world().soil().ledger();
+/// In integers as the books are kept; kilograms are for people.
+json ledger(const session::Session& session) {
+  const sim::MassLedger sums = session.world().mass_ledger();
   json soils = json::array();
+  // By soil, under the scene's names.
   for (std::size_t i = 0; i < sums.columns.size(); ++i)
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_change_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
                      {"left_site_kg", kilograms(sums.left_site[i])},
                      {"loaded_kg", kilograms(sums.inserted[i])}});
-  return {{"error_units", sums.error()}, {"unit_kg", kMassQuantum}, {"soils", soils}};
+  return {{"error_units", sums.error}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
 /// Bank volume of each soil in a column [m3].
 void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vector<scene::Soil>& soils,
                   std::vector<double>& volumes) {
+  // The caller keeps the vector: this is called for every touched column.
   volumes.assign(soils.size(), 0.0);
   for (const heightfield::Layer& layer : column)
     volumes[layer.soil] += kilograms(layer.mass) / soils[layer.soil].bank_density;
@@ -87,17 +92,20 @@ void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vect
 
 }  // namespace
 
+/// Awake soil counts where it lies: what is still in flight or in a bucket over its own column has not been dug.
 Earthwork measure_earthwork(const sim::World& world) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;
+  // Only touched columns can have changed, and only they are looked at.
   std::map<std::pair<int, int>, std::vector<double>> awake;  // bank volumes over columns [m3]
-  for (const soil::Particle& p : world.soil().particles()) {
-    std::vector<double>& volumes = awake[world.soil().grid().column_of(p)];
+  for (const sim::LooseSoil& loose : world.loose_soil()) {
+    std::vector<double>& volumes = awake[{loose.ix, loose.iy}];
     volumes.resize(soils.size());
-    volumes[p.soil] += kilograms(p.mass) / soils[p.soil].bank_density;
+    volumes[loose.soil] += kilograms(loose.mass) / soils[loose.soil].bank_density;
   }
   Earthwork sum;
   sum.soils.resize(soils.size());
+  // Awake soil over the site's edge has no column: the ledger has it.
   const heightfield::CellRect rect = ground.touched_rect();
   const double area = ground.cell() * ground.cell();
   // A twentieth of a cell keeps the rounding of woken and rebooked columns out of the sums.
@@ -106,32 +114,38 @@ Earthwork measure_earthwork(const sim::World& world) {
   std::vector<double> after, before;
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
+      // As it lies against as it lay.
       ground.column(ix, iy, now);
       ground.start_column(ix, iy, start);
       bank_volumes(now, soils, after);
       bank_volumes(start, soils, before);
       const auto above = awake.find({ix, iy});
       double gain = 0;
+      // By soil: a layer dug away and another dumped in its place are both earthwork.
       for (std::size_t i = 0; i < soils.size(); ++i) {
         const double change = after[i] + (above == awake.end() ? 0.0 : above->second[i]) - before[i];
         gain += change;
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
+      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained.
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least) sum.loose_volume += area * (ground.height(ix, iy) - ground.start_height(ix, iy));
     }
   return sum;
 }
 
-std::string summary_json(const sim::Session& session, const RunStatus& status, bool with_hash) {
+/// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
+std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
   const Earthwork earth = measure_earthwork(world);
-  const soil::SolverStats& stats = world.soil().stats();
+  const sim::SoilCounts counts = world.soil_counts();
   json out;
+  // What it was, how it stands, how fast it went.
   out["schema_version"] = kSummarySchemaVersion;
   out["scenario"] = world.description().name;
   out["status"] = status.status;
+  // Absent unless something went wrong.
   if (!status.message.empty()) out["message"] = status.message;
   out["device"] = session.device_name();
   out["steps"] = world.steps();
@@ -139,34 +153,41 @@ std::string summary_json(const sim::Session& session, const RunStatus& status, b
   out["wall_time_s"] = status.wall_time;
   out["render_time_s"] = status.render_time;
   out["simulated_time_s"] = world.time();
+  // Of the time this process simulated, pictures and files apart.
   out["real_time_factor"] = status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
-  for (const auto& [stage, seconds] : world.soil().stage_times()) out["soil_stage_s"][stage] = seconds;
+  for (const auto& [stage, seconds] : world.soil_stage_times()) out["soil_stage_s"][stage] = seconds;
+  // What the programs came to.
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();
-  for (const sim::Cycle& cycle : session.cycles()) out["payload_kg"].push_back(cycle.payload_lift_out);
+  for (const session::Cycle& cycle : session.cycles()) out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
+  // What became of the ground.
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;
   for (std::size_t i = 0; i < earth.soils.size(); ++i)
     out["earthwork"].push_back({{"soil", world.description().soils[i].name},
                                 {"dug_kg", earth.soils[i].dug},
                                 {"spoil_kg", earth.soils[i].spoil}});
+  // Of all machines together.
   out["energy_j"] = session.energy();
+  // Forces over all steps, not over telemetry's rows.
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_force_mean_n"] = session.force().mean();
   out["rock_force_peak_n"] = session.force().rock_peak;
   out["momentum_residual_max"] = session.force().residual_max;
-  out["particles_peak"] = stats.particles_peak;
-  out["particle_steps"] = stats.particle_steps;
-  out["shell_crossings"] = stats.shell_crossings;
-  out["rebins"] = stats.rebins;
-  out["woken_columns"] = stats.wakes;
-  out["deposited_blocks"] = stats.deposits;
+  // Counts of the solver, for those who size a device.
+  out["particles_peak"] = counts.particles_peak;
+  out["particle_steps"] = counts.particle_steps;
+  out["shell_crossings"] = counts.shell_crossings;
+  out["rebins"] = counts.rebins;
+  out["woken_columns"] = counts.woken_columns;
+  out["deposited_blocks"] = counts.deposited_blocks;
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session);
+  // Null while it runs: the hash costs a pass over everything.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
   return out.dump(2) + "\n";
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::record {
 
@@ -24,7 +24,7 @@ struct RunStatus {
 
 /// The file's text: JSON, keys sorted, SI units in the names.
 /// The hash costs a pass over the whole state; without it `state_hash` is null.
-std::string summary_json(const sim::Session& session, const RunStatus& status, bool with_hash = true);
+std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash = true);
 
 /// Mass of one soil that left columns and that came to others [kg].
 struct SoilMoved {

@@ -2,17 +2,24 @@
 #include "record/terrain_files.h"
 
 #include "core/error.h"
+#include "sim/terrain_view.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #endif
 
 namespace navvy::record {
+namespace {
 
-void write_terrain(const heightfield::Ground& ground, const std::string& path) {
+// What a map in a run's folder shows.
+[[maybe_unused]] constexpr heightfield::Surface kMapped = heightfield::Surface::kColumns;
+
+}  // namespace
+
+void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  heightfield::write_geotiff(ground, path);
+  heightfield::write_geotiff(sim::terrain_view(world, kMapped), path);
 #else
-  (void)ground;
+  (void)world;
   throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }

@@ -4,12 +4,13 @@
 
 #include <string>
 
-#include "heightfield/ground.h"
+#include "sim/world.h"
 
 namespace navvy::record {
 
-/// Writes the present heights of the whole site as float32 GeoTIFF in the source's coordinates and datum. Atomic.
+/// Writes the present heights of the whole site, resting columns alone, as float32 GeoTIFF in the source's coordinates
+/// and datum. Atomic.
 /// @throws FileError, also in a build without GDAL.
-void write_terrain(const heightfield::Ground& ground, const std::string& path);
+void write_terrain(const sim::World& world, const std::string& path);
 
 }  // namespace navvy::record

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Light on the ground is worked out by column, once a change: what a column sees of sky and sun depends on heights some
+// columns around, so a changed rectangle is renewed with its surroundings.
 #include "render/ground_surface.h"
 
 #include <cstring>
@@ -16,74 +18,113 @@ float edge_slope(float a, float b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
+/// Towards the grey of equal brightness; a negative share makes it more colourful.
 Vec3f desaturate(const Vec3f& color, float share) {
   const float grey = color.dot(Vec3f(0.3f, 0.59f, 0.11f));
   return color + (Vec3f::Constant(grey) - color) * share;
 }
 
+/// By bits: any other colour is another ground to paint.
 bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
+/// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach` columns, cover no fewer
+/// columns than their union does with its own.
+std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int ny) {
+  for (std::size_t i = 0; i < rects.size(); ++i)
+    for (std::size_t k = i + 1; k < rects.size();) {
+      const CellRect both = rects[i].with(rects[k]);
+      const auto cost = [&](const CellRect& rect) { return rect.grown(reach, nx, ny).area(); };
+      if (cost(both) > cost(rects[i]) + cost(rects[k])) {
+        ++k;
+        continue;
+      }
+      // The larger one may now be worth uniting with those passed over before.
+      rects[i] = both;
+      rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i + 1;
+    }
+  return rects;
+}
+
 }  // namespace
 
-CellRect GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
+std::vector<CellRect> GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const std::size_t n =
       static_cast<std::size_t>(std::max(0, ground.nx)) * static_cast<std::size_t>(std::max(0, ground.ny));
   if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
       (!ground.soil.empty() && ground.soil.size() != n) || !(ground.cell > 0))
     throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) + " entries");
+  // Anything that concerns all columns means starting anew.
   const bool fresh = nx_ != ground.nx || ny_ != ground.ny || cell_ != static_cast<float>(ground.cell) ||
                      x0_ != static_cast<float>(ground.origin.x()) || y0_ != static_cast<float>(ground.origin.y()) ||
                      !(lighting == lighting_) || !same(soil_color_, ground.soil_color) || height_.size() != n;
+  // A frame may be drawn more than once.
   if (!fresh && revision_ == ground.revision) return {};
-  CellRect rect = {0, 0, ground.nx, ground.ny};
-  if (!fresh) rect = changed_cells(ground);
-  if (fresh) {
-    nx_ = ground.nx;
-    ny_ = ground.ny;
-    cell_ = static_cast<float>(ground.cell);
-    x0_ = static_cast<float>(ground.origin.x());
-    y0_ = static_cast<float>(ground.origin.y());
-    lighting_ = lighting;
-    soil_color_ = ground.soil_color;
-    height_.assign(n, 0);
-    change_.assign(n, 0);
-    soil_.assign(n, 0);
-    open_.assign(n, 255);
-    sun_.assign(n, 255);
-    lit_.assign(n, {});
-  }
+  const std::vector<CellRect> changed =
+      fresh ? std::vector<CellRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
+  if (fresh) start(ground, lighting, n);
   revision_ = ground.revision;
-  if (rect.empty()) return {};
-  copy(ground, rect);
-  if (fresh) {
-    // Of the ground at the start, so that digging does not tint the whole site anew.
-    double sum = 0;
-    float low = height_[0] - change_[0], high = low;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float h = height_[i] - change_[i];
-      sum += h;
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-    mean_height_ = static_cast<float>(sum / static_cast<double>(n));
-    relief_ = std::max(high - low, 2.0f);
+  for (const CellRect& rect : changed) copy(ground, rect);
+  if (fresh && n > 0) measure_relief();
+  // A column's light depends on the ground as far as shadows fall, so all heights are in place before any of it is
+  // made.
+  std::vector<CellRect> lit;
+  for (const CellRect& rect : united(changed, kShadowReach, nx_, ny_)) {
+    if (rect.empty()) continue;
+    const CellRect sun = rect.grown(kShadowReach, nx_, ny_);
+    find_openness(rect.grown(kOpenReach, nx_, ny_));
+    find_sun(sun);
+    lit.push_back(sun);
   }
-  const CellRect open = rect.grown(kOpenReach, nx_, ny_), sun = rect.grown(kShadowReach, nx_, ny_);
-  find_openness(open);
-  find_sun(sun);
-  paint(sun);
-  return sun;
+  for (const CellRect& rect : lit) paint(rect);
+  return lit;
 }
 
-CellRect GroundSurface::changed_cells(const scene::FrameGround& ground) const {
-  if (ground.revision == revision_ + 1) {
-    const CellRect told = {std::max(0, ground.dirty_x0), std::max(0, ground.dirty_y0), std::min(nx_, ground.dirty_x1),
-                           std::min(ny_, ground.dirty_y1)};
-    return told;
+void GroundSurface::start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns) {
+  nx_ = ground.nx;
+  ny_ = ground.ny;
+  cell_ = static_cast<float>(ground.cell);
+  x0_ = static_cast<float>(ground.origin.x());
+  y0_ = static_cast<float>(ground.origin.y());
+  lighting_ = lighting;
+  soil_color_ = ground.soil_color;
+  height_.assign(columns, 0);
+  change_.assign(columns, 0);
+  soil_.assign(columns, 0);
+  open_.assign(columns, 255);
+  sun_.assign(columns, 255);
+  lit_.assign(columns, {});
+}
+
+void GroundSurface::measure_relief() {
+  // Of the ground at the start, so that digging does not tint the whole site anew.
+  double sum = 0;
+  float low = height_[0] - change_[0], high = low;
+  for (std::size_t i = 0; i < height_.size(); ++i) {
+    const float h = height_[i] - change_[i];
+    sum += h;
+    low = std::min(low, h);
+    high = std::max(high, h);
   }
+  mean_height_ = static_cast<float>(sum / static_cast<double>(height_.size()));
+  relief_ = std::max(high - low, 2.0f);
+}
+
+std::vector<CellRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
+  // Frames in between were not seen: what they told is lost, so the heights themselves are compared.
+  if (ground.revision != revision_ + 1) return {compared(ground)};
+  std::vector<CellRect> told;
+  for (const scene::FrameRect& rect : ground.changed)
+    told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1), std::min(ny_, rect.y1)});
+  std::erase_if(told, [](const CellRect& rect) { return rect.empty(); });
+  return told;
+}
+
+CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
   CellRect rect = {nx_, ny_, 0, 0};
+  // Whole rows first: hardly any differs.
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
     const bool equal =
@@ -110,6 +151,7 @@ void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect)
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
+      // A hole in the heights must not spoil the shadows around it.
       height_[i] = std::isfinite(ground.height[i]) ? ground.height[i] : 0.0f;
       if (!ground.change.empty()) change_[i] = ground.change[i];
       if (!ground.soil.empty()) soil_[i] = ground.soil[i];
@@ -120,6 +162,7 @@ void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect)
 void GroundSurface::find_openness(const CellRect& rect) {
   const int width = rect.x1 - rect.x0;
   const CellRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1, std::min(ny_, rect.y1 + kOpenReach)};
+  // Sums along x of the rows that the sums along y need.
   scratch_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(tall.y1 - tall.y0));
   for (int iy = tall.y0; iy < tall.y1; ++iy) {
     float* out = &scratch_[static_cast<std::size_t>(iy - tall.y0) * static_cast<std::size_t>(width)];
@@ -148,15 +191,18 @@ void GroundSurface::find_openness(const CellRect& rect) {
 void GroundSurface::find_sun(const CellRect& rect) {
   const Vec3f& to_sun = lighting_.to_sun;
   const float flat = to_sun.head<2>().norm();
+  // The sun overhead casts no shadow of the ground.
   if (flat < 1e-3f) {
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix) sun_[index(ix, iy)] = 255;
     return;
   }
+  // Steps towards the sun in the plane, and how far a ray rises on the way.
   const float dx = to_sun.x() / flat, dy = to_sun.y() / flat, rise = to_sun.z() / flat;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const float base = height_[index(ix, iy)];
+      // Every column close by, every second farther off: far ground moves the edge of a shadow less.
       float worst = -1e9f;
       for (int k = 1; k <= kShadowReach; k += k < 8 ? 1 : 2) {
         const float d = static_cast<float>(k);
@@ -170,6 +216,7 @@ void GroundSurface::find_sun(const CellRect& rect) {
 }
 
 Vec3f GroundSurface::normal(int ix, int iy) const {
+  // One-sided at the edge of the ground.
   const float h = height_[index(ix, iy)], inverse = 1.0f / cell_;
   const float west = ix > 0 ? (h - height_[index(ix - 1, iy)]) * inverse : 0;
   const float east = ix + 1 < nx_ ? (height_[index(ix + 1, iy)] - h) * inverse : west;
@@ -179,10 +226,12 @@ Vec3f GroundSurface::normal(int ix, int iy) const {
 }
 
 Vec3f GroundSurface::albedo(int ix, int iy) const {
+  // A frame without soils is brown.
   const std::size_t i = index(ix, iy);
   Vec3f base(0.50f, 0.40f, 0.28f);
   if (soil_[i] < soil_color_.size()) base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
   const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_, y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
+  // Patches go with the place in the world, so that a moved window keeps its looks.
   const float broad = value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
   const float fine = 2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
 
@@ -218,6 +267,7 @@ Vec3f GroundSurface::wall_color(int ix, int iy, const Vec3f& face) const {
 }
 
 bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
+  // The nearest column: who asks places lumps, which are larger than the difference.
   if (nx_ < 2 || ny_ < 2) return false;
   const float u = (x - x0_) / cell_ - 0.5f, v = (y - y0_) / cell_ - 0.5f;
   const int ix = static_cast<int>(std::floor(u + 0.5f)), iy = static_cast<int>(std::floor(v + 0.5f));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A tile is a grid of vertices at a stride of 2^level columns. Levels follow the size of a cell in the picture; where
+// two levels meet, skirts hang down behind the seam instead of matching vertices.
 #include "render/terrain.h"
 
 namespace navvy::render {
@@ -35,6 +37,7 @@ Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
   return {p.x(), p.y(), p.z(), mean(sum[0]), mean(sum[1]), mean(sum[2]), 255};
 }
 
+// Split along a - c.
 void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
 }
@@ -85,7 +88,7 @@ std::size_t GroundPart::triangles() const {
 
 void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const int old_x = surface_.nx(), old_y = surface_.ny();
-  const CellRect changed = surface_.update(ground, lighting);
+  const std::vector<CellRect> changed = surface_.update(ground, lighting);
   rebuilt_ = 0;
   if (changed.empty()) return;
   if (old_x != surface_.nx() || old_y != surface_.ny()) {
@@ -95,20 +98,27 @@ void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting)
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
   }
   // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
-  const CellRect wide = changed.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny());
+  std::vector<CellRect> wide;
+  for (const CellRect& rect : changed) wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
   for (int ty = 0; ty < tiles_y_; ++ty)
     for (int tx = 0; tx < tiles_x_; ++tx) {
-      const bool touched =
-          tx * kTile < wide.x1 && (tx + 1) * kTile >= wide.x0 && ty * kTile < wide.y1 && (ty + 1) * kTile >= wide.y0;
+      const bool touched = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+        return tx * kTile < rect.x1 && (tx + 1) * kTile >= rect.x0 && ty * kTile < rect.y1 &&
+               (ty + 1) * kTile >= rect.y0;
+      });
       if (!touched) continue;
+      // Its mesh is made anew when it is next seen, at whatever level that asks for.
       measure(tx, ty);
       tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)].level = -1;
     }
-  const bool at_edge = wide.x0 == 0 || wide.y0 == 0 || wide.x1 == surface_.nx() || wide.y1 == surface_.ny();
+  const bool at_edge = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+    return rect.x0 == 0 || rect.y0 == 0 || rect.x1 == surface_.nx() || rect.y1 == surface_.ny();
+  });
   surroundings_stale_ = surroundings_stale_ || at_edge;
 }
 
 void Terrain::measure(int tx, int ty) {
+  // The box decides what the camera sees, walls how fine a tile has to be.
   Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
   const int x0 = tx * kTile, y0 = ty * kTile;
   tile.low = surface_.point(x0, y0);
@@ -125,6 +135,7 @@ void Terrain::measure(int tx, int ty) {
 }
 
 int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) const {
+  // By the nearest point of the box: no part of a tile is coarser than it should be.
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
   const float distance = (nearest - view.eye).norm();
   const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max(distance, 0.1f);
@@ -137,6 +148,7 @@ int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) cons
 }
 
 int Terrain::neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const {
+  // As it will be chosen, not as it was built.
   const int tx = tile % tiles_x_ + dx, ty = tile / tiles_x_ + dy;
   if (tx < 0 || ty < 0 || tx >= tiles_x_ || ty >= tiles_y_) return -1;
   return wanted_level(tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)], view, pixels);
@@ -147,6 +159,7 @@ std::vector<GroundPart> Terrain::select(const View& view, int budget) {
     float distance;
     int tile;
   };
+  // Nearest first, ties by number: the order of drawing is repeatable.
   std::vector<Candidate> seen;
   for (int i = 0; i < tiles_x_ * tiles_y_; ++i) {
     const Tile& tile = tiles_[static_cast<std::size_t>(i)];
@@ -157,6 +170,7 @@ std::vector<GroundPart> Terrain::select(const View& view, int budget) {
     return a.distance != b.distance ? a.distance < b.distance : a.tile < b.tile;
   });
   // The finest detail whose triangles fit: a coarse cell covers at most `pixels` of the picture.
+  // Coarser by a quarter until it fits: a few rounds over boxes, cheap beside one tile too many.
   float pixels = kFinest;
   for (; pixels < 64; pixels *= 1.25f) {
     std::int64_t triangles = 0;
@@ -171,6 +185,7 @@ std::vector<GroundPart> Terrain::select(const View& view, int budget) {
   for (const Candidate& c : seen) {
     Tile& tile = tiles_[static_cast<std::size_t>(c.tile)];
     const int level = wanted_level(tile, view, pixels);
+    // Kept from the last picture where neither ground nor level changed.
     if (tile.level != level) build(c.tile % tiles_x_, c.tile / tiles_x_, level);
     GroundPart part{&tile.mesh, {}, tile.low, tile.high};
     for (std::size_t k = 0; k < 4; ++k)
@@ -192,9 +207,11 @@ void Terrain::build(int tx, int ty, int level) {
   const int stride = 1 << level;
   const std::vector<int> xs = nodes(tx * kTile, nodes_x(tx), stride), ys = nodes(ty * kTile, nodes_y(ty), stride);
   const auto width = static_cast<std::uint32_t>(xs.size()), rows = static_cast<std::uint32_t>(ys.size());
+  // Shared vertices of the level part; walls add their own.
   for (const int iy : ys)
     for (const int ix : xs) mesh.vertices.push_back(node_vertex(surface_, ix, iy, stride));
 
+  // A drop that makes a cell a wall [m].
   const float wall = kWallSlope * surface_.cell();
   for (std::uint32_t j = 0; j + 1 < rows; ++j)
     for (std::uint32_t i = 0; i + 1 < width; ++i) {
@@ -202,6 +219,7 @@ void Terrain::build(int tx, int ty, int level) {
       const float ha = mesh.vertices[a].z, hb = mesh.vertices[b].z, hc = mesh.vertices[c].z, hd = mesh.vertices[d].z;
       const bool other = std::abs(ha - hc) > std::abs(hb - hd);  // cut along the diagonal of more equal heights
       const float range = std::max({ha, hb, hc, hd}) - std::min({ha, hb, hc, hd});
+      // Coarser levels are too far away for walls to be told apart.
       if (level == 0 && range > wall) {
         const int x = xs[i], y = ys[j];
         const std::array<std::array<int, 2>, 4> corner = {{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
@@ -213,7 +231,9 @@ void Terrain::build(int tx, int ty, int level) {
       }
     }
 
+  // Long enough to close any seam to a neighbour of another level.
   const float drop = 0.1f + std::min(3.0f, tile.high.z() - tile.low.z());
+  // Each line runs so that its skirt faces outwards.
   std::vector<std::uint32_t> south, east, north, west;
   for (std::uint32_t i = 0; i < width; ++i) {
     south.push_back(i);
@@ -242,6 +262,7 @@ GroundPart Terrain::surroundings(const Lighting& lighting) {
   for (int x = nx - 1; x > 0; x -= kStep) edge.push_back({x, ny - 1});
   for (int y = ny - 1; y > 0; y -= kStep) edge.push_back({0, y});
 
+  // Far out the ground is level and of the mean colour of the edge.
   float mean = 0;
   Vec3f color = Vec3f::Zero();
   for (const auto& [x, y] : edge) {
@@ -249,6 +270,7 @@ GroundPart Terrain::surroundings(const Lighting& lighting) {
     mean += surface_.height(x, y) / static_cast<float>(edge.size());
     color += Vec3f(c[0], c[1], c[2]) / (255.0f * static_cast<float>(edge.size()));
   }
+  // Rings of the same points, moved outwards.
   const Vec3f center = 0.5f * (surface_.point(0, 0) + surface_.point(nx - 1, ny - 1));
   constexpr std::array<float, 8> kReach = {0, 0.6f, 2, 5, 12, 40, 150, 900};  // [m] beyond the edge
   const auto around = static_cast<std::uint32_t>(edge.size());

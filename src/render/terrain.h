@@ -25,6 +25,7 @@ struct GroundPart {
   const Mesh* mesh = nullptr;
   std::array<bool, 4> skirts = {true, true, true, true};
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
+  /// With those of the skirts that are needed.
   std::size_t triangles() const;
 };
 
@@ -43,7 +44,9 @@ class Terrain {
   /// Ground beyond the site's edge, from the edge's heights out to the haze.
   GroundPart surroundings(const Lighting& lighting);
 
+  /// The copy of the ground that the triangles are made from.
   const GroundSurface& surface() const { return surface_; }
+  /// Tiles built since the last update, for tests and benches.
   int rebuilt() const { return rebuilt_; }
 
  private:
@@ -53,12 +56,16 @@ class Terrain {
     bool rough = false;  ///< holds walls: wants finer detail
     Vec3f low, high;
   };
+  /// Cells along a tile; fewer at the far edges.
   int nodes_x(int tile) const { return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile; }
   int nodes_y(int tile) const { return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile; }
+  /// Finds the box of a tile and whether it holds walls.
   void measure(int tx, int ty);
+  /// Makes the mesh of a tile at a stride of 2^level columns.
   void build(int tx, int ty, int level);
   /// Level of the neighbour at (dx, dy) of a tile, -1 beyond the site's edge.
   int neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const;
+  /// The coarsest level at which a cell covers no more than `pixels` of the picture.
   int wanted_level(const Tile& tile, const View& view, float pixels) const;
 
   GroundSurface surface_;

@@ -26,6 +26,11 @@ struct FrameCylinder {
   double barrel_length = 0.5;
 };
 
+/// Half-open rectangle of columns of a FrameGround.
+struct FrameRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 /// Dense copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5) cell; x fastest.
 struct FrameGround {
   int nx = 0, ny = 0;
@@ -35,8 +40,8 @@ struct FrameGround {
   std::vector<float> change;       ///< height - height at the start [m]; the dug and dumped parts
   std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
   std::vector<Color> soil_color;
-  std::uint64_t revision = 0;                                  ///< changes whenever any height changed
-  int dirty_x0 = 0, dirty_y0 = 0, dirty_x1 = 0, dirty_y1 = 0;  ///< half-open rectangle changed since the last frame
+  std::uint64_t revision = 0;      ///< changes whenever any height changed
+  std::vector<FrameRect> changed;  ///< hold all that changed since the frame of the last revision; may overlap
 };
 
 struct FrameParticles {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene_io/overrides.h"
+#include "scene_io/resolved.h"
 #include "scene_io/soil_reader.h"
 #include "scene_io/world_reader.h"
 
@@ -13,26 +14,31 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, Faults& faults) {
+scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, std::string* resolved,
+                  Faults& faults) {
   scene::World world;
   if (document) {
+    check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
     world = read_world(*document, faults);
   }
   faults.finish();
+  // Only now: what has a fault cannot be written out.
+  if (document && resolved != nullptr) *resolved = resolved_text(*document, world);
   return world;
 }
 
 }  // namespace
 
-scene::World load_world(const std::string& file, const Overrides& overrides) {
+scene::World load_world(const std::string& file, const Overrides& overrides, std::string* resolved) {
   Faults faults;
-  return load(Document::open(file, faults), overrides, faults);
+  return load(Document::open(file, faults), overrides, resolved, faults);
 }
 
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides) {
+scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides,
+                                    std::string* resolved) {
   Faults faults;
-  return load(Document::parse(text, name, faults), overrides, faults);
+  return load(Document::parse(text, name, faults), overrides, resolved, faults);
 }
 
 scene::Machine load_machine(const std::string& file) {
@@ -73,6 +79,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     read_machine_file(file, faults);
   } else {
+    check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
     scene::World read = read_world(*document, faults);
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);

@@ -34,11 +34,13 @@ struct Overrides {
 /// Splits "KEY=VALUE". @throws InputError when there is no '='.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
-/// Reads a world with everything it includes.
+/// Reads a world with everything it includes. `resolved`, when given, receives the scene as a text that stands for
+/// itself: overrides and included files written out, see resolved.h. Reading that text gives the same world again.
 /// @throws InputError with all faults (errors and warnings), also when the file cannot be read.
-scene::World load_world(const std::string& file, const Overrides& overrides = {});
+scene::World load_world(const std::string& file, const Overrides& overrides = {}, std::string* resolved = nullptr);
 /// The same from memory; `name` stands for the file in messages, relative paths count from its directory.
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides = {});
+scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides = {},
+                                    std::string* resolved = nullptr);
 
 /// Reads a machine (an SDF file with one model). @throws InputError
 scene::Machine load_machine(const std::string& file);

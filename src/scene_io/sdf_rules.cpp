@@ -208,12 +208,15 @@ struct Extension {
 };
 // Where each extension element belongs; its own table is in its reader.
 const Extension kExtensions[] = {
-    {"sdf", "navvy:soil"},          {"world", "navvy:soil"},   {"world", "navvy:ground"},  {"world", "navvy:solver"},
-    {"world", "navvy:recording"},   {"world", "navvy:camera"}, {"world", "navvy:seed"},    {"include", "navvy:program"},
-    {"include", "navvy:on_ground"}, {"include", "navvy:load"}, {"include", "navvy:joint"}, {"model", "navvy:program"},
-    {"model", "navvy:on_ground"},   {"model", "navvy:joint"},  {"model", "navvy:engine"},  {"model", "navvy:arm"},
-    {"model", "navvy:cylinder"},    {"model", "navvy:wheel"},  {"model", "navvy:drive"},   {"model", "navvy:shell"},
-    {"model", "navvy:bucket"},      {"model", "navvy:bed"},    {"model", "navvy:load"},    {"model", "navvy:pump"},
+    {"sdf", "navvy:soil"},          {"world", "navvy:soil"},      {"world", "navvy:ground"},
+    {"world", "navvy:solver"},      {"world", "navvy:recording"}, {"world", "navvy:camera"},
+    {"world", "navvy:seed"},        {"include", "navvy:program"}, {"world", "navvy:resolved"},
+    {"include", "navvy:on_ground"}, {"include", "navvy:load"},    {"include", "navvy:joint"},
+    {"model", "navvy:program"},     {"model", "navvy:on_ground"}, {"model", "navvy:joint"},
+    {"model", "navvy:engine"},      {"model", "navvy:arm"},       {"model", "navvy:cylinder"},
+    {"model", "navvy:wheel"},       {"model", "navvy:drive"},     {"model", "navvy:shell"},
+    {"model", "navvy:bucket"},      {"model", "navvy:bed"},       {"model", "navvy:load"},
+    {"model", "navvy:pump"},
 };
 
 const Rule* find_rule(const char* parent, const char* name) {

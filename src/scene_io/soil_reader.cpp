@@ -48,10 +48,7 @@ void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
 
 bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults& faults) {
   std::error_code ignored;
-  const bool is_file = ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0;
-  std::string file = is_file ? (std::filesystem::path(Document::of(element).directory()) / ref).string()
-                             : find_data("terrain/soils/" + ref + ".sdf");
-  if (!is_file && ref.find('/') != std::string::npos) file.clear();
+  const std::string file = soil_file(element, ref);
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
     std::vector<std::string> known;
     for (const std::string& directory : data_directories())
@@ -69,6 +66,12 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
 }
 
 }  // namespace
+
+std::string soil_file(const Element& element, const std::string& ref) {
+  if (ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0)
+    return (std::filesystem::path(Document::of(element).directory()) / ref).string();
+  return ref.find('/') == std::string::npos ? find_data("terrain/soils/" + ref + ".sdf") : "";
+}
 
 scene::Soil read_soil(Element& element, Faults& faults) {
   scene::Soil soil;

@@ -13,6 +13,10 @@ namespace navvy::scene_io {
 /// whose values the children then replace.
 scene::Soil read_soil(Element& element, Faults& faults);
 
+/// The file that `ref` of a <navvy:soil> means: *.sdf counts from the element's file, a plain name is a shipped soil's.
+/// Empty when a plain name is none.
+std::string soil_file(const Element& element, const std::string& ref);
+
 /// All soils of a soil file (<sdf> with <navvy:soil> children).
 std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults);
 

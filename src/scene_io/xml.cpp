@@ -96,6 +96,12 @@ std::string Document::directory() const {
   return directory.empty() ? "." : directory;
 }
 
+std::string Document::text() const {
+  tinyxml2::XMLPrinter printer;
+  xml_.Print(&printer);
+  return printer.CStr();
+}
+
 namespace {
 std::string label(const Element& element) {
   std::string name = element.Name();

@@ -44,6 +44,8 @@ class Document {
   const std::string& file() const { return file_; }
   std::string directory() const;
   Element* root() { return xml_.RootElement(); }
+  /// The file's text as it is now, comments included.
+  std::string text() const;
 
  private:
   Document() = default;

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+// A frame is what a renderer needs and nothing more: poses of visuals, cylinders between their pins, a dense window of
+// the ground and the particles, all in W.
 #include "sim/frame_builder.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/terrain_view.h"
+#include "sim/world_parts.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
 namespace {
 
+// Loose soil is drawn as particles, so the ground below it is that of the columns.
+constexpr heightfield::Surface kDrawn = heightfield::Surface::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
 constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]
@@ -17,6 +23,7 @@ constexpr double kBarRadius = 0.05;     // [m]
 /// OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
   Vec3 back = eye - target;
+  // Any direction is better than none.
   if (back.norm() < 1e-9) back = Vec3(1, 0, 0);
   back.normalize();
   Vec3 right = Vec3::UnitZ().cross(back);
@@ -33,6 +40,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 }  // namespace
 
 FrameBuilder::FrameBuilder(const World& world) : world_(world) {
+  // What does not change with time is filled in once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
   frame_.lights = world.description().lights;
@@ -41,6 +49,7 @@ FrameBuilder::FrameBuilder(const World& world) : world_(world) {
 }
 
 const scene::Frame& FrameBuilder::build() {
+  // Vectors are cleared, not freed: frames of one world are about as large as each other.
   frame_.time = world_.time();
   frame_.shapes.clear();
   frame_.cylinders.clear();
@@ -56,15 +65,17 @@ void FrameBuilder::place_window() {
   const int nx = std::min(ground.nx(), kWindow), ny = std::min(ground.ny(), kWindow);
   Vec2 low = ground.origin() + 0.5 * ground.cell() * Vec2(ground.nx(), ground.ny()), high = low;
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
-    const Vec2 p = world_.link(static_cast<int>(m), 0).X_WL.translation().head<2>();
+    const Vec2 p = world_.machine(static_cast<int>(m)).link(0).pose().translation().head<2>();
     low = m == 0 ? p : Vec2(low.cwiseMin(p));
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
   const Vec2i center = ground.column_at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
+  // A window follows the middle of the machines, but jumps only when they near its edge: a jump costs a whole copy.
   const bool placed = !window_.empty();
   const bool near_edge = std::abs(center.x() - (window_.x0 + window_.x1) / 2) > nx / 4 ||
                          std::abs(center.y() - (window_.y0 + window_.y1) / 2) > ny / 4;
   const bool whole = nx == ground.nx() && ny == ground.ny();
+  // A window over the whole site never moves.
   if (placed && (whole || !near_edge)) return;
   const int x0 = std::clamp(center.x() - nx / 2, 0, ground.nx() - nx);
   const int y0 = std::clamp(center.y() - ny / 2, 0, ground.ny() - ny);
@@ -78,37 +89,36 @@ void FrameBuilder::place_window() {
   out.height.assign(n, 0);
   out.change.assign(n, 0);
   out.soil.assign(n, 0);
-  sequence_ = 0;
+  changes_.forget();
   out.revision = 0;
 }
 
 void FrameBuilder::update_ground() {
-  const heightfield::Ground& ground = world_.ground();
+  const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
-  const bool first = out.revision == 0;
-  heightfield::CellRect rect = window_;
-  if (!first) {
-    const heightfield::CellRect changed = ground.changed_since(sequence_);
-    rect = {std::max(window_.x0, changed.x0), std::max(window_.y0, changed.y0), std::min(window_.x1, changed.x1),
-            std::min(window_.y1, changed.y1)};
+  // A frame that nobody draws loses nothing: the follower sees the next one against the last one built.
+  out.changed.clear();
+  for (const heightfield::CellRect& changed : changes_.take(terrain)) {
+    const heightfield::CellRect rect = changed.cut(window_);
+    if (rect.empty()) continue;
+    copy_ground(terrain, rect);
+    out.changed.push_back({rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
   }
-  sequence_ = ground.sequence();
-  out.dirty_x0 = out.dirty_y0 = out.dirty_x1 = out.dirty_y1 = 0;
-  if (rect.empty()) return;
+  if (!out.changed.empty()) ++out.revision;
+}
+
+void FrameBuilder::copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect) {
+  scene::FrameGround& out = frame_.ground;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
                             static_cast<std::size_t>(ix - window_.x0);
-      const double height = ground.height(ix, iy);
+      // The difference in double: both heights may be hundreds of metres.
+      const double height = terrain.height(ix, iy);
       out.height[i] = static_cast<float>(height);
-      out.change[i] = static_cast<float>(height - ground.start_height(ix, iy));
-      out.soil[i] = static_cast<std::uint8_t>(ground.surface_soil(ix, iy));
+      out.change[i] = static_cast<float>(height - terrain.start_height(ix, iy));
+      out.soil[i] = static_cast<std::uint8_t>(terrain.surface_soil(ix, iy));
     }
-  out.dirty_x0 = rect.x0 - window_.x0;
-  out.dirty_y0 = rect.y0 - window_.y0;
-  out.dirty_x1 = rect.x1 - window_.x0;
-  out.dirty_y1 = rect.y1 - window_.y0;
-  ++out.revision;
 }
 
 void FrameBuilder::add_machines() {
@@ -116,7 +126,7 @@ void FrameBuilder::add_machines() {
     const scene::Machine& machine = world_.description().machines[m].machine;
     const int index = static_cast<int>(m);
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
-      const Pose X_WL = world_.link(index, static_cast<int>(l)).X_WL;
+      const Pose X_WL = world_.machine(index).link(static_cast<int>(l)).pose();
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
@@ -129,12 +139,14 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link),
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
-  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.joint(m, joint).position);
-  const Pose X_WL = world_.link(m, base).X_WL;
+  // The pins follow from the joint's angle; a cylinder has no state of its own.
+  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
+  const Pose X_WL = world_.machine(m).link(base).pose();
   const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel, double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
     frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
   };
+  // Side by side, as many as there are.
   for (int i = 0; i < cylinder.count; ++i)
     add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
         cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
@@ -142,7 +154,7 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's pivot.
   const Vec3 pin =
       cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod * (geometry.p_rod - cylinder.p_rocker);
-  const Vec3 on_bucket = world_.link(m, rod).X_WL * cylinder.p_coupler;
+  const Vec3 on_bucket = world_.machine(m).link(rod).pose() * cylinder.p_coupler;
   for (const double aside : {-kLinkageAside, kLinkageAside}) {
     add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
     add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
@@ -151,16 +163,17 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
 
 void FrameBuilder::add_particles() {
   const heightfield::Ground& ground = world_.ground();
-  const std::vector<soil::Particle> particles = world_.soil().particles();
+  const std::vector<soil::Particle> particles = parts(world_).soil.particles();
   scene::FrameParticles& out = frame_.particles;
   out.position.clear();
   out.soil.clear();
   out.id.clear();
   out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
   if (particles.empty()) return;
+  // Relative to the block of one of them: a float is fine to 0.01 mm over a site of 100 m.
   const auto& first = particles.front().block;
   const double block = soil::kBlockCells * ground.cell();
-  out.origin = world_.soil().grid_origin() + block * Vec3(first[0], first[1], first[2]);
+  out.origin = parts(world_).soil.grid_origin() + block * Vec3(first[0], first[1], first[2]);
   out.position.reserve(3 * particles.size());
   out.soil.reserve(particles.size());
   for (const soil::Particle& p : particles) {
@@ -177,6 +190,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   out.width = camera.width;
   out.height = camera.height;
   Pose X = Pose::Identity();
+  // Fixed ones are given in W, the others in the frame of what they ride on.
   if (camera.kind != scene::Camera::Kind::kFixed) {
     const int m = world_.description().machine_index(camera.machine);
     if (m < 0)
@@ -184,7 +198,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
                              camera.machine, "there is no machine of this name", "name a machine of the scene"});
     const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
     const int link = camera.kind == scene::Camera::Kind::kOnLink ? std::max(0, machine.link_index(camera.link)) : 0;
-    X = world_.link(m, link).X_WL;
+    X = world_.machine(m).link(link).pose();
     if (camera.kind == scene::Camera::Kind::kChase) {
       const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
       X.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
@@ -193,7 +207,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   out.X_WC = look_at(X * camera.position, X * camera.target);
   // Never below the ground it looks over.
   const Vec3 eye = out.X_WC.translation();
-  const double floor = world_.ground().sample(eye.x(), eye.y()) + 0.3;
+  const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;
   if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink) out.X_WC.translation().z() = floor;
   return out;
 }

@@ -2,6 +2,7 @@
 // Turns the state of a world into a Frame to draw, and scene cameras into poses.
 #pragma once
 
+#include "heightfield/change_follower.h"
 #include "scene/frame.h"
 #include "sim/world.h"
 
@@ -20,16 +21,21 @@ class FrameBuilder {
   scene::FrameCamera camera(const scene::Camera& camera) const;
 
  private:
+  /// Moves the window where machines near its edge; the next ground is then a whole one.
   void place_window();
+  /// Copies what changed since the last frame into the window.
   void update_ground();
+  void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
   void add_machines();
+  /// A cylinder of machine m, with the bars of its bucket linkage.
   void add_cylinder(int m, const scene::Cylinder& cylinder);
   void add_particles();
 
   const World& world_;
   scene::Frame frame_;
+  // Columns of the site that are drawn, and what changed among them.
   heightfield::CellRect window_;
-  std::uint64_t sequence_ = 0;
+  heightfield::ChangeFollower changes_;
 };
 
 }  // namespace navvy::sim

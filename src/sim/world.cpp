@@ -6,200 +6,252 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/log.h"
-#include "heightfield/site.h"
+#include "sim/names.h"
+#include "sim/snapshot.h"
 #include "sim/world_channels.h"
+#include "sim/world_parts.h"
 
 namespace navvy::sim {
-namespace {
 
-constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
-
-std::unique_ptr<vehicle::Engine> bullet(const scene::World& world) {
-  return vehicle::make_bullet_engine(world.gravity);
+/// The parts are whole before the first channel is made: channels hold handles into them.
+World::World(scene::World description, device::Device& device)
+    : parts_(std::make_unique<WorldParts>(std::move(description), device)) {
+  add_channels(*this, parts_->inputs, parts_->outputs);
 }
 
-/// The site; what was found in a terrain file goes to the log.
-heightfield::Ground make_site(const scene::World& world) {
-  std::string report;
-  heightfield::Ground ground = heightfield::make_ground(world, &report);
-  if (!report.empty()) log_info(report);
-  return ground;
+// Here, where the parts are a complete type.
+World::~World() = default;
+
+WorldParts& parts(World& world) { return *world.parts_; }
+const WorldParts& parts(const World& world) { return *world.parts_; }
+
+// Plain answers from the parts.
+const scene::World& World::description() const { return parts_->description; }
+double World::dt() const { return parts_->dt; }
+std::uint64_t World::steps() const { return parts_->steps; }
+double World::time() const { return parts_->time(); }
+
+/// Samplers come last, so that all of them see the same instant; none of them changes what another one sees.
+void World::step() {
+  // The time before the step decides which samplers fell due in it.
+  const double before = time();
+  parts_->coupling.step(parts_->dt);
+  ++parts_->steps;
+  for (const auto& slot : parts_->samplers)
+    if (slot->due(before, time())) slot->sample(*this, time());
+}
+
+// Look-ups go through a map once; clients keep the index.
+const std::vector<Channel>& World::inputs() const { return parts_->inputs.channels(); }
+const std::vector<Channel>& World::outputs() const { return parts_->outputs.channels(); }
+
+namespace {
+
+const auto kName = [](const auto& entry) -> const std::string& { return entry.name; };
+
+/// The map answers names that exist; only for the others is the list searched for the nearest one.
+/// `found` when it is an index. @throws InputError that names the nearest channel otherwise.
+int require_channel(const std::string& kind, int found, const std::vector<Channel>& channels, const std::string& name) {
+  return found >= 0 ? found : index_of(kind, channels, name, kName);
 }
 
 }  // namespace
 
-struct World::State {
-  State(scene::World world, device::Device& device)
-      : description(std::move(world)),
-        ground(make_site(description)),
-        dynamic(bullet(description)),
-        kinematic(vehicle::make_kinematic_engine()),
-        soil(device, description, ground),
-        coupling(description, *dynamic, *kinematic, soil, ground) {
-    dt = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
-    if (!(dt > 0) || !std::isfinite(dt))
-      throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
-                             "the base step must be positive and finite",
-                             "check cell, courant and the soils' stiffness"});
-    for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
-    for (const coupling::ToolLoad& tool : coupling.tools()) load_bed(tool);
-  }
-  void load_bed(const coupling::ToolLoad& tool) {
-    const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
-    if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
-    const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
-    try {
-      soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
-    } catch (const InputError& error) {
-      Fault fault = error.faults().front();
-      fault.file = description.file;
-      fault.element = "include[" + placed.name + "]/" + fault.element;
-      throw InputError(fault);
-    }
-  }
-  void wake(const scene::AwakeSoil& awake) {
-    const auto cell = [&](double metres, double from, int cells) {
-      return static_cast<int>(std::clamp(std::round((metres - from) / ground.cell()), 0.0, static_cast<double>(cells)));
-    };
-    const Vec2 from = ground.origin();
-    soil.wake({cell(awake.min.x(), from.x(), ground.nx()), cell(awake.min.y(), from.y(), ground.ny()),
-               cell(awake.max.x(), from.x(), ground.nx()), cell(awake.max.y(), from.y(), ground.ny())},
-              awake.bottom);
-  }
-
-  scene::World description;
-  heightfield::Ground ground;
-  std::unique_ptr<vehicle::Engine> dynamic, kinematic;
-  soil::Solver soil;
-  coupling::Coupling coupling;
-  Inputs inputs;
-  Outputs outputs;
-  double dt = 0;
-  std::uint64_t steps = 0;
-};
-
-World::World(scene::World description, device::Device& device)
-    : state_(std::make_unique<State>(std::move(description), device)) {
-  add_channels(*this, state_->inputs, state_->outputs);
-}
-
-World::~World() = default;
-
-const scene::World& World::description() const { return state_->description; }
-double World::dt() const { return state_->dt; }
-std::uint64_t World::steps() const { return state_->steps; }
-double World::time() const { return static_cast<double>(state_->steps) * state_->dt; }
-
-void World::step() {
-  state_->coupling.step(state_->dt);
-  ++state_->steps;
-}
-
-const std::vector<Channel>& World::inputs() const { return state_->inputs.channels(); }
-const std::vector<Channel>& World::outputs() const { return state_->outputs.channels(); }
+/// Two lists of names: an input and an output may share one, as a joint's position does.
 int World::input(const std::string& name) const {
-  return require_channel(state_->inputs.find(name), inputs(), name, "input");
+  return require_channel("input", parts_->inputs.find(name), inputs(), name);
 }
 int World::output(const std::string& name) const {
-  return require_channel(state_->outputs.find(name), outputs(), name, "output");
+  return require_channel("output", parts_->outputs.find(name), outputs(), name);
 }
 
 void World::set(int input, double value) {
+  // Bounds first: the name in the message below is read from the list.
+  require_index("input", input, inputs().size());
+  // A NaN would go through a servo into every body and only show steps later, without a name.
   if (!std::isfinite(value))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, inputs().at(static_cast<std::size_t>(input)).name,
+    throw InputError(Fault{Fault::Severity::kError, "", 0, inputs()[static_cast<std::size_t>(input)].name,
                            std::to_string(value), "an input must be a finite number", "send a number"});
-  state_->inputs.function(input)(value);
+  parts_->inputs.function(input)(value);
 }
-double World::get(int output) const { return state_->outputs.function(output)(); }
 
-void World::set_joint(int machine, int joint, const vehicle::JointInput& input) {
-  state_->coupling.engine(machine).set_joint(state_->coupling.index(machine), joint, input);
+/// One call through a function that holds the handle.
+double World::get(int output) const {
+  require_index("output", output, outputs().size());
+  return parts_->outputs.function(output)();
 }
-void World::set_drive(int machine, const vehicle::DriveInput& input) {
-  state_->coupling.engine(machine).set_drive(state_->coupling.index(machine), input);
-}
-vehicle::DriveInput World::drive(int machine) const {
-  return state_->coupling.engine(machine).drive(state_->coupling.index(machine));
-}
-vehicle::JointState World::joint(int machine, int joint) const {
-  return state_->coupling.engine(machine).joint(state_->coupling.index(machine), joint);
-}
-vehicle::LinkState World::link(int machine, int link) const {
-  return state_->coupling.engine(machine).link(state_->coupling.index(machine), link);
-}
-vehicle::WheelState World::wheel(int machine, int wheel) const {
-  return state_->coupling.engine(machine).wheel(state_->coupling.index(machine), wheel);
-}
-vehicle::PumpState World::pump(int machine) const {
-  return state_->coupling.engine(machine).pump(state_->coupling.index(machine));
-}
-double World::work(int machine) const { return state_->coupling.engine(machine).work(state_->coupling.index(machine)); }
-const heightfield::Ground& World::ground() const { return state_->ground; }
-const soil::Solver& World::soil() const { return state_->soil; }
-soil::Solver& World::soil() { return state_->soil; }
-const coupling::Coupling& World::coupling() const { return state_->coupling; }
-const vehicle::Engine& World::engine(int machine) const { return state_->coupling.engine(machine); }
-int World::engine_index(int machine) const { return state_->coupling.index(machine); }
 
+/// Read only: arrays are filled through a sampler's publisher, which stamps them.
+const ArrayOutputs& World::arrays() const { return parts_->arrays; }
+
+void World::add(std::unique_ptr<Sampler> sampler) {
+  // A slot at an address of its own: outputs keep pointers to its numbers.
+  parts_->samplers.push_back(std::make_unique<SamplerSlot>(std::move(sampler), parts_->outputs, parts_->arrays));
+  // Readers find a value from the start on, as recorders have their first row.
+  parts_->samplers.back()->sample(*this, time());
+}
+
+int World::machine_count() const { return static_cast<int>(description().machines.size()); }
+MachineHandle World::machine(const std::string& name) const {
+  return machine(index_of("machine", description().machines, name, kName));
+}
+/// A handle is the world's parts and an index; who asks with a wrong one learns it here and not while reading.
+MachineHandle World::machine(int index) const {
+  require_index("machine", index, description().machines.size());
+  // Only the world makes handles, so none is ever without parts.
+  MachineHandle out;
+  out.parts_ = parts_.get();
+  out.machine_ = index;
+  return out;
+}
+
+/// In the exchange's own order, which is machine by machine and shell by shell.
+std::vector<ToolHandle> World::tools() const {
+  std::vector<ToolHandle> out(parts_->coupling.tools().size());
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    out[t].parts_ = parts_.get();
+    out[t].tool_ = static_cast<int>(t);
+  }
+  return out;
+}
+
+/// Both engines count machines on their own: the exchange knows which engine has the machine, and its index there.
+void World::command(const JointHandle& joint, const vehicle::JointInput& input) {
+  const int m = joint.machine();
+  parts_->coupling.engine(m).set_joint(parts_->coupling.index(m), joint.index(), input);
+}
+/// The drive of a machine without one takes no notice.
+void World::command(const MachineHandle& machine, const vehicle::DriveInput& input) {
+  const int m = machine.index();
+  parts_->coupling.engine(m).set_drive(parts_->coupling.index(m), input);
+}
+
+/// The columns; loose soil lies beside them in loose_soil.
+const heightfield::Ground& World::ground() const { return parts_->ground; }
+
+// What follows copies figures of the solver into sim's own types, so that no client includes a header of the soil.
+SoilCounts World::soil_counts() const {
+  const soil::SolverStats& stats = parts_->soil.stats();
+  SoilCounts out;
+  out.steps = stats.steps;
+  out.particle_steps = stats.particle_steps;
+  out.particles = stats.particles;
+  out.particles_peak = stats.particles_peak;
+  out.rebins = stats.rebins;
+  out.woken_columns = stats.wakes;
+  out.deposited_blocks = stats.deposits;
+  out.shell_crossings = stats.shell_crossings;
+  return out;
+}
+
+/// Recounted from columns and particles at each call: it proves, it does not remember.
+MassLedger World::mass_ledger() const {
+  // The error is summed before the parts are moved out.
+  soil::Ledger sums = parts_->soil.ledger();
+  const std::int64_t error = sums.error();
+  return {std::move(sums.columns), std::move(sums.particles), std::move(sums.left_site), std::move(sums.inserted),
+          error};
+}
+
+/// By the particles' ids, so that sums over it are repeatable to the bit.
+std::vector<LooseSoil> World::loose_soil() const {
+  std::vector<LooseSoil> out;
+  for (const soil::Particle& p : parts_->soil.particles()) {
+    // Particles know their block; where blocks begin on the site is the grid's to know.
+    const auto [ix, iy] = parts_->soil.grid().column_of(p);
+    out.push_back({ix, iy, p.soil, p.mass});
+  }
+  return out;
+}
+
+/// Of the exchange's stopwatches: what is neither vehicle nor soil nor ground is the caller's.
+WallTimes World::wall_times() const {
+  const coupling::TimeShare& share = parts_->coupling.time_share();
+  return {share.vehicle, share.soil, share.ground};
+}
+std::vector<std::pair<std::string, double>> World::soil_stage_times() const { return parts_->soil.stage_times(); }
+
+/// The order of the parts is the order in which one change reaches the next within a step.
 void World::hash(StateHash& hash) const {
-  hash.value(state_->steps);
-  state_->ground.hash(hash);
-  state_->soil.hash(hash);
-  state_->dynamic->hash(hash);
-  state_->kinematic->hash(hash);
-  state_->coupling.hash(hash);
+  hash.value(parts_->steps);
+  parts_->ground.hash(hash);
+  parts_->soil.hash(hash);
+  parts_->dynamic->hash(hash);
+  parts_->kinematic->hash(hash);
+  parts_->coupling.hash(hash);
+  // A world without samplers hashes as if there were no such thing.
+  if (parts_->samplers.empty()) return;
+  parts_->arrays.hash(hash);
+  for (const auto& slot : parts_->samplers) slot->hash(hash);
 }
 
+/// Of the world alone; a session's hash has its operators in it.
 std::string World::state_hash() const {
   StateHash sum;
   hash(sum);
   return sum.hex();
 }
 
+/// Each part by itself, so that two runs compared row by row show which of them parted first.
 std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out;
+  // Each part starts a sum of its own.
   const auto add = [&out](const char* name, const auto& part) {
     StateHash sum;
     part.hash(sum);
     out.emplace_back(name, sum.hex());
   };
-  add("ground", state_->ground);
-  add("soil", state_->soil);
-  add("dynamic_machines", *state_->dynamic);
-  add("kinematic_machines", *state_->kinematic);
-  add("coupling", state_->coupling);
+  add("ground", parts_->ground);
+  add("soil", parts_->soil);
+  add("dynamic_machines", *parts_->dynamic);
+  add("kinematic_machines", *parts_->kinematic);
+  add("coupling", parts_->coupling);
+  if (!parts_->samplers.empty()) add("arrays", parts_->arrays);
+  for (const auto& slot : parts_->samplers) add(slot->name().c_str(), *slot);
   return out;
 }
 
+/// The head first and the ground next: who wants no more than the ground reads no farther (sim/snapshot.h).
 void World::save(StateWriter& writer) const {
-  writer.begin("world", 1);
-  writer.text(state_->description.name);
-  writer.value(state_->dt);
-  writer.value(state_->steps);
+  save_head(writer, {parts_->description.name, parts_->dt, parts_->steps});
+  parts_->ground.save(writer);
+  parts_->soil.save(writer);
+  parts_->dynamic->save(writer);
+  parts_->kinematic->save(writer);
+  parts_->coupling.save(writer);
+  // Always written, so that a world without samplers notices those of a snapshot.
+  writer.begin("samplers", 1);
+  writer.value(static_cast<std::uint64_t>(parts_->samplers.size()));
+  for (const auto& slot : parts_->samplers) slot->save_numbers(writer);
+  parts_->arrays.save(writer);
   writer.end();
-  state_->ground.save(writer);
-  state_->soil.save(writer);
-  state_->dynamic->save(writer);
-  state_->kinematic->save(writer);
-  state_->coupling.save(writer);
+  // Own sections of samplers follow: sections do not nest.
+  for (const auto& slot : parts_->samplers) slot->sampler().save(writer);
 }
 
+/// Whatever throws leaves the world half loaded: it is then of no use but to be destroyed.
 void World::load(StateReader& reader) {
-  reader.begin("world", 1);
-  const std::string name = reader.text();
-  const auto dt = reader.value<double>();
-  state_->steps = reader.value<std::uint64_t>();
+  const SnapshotHead head = load_head(reader, parts_->description);
+  // Time is steps x dt: another step would put the same count at another time.
+  if (head.dt != parts_->dt)
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "world", std::to_string(head.dt),
+                           "the snapshot has another base step", "load it with the same solver settings"});
+  // From here on parts change.
+  parts_->steps = head.steps;
+  parts_->ground.load(reader);
+  parts_->soil.load(reader);
+  parts_->dynamic->load(reader);
+  parts_->kinematic->load(reader);
+  parts_->coupling.load(reader);
+  reader.begin("samplers", 1);
+  if (reader.value<std::uint64_t>() != parts_->samplers.size())
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", "",
+                           "the snapshot has another number of samplers than the world",
+                           "add the same samplers, then load"});
+  for (const auto& slot : parts_->samplers) slot->load_numbers(reader);
+  parts_->arrays.load(reader);
   reader.end();
-  if (name != state_->description.name || dt != state_->dt)
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "world", name,
-                           "the snapshot belongs to another scene or another base step",
-                           "load it into '" + name + "' with the same solver settings"});
-  state_->ground.load(reader);
-  state_->soil.load(reader);
-  state_->dynamic->load(reader);
-  state_->kinematic->load(reader);
-  state_->coupling.load(reader);
+  for (const auto& slot : parts_->samplers) slot->sampler().load(reader);
 }
 
 }  // namespace navvy::sim

@@ -10,75 +10,103 @@
 
 #include "core/hash.h"
 #include "core/state_io.h"
-#include "coupling/coupling.h"
-#include "device/device.h"
 #include "heightfield/ground.h"
-#include "scene/frame.h"
 #include "scene/world.h"
+#include "sim/array_outputs.h"
 #include "sim/channels.h"
-#include "soil/solver.h"
-#include "vehicle/engine.h"
+#include "sim/handles.h"
+#include "sim/sampler.h"
+#include "sim/world_figures.h"
+#include "vehicle/machine_state.h"
+
+namespace navvy::device {
+class Device;
+}
 
 namespace navvy::sim {
 
 /// Ground, soil and machines of one scene with named inputs and outputs.
 ///
-/// Knows no operator and writes no file: those are its clients (sim/session.h, record, the `navvy` program). One `step`
-/// is one base step of fixed length; the same scene, inputs, device and driver give the same bits. Not thread-safe.
+/// Knows no operator and writes no file: those are its clients (session, record, the `navvy` program). One `step` is
+/// one base step of fixed length; the same scene, inputs, device and driver give the same bits. Lengths and poses are
+/// in the world frame W, z up, in SI units. Not thread-safe.
 class World {
  public:
-  /// Builds the ground from the scene (reads the heightmap file if it names one).
+  /// Builds the ground from the scene (reads the heightmap file if it names one) and places the machines on it.
   /// @throws InputError for what cannot be built, device::DeviceError for the device.
   World(scene::World description, device::Device& device);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// The scene it was built from, with the order of machines, joints, soils that all indices follow.
   const scene::World& description() const;
   double dt() const;  ///< base step [s]
   std::uint64_t steps() const;
   double time() const;  ///< steps x dt [s]
 
-  /// Advances by one base step. @throws SimulationError with step, time and cause; the state is then that of the fault.
+  /// Advances by one base step; then the samplers that fell due look at it. Blocks until the state is on the host.
+  /// @throws SimulationError with step, time and cause; the state is then that of the fault.
   void step();
 
+  // Named numbers. A look-up by name is for once; the index is as fast as a function call.
+  /// Fixed for inputs; outputs grow by those of samplers.
   const std::vector<Channel>& inputs() const;
   const std::vector<Channel>& outputs() const;
   /// Index of a named channel. @throws InputError that names the nearest known one.
   int input(const std::string& name) const;
   int output(const std::string& name) const;
+  /// In the channel's unit. @throws InputError for a value that is not finite, or an index that does not exist.
   void set(int input, double value);
+  /// Now, in the channel's unit. Payloads cost a pass over the particles, the others nothing.
   double get(int output) const;
   void set(const std::string& name, double value) { set(input(name), value); }
   double get(const std::string& name) const { return get(output(name)); }
 
-  // Direct access for operators and recorders; indices are those of description().machines.
-  void set_joint(int machine, int joint, const vehicle::JointInput& input);
-  void set_drive(int machine, const vehicle::DriveInput& input);
-  vehicle::DriveInput drive(int machine) const;
-  vehicle::JointState joint(int machine, int joint) const;
-  vehicle::LinkState link(int machine, int link) const;
-  vehicle::WheelState wheel(int machine, int wheel) const;
-  vehicle::PumpState pump(int machine) const;
-  double work(int machine) const;  ///< [J]
-  const heightfield::Ground& ground() const;
-  const soil::Solver& soil() const;
-  soil::Solver& soil();
-  const coupling::Coupling& coupling() const;
-  const vehicle::Engine& engine(int machine) const;
-  int engine_index(int machine) const;
+  /// Named arrays: what samplers publish, with stamp, shape, unit and frame. Read in place.
+  const ArrayOutputs& arrays() const;
+  /// From now on `sampler` looks at this world, first at once. Its outputs come after those there are.
+  /// @throws InputError for a name in use or a rate that makes no sense.
+  void add(std::unique_ptr<Sampler> sampler);
 
+  // Machines, in the order of description().machines.
+  /// 0 for a scene of soil alone.
+  int machine_count() const;
+  /// @throws InputError that names the nearest machine, or says how many there are.
+  MachineHandle machine(const std::string& name) const;
+  MachineHandle machine(int index) const;
+  /// Every shell of every machine, machine by machine.
+  std::vector<ToolHandle> tools() const;
+  /// Held until replaced. A joint that a drive also moves is the drive's again with the drive's next command.
+  void command(const JointHandle& joint, const vehicle::JointInput& input);
+  void command(const MachineHandle& machine, const vehicle::DriveInput& input);
+
+  /// The resting ground.
+  const heightfield::Ground& ground() const;
+  /// Copies; the ledger and the loose soil cost a pass over the particles.
+  /// What world_figures.h explains.
+  SoilCounts soil_counts() const;
+  MassLedger mass_ledger() const;
+  /// Awake soil, one entry a particle, in a repeatable order.
+  std::vector<LooseSoil> loose_soil() const;
+  WallTimes wall_times() const;
+  /// Wall time of the soil by stage [s]: "p2g", "grid", "exchange", ...
+  std::vector<std::pair<std::string, double>> soil_stage_times() const;
+
+  /// Everything that decides how it goes on. Costs a pass over the state.
   void hash(StateHash& hash) const;
   std::string state_hash() const;  ///< hex
   /// Name and hash [hex] of every part by itself, to tell which of them differs.
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
+  /// Appends sections of the whole state; blocks until it has been read from the device.
   void save(StateWriter& writer) const;
-  /// Into a world built from the same scene. @throws InputError when the snapshot does not fit.
+  /// Into a world built from the same scene, with the same samplers. @throws InputError when the snapshot does not fit.
   void load(StateReader& reader);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  friend WorldParts& parts(World& world);
+  friend const WorldParts& parts(const World& world);
+  std::unique_ptr<WorldParts> parts_;
 };
 
 }  // namespace navvy::sim

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
-#include "core/edit_distance.h"
-#include "core/error.h"
 #include "sim/world.h"
 
 namespace navvy::sim {
@@ -14,16 +13,22 @@ namespace {
 using scene::Joint;
 using vehicle::JointMode;
 
-void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, Outputs& outputs) {
-  const scene::Machine& machine = world.description().machines[static_cast<std::size_t>(m)].machine;
-  for (std::size_t i = 0; i < machine.joints.size(); ++i) {
-    const Joint& joint = machine.joints[i];
+/// Three inputs a joint, of which the one that was set last decides its mode; fixed and ball joints have no servo.
+void add_joints(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs,
+                Outputs& outputs) {
+  // Names and types come from the data, values from the handle.
+  const scene::Machine& built = machine.description();
+  for (std::size_t i = 0; i < built.joints.size(); ++i) {
+    const Joint& joint = built.joints[i];
+    // Neither has a position of one number.
     if (joint.type == Joint::Type::kFixed || joint.type == Joint::Type::kBall) continue;
+    // Prismatic joints count in metres.
     const bool linear = joint.type == Joint::Type::kPrismatic;
-    const bool has_cylinder = std::any_of(machine.cylinders.begin(), machine.cylinders.end(),
+    const bool has_cylinder = std::any_of(built.cylinders.begin(), built.cylinders.end(),
                                           [&](const scene::Cylinder& c) { return c.joint == joint.name; });
-    const int j = static_cast<int>(i);
+    const JointHandle handle = machine.joint(static_cast<int>(i));
     const std::string base = prefix + joint.name + "/";
+    // The units follow the joint's type.
     const struct {
       const char* name;
       const char* unit;
@@ -31,137 +36,158 @@ void add_joints(World& world, int m, const std::string& prefix, Inputs& inputs, 
     } modes[] = {{"position", linear ? "m" : "rad", JointMode::kPosition},
                  {"velocity", linear ? "m/s" : "rad/s", JointMode::kVelocity},
                  {"effort", linear ? "N" : "N m", JointMode::kEffort}};
+    // A closure holds a handle: no name is looked up while stepping.
     for (const auto& mode : modes)
-      inputs.add({base + mode.name, mode.unit, "target; choosing it selects this mode"},
-                 [&world, m, j, kind = mode.mode](double v) {
-                   world.set_joint(m, j, {kind, v});
+      inputs.add({base + mode.name, mode.unit, "target; choosing it selects this mode", machine.index()},
+                 [&world, handle, kind = mode.mode](double v) {
+                   world.command(handle, {kind, v});
                  });
-    outputs.add({base + "position", linear ? "m" : "rad", "joint position"},
-                [&world, m, j] { return world.joint(m, j).position; });
+    // A joint's inputs and outputs have the same names: one is the target, the other what it came to.
+    outputs.add({base + "position", linear ? "m" : "rad", "joint position"}, [handle] { return handle.position(); });
     outputs.add({base + "velocity", linear ? "m/s" : "rad/s", "joint velocity"},
-                [&world, m, j] { return world.joint(m, j).velocity; });
+                [handle] { return handle.velocity(); });
     outputs.add({base + "effort", linear ? "N" : "N m", "as applied in the last step"},
-                [&world, m, j] { return world.joint(m, j).effort; });
+                [handle] { return handle.effort(); });
+    // Only where it means something: a column of zeros would suggest a cylinder without load.
     if (has_cylinder)
       outputs.add({base + "cylinder_force", "N", "of the cylinder on this joint"},
-                  [&world, m, j] { return world.joint(m, j).cylinder_force; });
+                  [handle] { return handle.state().cylinder_force; });
   }
 }
 
-void add_pump(World& world, int m, const std::string& prefix, Outputs& outputs) {
+/// One pump feeds all cylinders of a machine.
+void add_pump(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
+  // Flow and pressure tell which of its limits holds a cylinder back.
   outputs.add({prefix + "pump/flow", "m3/s", "oil that the cylinders took in the last step"},
-              [&world, m] { return world.pump(m).flow; });
+              [machine] { return machine.pump().flow; });
   outputs.add({prefix + "pump/pressure", "Pa", "of the heaviest load it moves, smoothed"},
-              [&world, m] { return world.pump(m).pressure; });
+              [machine] { return machine.pump().pressure; });
 }
 
-void add_drive(World& world, int m, const std::string& prefix, Inputs& inputs) {
+void add_drive(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs) {
   // One value of the command changes, the others stay what the engine has: it keeps them through a snapshot.
-  const auto change = [&world, m](auto&& what) {
-    vehicle::DriveInput command = world.drive(m);
+  const auto change = [&world, machine](auto&& what) {
+    vehicle::DriveInput command = machine.drive();
     what(command);
-    world.set_drive(m, command);
+    world.command(machine, command);
   };
-  inputs.add({prefix + "drive/speed", "m/s", "forward speed; releases the brake"}, [change](double v) {
+  // A speed says that the machine shall move, so the brake goes.
+  inputs.add({prefix + "drive/speed", "m/s", "forward speed; releases the brake", machine.index()}, [change](double v) {
     change([v](vehicle::DriveInput& command) {
       command.speed = v;
       command.brake = false;
     });
   });
-  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left"},
+  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left", machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
-  inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases"},
+  inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases", machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
 }
 
-void add_pose(World& world, int m, const std::string& prefix, Outputs& outputs) {
+/// Angles are fixed-axis roll, pitch, yaw: yaw about W z last.
+void add_pose(const LinkHandle& base, const std::string& prefix, Outputs& outputs) {
+  // One channel an axis: a channel is one number.
   const char* axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
     outputs.add({prefix + "pose/" + axes[i], "m", "of the base link in the world"},
-                [&world, m, i] { return world.link(m, 0).X_WL.translation()[i]; });
+                [base, i] { return base.pose().translation()[i]; });
     outputs.add({prefix + "velocity/" + axes[i], "m/s", "of the base link's origin"},
-                [&world, m, i] { return world.link(m, 0).v_WL[i]; });
+                [base, i] { return base.velocity()[i]; });
   }
-  outputs.add({prefix + "pose/roll", "rad", "fixed-axis roll"}, [&world, m] {
-    const Mat3 R = world.link(m, 0).X_WL.linear();
+  outputs.add({prefix + "pose/roll", "rad", "fixed-axis roll"}, [base] {
+    const Mat3 R = base.pose().linear();
     return std::atan2(R(2, 1), R(2, 2));
   });
+  // Rounding may take the sine a hair past one.
   outputs.add({prefix + "pose/pitch", "rad", "fixed-axis pitch, positive nose down"},
-              [&world, m] { return std::asin(std::clamp(-world.link(m, 0).X_WL.linear()(2, 0), -1.0, 1.0)); });
-  outputs.add({prefix + "pose/yaw", "rad", "heading, counter-clockwise from x"}, [&world, m] {
-    const Mat3 R = world.link(m, 0).X_WL.linear();
+              [base] { return std::asin(std::clamp(-base.pose().linear()(2, 0), -1.0, 1.0)); });
+  // Not unwrapped: a jump of a turn is left to the reader.
+  outputs.add({prefix + "pose/yaw", "rad", "heading, counter-clockwise from x"}, [base] {
+    const Mat3 R = base.pose().linear();
     return std::atan2(R(1, 0), R(0, 0));
   });
 }
 
-void add_wheels(World& world, int m, const std::string& prefix, Outputs& outputs) {
-  const scene::Machine& machine = world.description().machines[static_cast<std::size_t>(m)].machine;
-  for (std::size_t i = 0; i < machine.wheels.size(); ++i) {
-    const int w = static_cast<int>(i);
-    const std::string base = prefix + machine.wheels[i].joint + "/";
-    outputs.add({base + "spin", "rad/s", "wheel speed"}, [&world, m, w] { return world.wheel(m, w).spin; });
-    outputs.add({base + "slip", "1", "longitudinal slip"}, [&world, m, w] { return world.wheel(m, w).slip; });
-    outputs.add({base + "load", "N", "vertical tyre force"}, [&world, m, w] { return world.wheel(m, w).force_W.z(); });
+/// What an engineer watches of a tyre; forces in all axes are in the handle's state.
+void add_wheels(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
+  for (std::size_t i = 0; i < machine.description().wheels.size(); ++i) {
+    const WheelHandle wheel = machine.wheel(static_cast<int>(i));
+    const std::string base = prefix + wheel.name() + "/";
+    outputs.add({base + "spin", "rad/s", "wheel speed"}, [wheel] { return wheel.state().spin; });
+    outputs.add({base + "slip", "1", "longitudinal slip"}, [wheel] { return wheel.state().slip; });
+    outputs.add({base + "load", "N", "vertical tyre force"}, [wheel] { return wheel.state().force_W.z(); });
   }
 }
 
-void add_tools(World& world, const std::vector<std::string>& prefixes, Outputs& outputs) {
-  const auto& tools = world.coupling().tools();
+/// Forces are what soil and rock do to the tool, axes of W.
+void add_tool(const World& world, const ToolHandle& tool, Outputs& outputs) {
+  const MachineHandle machine = world.machine(tool.machine());
+  const std::string base = machine.name() + "/" + tool.name() + "/";
   const char* axes[] = {"x", "y", "z"};
-  for (std::size_t t = 0; t < tools.size(); ++t) {
-    const auto m = static_cast<std::size_t>(tools[t].machine);
-    const scene::Machine& machine = world.description().machines[m].machine;
-    const std::string base = prefixes[m] + machine.shells[static_cast<std::size_t>(tools[t].shell)].name + "/";
-    for (int i = 0; i < 3; ++i) {
-      outputs.add({base + "force_" + axes[i], "N", "soil on the tool, mean of the last step, world axes"},
-                  [&world, t, i] { return world.coupling().tools()[t].force_W[i]; });
-      outputs.add({base + "moment_" + axes[i], "N m", "soil on the tool about the link's origin, world axes"},
-                  [&world, t, i] { return world.coupling().tools()[t].moment_W[i]; });
-      outputs.add({base + "smooth_force_" + axes[i], "N", "the force, low-passed at 3 Hz"},
-                  [&world, t, i] { return world.coupling().tools()[t].smooth_W[i]; });
-      if (!machine.kinematic)
-        outputs.add({base + "rock_force_" + axes[i], "N", "rock on the tool, low-passed at 3 Hz"},
-                    [&world, t, i] { return world.coupling().tools()[t].rock_W[i]; });
-    }
-    outputs.add({base + "payload", "kg", "soil inside the shell; of a bed without what a bucket holds in it"},
-                [&world, t] { return world.coupling().payload(world.coupling().tools()[t]); });
+  for (int i = 0; i < 3; ++i) {
+    outputs.add({base + "force_" + axes[i], "N", "soil on the tool, mean of the last step, world axes"},
+                [tool, i] { return tool.force()[i]; });
+    outputs.add({base + "moment_" + axes[i], "N m", "soil on the tool about the link's origin, world axes"},
+                [tool, i] { return tool.moment()[i]; });
+    outputs.add({base + "smooth_force_" + axes[i], "N", "the force, low-passed at 3 Hz"},
+                [tool, i] { return tool.smooth_force()[i]; });
+    // Rock pushes back on machines with masses only.
+    if (!machine.description().kinematic)
+      outputs.add({base + "rock_force_" + axes[i], "N", "rock on the tool, low-passed at 3 Hz"},
+                  [tool, i] { return tool.rock_force()[i]; });
   }
+  // The one output that costs time to read.
+  outputs.add({base + "payload", "kg", "soil inside the shell; of a bed without what a bucket holds in it"},
+              [tool] { return tool.payload(); });
 }
 
 }  // namespace
 
+/// Telemetry's columns and the lines of `navvy channels` are this order: adding goes at the end of a group.
 void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
   outputs.add({"time", "s", "simulated time"}, [&world] { return world.time(); });
   outputs.add({"soil/particles", "1", "awake particles"},
-              [&world] { return static_cast<double>(world.soil().stats().particles); });
-  std::vector<std::string> prefixes;
-  for (std::size_t i = 0; i < world.description().machines.size(); ++i) {
-    const int m = static_cast<int>(i);
-    prefixes.push_back(world.description().machines[i].name + "/");
-    add_joints(world, m, prefixes.back(), inputs, outputs);
-    const scene::Machine& machine = world.description().machines[i].machine;
-    if (machine.has_pump && !machine.kinematic) add_pump(world, m, prefixes.back(), outputs);
-    if (machine.has_drive) add_drive(world, m, prefixes.back(), inputs);
-    add_pose(world, m, prefixes.back(), outputs);
-    add_wheels(world, m, prefixes.back(), outputs);
+              [&world] { return static_cast<double>(world.soil_counts().particles); });
+  for (int m = 0; m < world.machine_count(); ++m) {
+    // Machines in the order of the scene.
+    const MachineHandle machine = world.machine(m);
+    const scene::Machine& built = machine.description();
+    const std::string prefix = machine.name() + "/";
+    add_joints(world, machine, prefix, inputs, outputs);
+    // A kinematic machine moves as told and draws no oil.
+    if (built.has_pump && !built.kinematic) add_pump(machine, prefix, outputs);
+    if (built.has_drive) add_drive(world, machine, prefix, inputs);
+    add_pose(machine.link(0), prefix, outputs);
+    add_wheels(machine, prefix, outputs);
   }
-  add_tools(world, prefixes, outputs);
+  // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
+  for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);
 }
 
-std::string nearest_name(const std::vector<Channel>& channels, const std::string& name) {
-  std::string best;
-  std::size_t least = static_cast<std::size_t>(-1);
-  for (const Channel& channel : channels) {
-    const std::size_t distance = edit_distance(channel.name, name);
-    if (distance < least) least = distance, best = channel.name;
+/// Names in a column wide enough for all shipped machines.
+std::string channel_list(const World& world) {
+  std::string out;
+  // Long meanings are cut rather than wrapped: one channel, one line.
+  char line[512];
+  const auto add = [&](const std::string& name, const std::string& unit, const std::string& meaning) {
+    std::snprintf(line, sizeof line, "  %-44s [%s]  %s\n", name.c_str(), unit.c_str(), meaning.c_str());
+    out += line;
+  };
+  out += "inputs:\n";
+  for (const Channel& channel : world.inputs()) add(channel.name, channel.unit, channel.meaning);
+  out += "outputs:\n";
+  for (const Channel& channel : world.outputs()) add(channel.name, channel.unit, channel.meaning);
+  // A scene without sensors reads as it always did.
+  if (world.arrays().channels().empty()) return out;
+  out += "arrays:\n";
+  for (const ArrayChannel& channel : world.arrays().channels()) {
+    // A rate of zero means after every step.
+    char rate[32] = "every step";
+    if (channel.rate > 0) std::snprintf(rate, sizeof rate, "%g Hz", channel.rate);
+    add(channel.name, channel.unit,
+        channel.type_text() + " in " + channel.frame + ", " + rate + "  " + channel.meaning);
   }
-  return best;
-}
-
-int require_channel(int found, const std::vector<Channel>& channels, const std::string& name, const std::string& kind) {
-  if (found >= 0) return found;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, kind, name, "there is no " + kind + " of this name",
-                         "did you mean '" + nearest_name(channels, name) + "'?"});
+  return out;
 }
 
 }  // namespace navvy::sim

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills the channel lists of a world.
+// Fills the channel lists of a world, and lists them for people.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "sim/channels.h"
 
@@ -12,13 +11,11 @@ namespace navvy::sim {
 class World;
 
 /// Joints, drive, pose, wheels and tools of every machine, and a few sums of the soil. The world must outlive the
-/// lists.
+/// lists. Called once, by the world itself, before any sampler adds its own.
 void add_channels(World& world, Inputs& inputs, Outputs& outputs);
 
-/// Most similar channel name by edit distance; empty when there are none.
-std::string nearest_name(const std::vector<Channel>& channels, const std::string& name);
-
-/// `found` when it is >= 0. @throws InputError that names the nearest channel otherwise.
-int require_channel(int found, const std::vector<Channel>& channels, const std::string& name, const std::string& kind);
+/// What `navvy channels` prints: inputs, outputs and arrays with unit and meaning, one a line; of arrays also element
+/// type, shape, frame and rate.
+std::string channel_list(const World& world);
 
 }  // namespace navvy::sim

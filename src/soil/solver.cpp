@@ -14,12 +14,12 @@ namespace {
 
 /// Drift that calls for a re-bin before the next step [cells]: one cell is the tile's margin, less one step's push.
 constexpr double kMostDrift = 0.75;
-/// Tool travel between exchange checks [cells], and steps between them when no tool moves [SOIL_SOLVER section 6].
+/// Tool travel between exchange checks [cells], and steps between them when no tool moves.
 constexpr double kCheckTravel = 0.3;
 constexpr std::uint32_t kCheckSteps = 25;
 
 /// A step this much over the limit is still taken in one: the limit has a Courant number of 0.5, and contact and law
-/// hold to 0.8 [SOIL_SOLVER sections 4 and 5]; a caller with a base step made for a slower tool is not punished by half
+/// hold to 0.8 [docs/soil.md, time step]; a caller with a base step made for a slower tool is not punished by half
 /// steps.
 constexpr double kMostStep = 1.3;
 
@@ -159,7 +159,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
       contact.read_later();
       mass_count.queue(store);
     }
-    Transfer::Report report;
+    Transfer::Largest report;
     {
       StageClock clock(times, "particles");
       report = transfer.read_report(store.homes().size());
@@ -288,7 +288,7 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
     const int tiles = store.set_near(contact.near_homes());
     transfer.set_blocks(store, contact.near_slot(), tiles);
   }
-  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.heights());
+  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.blocks());
   blocks_changed = false;
 }
 

@@ -16,41 +16,13 @@
 #include "scene/world.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
+#include "soil/tools/tool_motion.h"
 
 namespace navvy::device {
 class Device;
 }
 
 namespace navvy::soil {
-
-/// How a tool moves during the coming step. T is the link frame its shell is given in.
-struct ToolMotion {
-  int tool = -1;  ///< from add_tool
-  Pose X_WT = Pose::Identity();
-  Vec3 v_WT = Vec3::Zero();  ///< velocity of T's origin before soil acts [m/s]
-  Vec3 w_WT = Vec3::Zero();  ///< angular velocity [rad/s]
-  /// Inverse of the link's effective (articulated) mass at T's origin, order (angular, linear), axes of W: the change
-  /// of (w, v) per unit of (angular impulse about T's origin, impulse). Zero: scripted, the tool does not yield.
-  Mat6 inverse_mass = Mat6::Zero();
-};
-
-/// Where a tool is.
-struct PlacedTool {
-  int tool = -1;  ///< from add_tool
-  Pose X_WT = Pose::Identity();
-};
-
-/// What soil did to a tool during one step.
-struct ToolImpulse {
-  Vec3 J_W = Vec3::Zero();  ///< impulse on the tool [N s]
-  Vec3 L_W = Vec3::Zero();  ///< angular impulse about p_W [N m s]
-  Vec3 p_W = Vec3::Zero();  ///< T's origin [m]
-  double normal = 0;        ///< sum of |normal impulses| [N s]
-  double friction = 0;      ///< sum of |tangential impulses| [N s]
-  // Momentum proof of the nodal solve, summed in double: J_W + sum of nodal momentum changes, and its scale.
-  Vec3 residual = Vec3::Zero(), residual_moment = Vec3::Zero();
-  double scale = 0, scale_moment = 0;
-};
 
 /// Counts of the ledger, in kMassQuantum per soil, recounted from the arrays at call time.
 struct Ledger {

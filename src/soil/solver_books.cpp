@@ -154,7 +154,7 @@ void Solver::load(StateReader& reader) {
   s.contact.list_near(s.store.table());
   s.transfer.set_blocks(s.store, s.contact.near_slot(), s.store.set_near(s.contact.near_homes()));
   s.floor.update(s.store.table().active, true);
-  s.transfer.set_floor(s.floor.heights());
+  s.transfer.set_floor(s.floor.blocks());
 }
 
 }  // namespace navvy::soil

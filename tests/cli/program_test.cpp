@@ -102,9 +102,33 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
   const std::string documented = text_of(NAVVY_SOURCE_DIR "/scenarios/README.md");
   for (const auto& [key, value] : summary.items())
     EXPECT_NE(documented.find("`" + key), std::string::npos) << key << " is not in scenarios/README.md";
-  for (const char* name : {"telemetry.csv", "terrain_start.tif", "terrain_end.tif"})
+  for (const char* name : {"telemetry.csv", "terrain_start.tif", "terrain_end.tif", "scene.sdf", "run.json"})
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
   expect_readable(out());
+}
+
+TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
+  // Every way of changing a scene from the command line; 1.3 s reach into the soil.
+  ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.3", "--seed", "9", "--size",
+                 "8.4,5.2", "--set", "soil.cohesion_pa=8000", "--set", "machine[bucket].x_m=0.05", "--out", out()}),
+            0)
+      << complained();
+  const auto first = nlohmann::json::parse(text_of(out() + "/summary.json"));
+  const auto info = nlohmann::json::parse(text_of(out() + "/run.json"));
+  EXPECT_EQ(info.at("format"), 1);
+  EXPECT_EQ(info.at("command").at(1), "run");
+  EXPECT_EQ(info.at("command").back(), out());
+  EXPECT_FALSE(info.at("navvy").get<std::string>().empty());
+  // From another place and without any option.
+  const std::string moved = (directory_ / "moved.sdf").string();
+  fs::copy_file(out() + "/scene.sdf", moved);
+  ASSERT_EQ(run({"run", moved, "--out", out() + "2"}), 0) << complained();
+  const auto again = nlohmann::json::parse(text_of(out() + "2/summary.json"));
+  EXPECT_GT(again.at("particles_peak").get<int>(), 0) << "it never reached the soil";
+  EXPECT_EQ(again.at("steps"), first.at("steps"));
+  EXPECT_EQ(again.at("state_hash"), first.at("state_hash"));
+  EXPECT_EQ(text_of(out() + "2/telemetry.csv"), text_of(out() + "/telemetry.csv"));
+  EXPECT_EQ(text_of(out() + "2/scene.sdf"), text_of(out() + "/scene.sdf"));
 }
 
 TEST_F(Program, KeepsAnEarlierRunAsPrevious) {
@@ -187,6 +211,26 @@ TEST_F(Program, LabWritesEveryNumberOfItsSoil) {
                            "residual_cohesion_pa", "remoulding_strain", "loosening_strain", "opening_strain",
                            "young_modulus_pa", "poisson", "adhesion_pa", "bekker_n", "janosi_k_m"})
     EXPECT_TRUE(soil.contains(name)) << name;
+}
+
+TEST_F(Program, LabHelpFollowsFromTheRigAndFitsATerminal) {
+  ASSERT_EQ(run({"lab", "blade", "--help"}), 0) << complained();
+  const std::string help = said();
+  for (const char* part : {"--plane yes|no=yes", "15 .. 150", "navvy lab blade --plane no"})
+    EXPECT_NE(help.find(part), std::string::npos) << part << "\n" << help;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("Usage", 0) != 0) {  // the parser's own line, with the program's path
+      EXPECT_LE(line.size(), 100u) << line;
+    }
+}
+
+TEST_F(Program, LabNamesAWrongWordOrNumberOfTheRig) {
+  EXPECT_EQ(run({"lab", "column", "--shape", "plain"}), 2);
+  EXPECT_NE(complained().find("did you mean 'plane'?"), std::string::npos) << complained();
+  EXPECT_EQ(run({"lab", "cycle", "--cycles", "2.5"}), 2);
+  EXPECT_NE(complained().find("lab cycle --cycles: '2.5': a whole number, at least 1"), std::string::npos)
+      << complained();
 }
 
 TEST_F(Program, LabNamesAWrongNumberOfTheSoil) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole dig in a closed loop, judged by the numbers of issue 2, "The trench"; geometry only.
+// A whole dig in a closed loop, judged as whole digs are [docs/validation.md, whole digs]; geometry only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,11 +42,11 @@ void report(const DigRig& rig, const TrenchMeasure& trench_measure) {
 }
 
 void expect_good(const TrenchMeasure& measured) {
-  EXPECT_LE(measured.center_offset, 0.15);  // issue 2, The trench
-  EXPECT_GE(measured.floor_share, 0.80);    // issue 2, The trench
-  EXPECT_GE(measured.removed_share, 0.85);  // issue 2, The trench
-  EXPECT_LE(measured.overdug_share, 0.10);  // issue 2, The trench
-  EXPECT_GE(measured.removed, 2.0);         // issue 2, The trench
+  EXPECT_LE(measured.center_offset, 0.15);  // [docs/validation.md, whole digs]
+  EXPECT_GE(measured.floor_share, 0.80);
+  EXPECT_GE(measured.removed_share, 0.85);
+  EXPECT_LE(measured.overdug_share, 0.10);
+  EXPECT_GE(measured.removed, 2.0);
 }
 
 TEST(Dig, MakesTheTrenchOfTheShippedScene) {
@@ -63,7 +63,7 @@ TEST(Dig, MakesTheTrenchOfTheShippedScene) {
   double mean = 0;
   for (std::size_t i = 1; i < rig.cycles.size(); ++i)
     mean += (rig.cycles[i].start - rig.cycles[i - 1].start) / static_cast<double>(rig.cycles.size() - 1);
-  // MACHINES_AND_SENSORS: a cycle in loam at 60-90 deg takes 13-18 s; the operator is allowed to be careful.
+  // A cycle of this class in loam takes 13-18 s at 60-90 deg; the operator is allowed to be careful.
   EXPECT_GT(mean, 11);
   EXPECT_LT(mean, 19);
   EXPECT_LT(rig.worst_tilt, radians(3));  // a level bucket loses nothing; FK of three moving joints, exact to rounding

@@ -20,20 +20,21 @@ TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
   sim::World world(scene, device);
   const scene::Machine& machine = world.description().machines.at(0).machine;
   const int boom = machine.joint_index(machine.boom_joint), bucket = machine.link_index(machine.buckets.at(0).link);
-  world.set_joint(0, boom, {vehicle::JointMode::kVelocity, -0.25});
+  world.command(world.machine(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
   double lowest = 1, most = 0;
   while (world.time() < 6) {
     world.step();
-    for (const Vec3& v : machine.shells.at(0).vertices) lowest = std::min(lowest, (world.link(0, bucket).X_WL * v).z());
-    most = std::max(most, world.coupling().tools().at(0).rock_W.z());
+    for (const Vec3& v : machine.shells.at(0).vertices)
+      lowest = std::min(lowest, (world.machine(0).link(bucket).pose() * v).z());
+    most = std::max(most, world.tools().at(0).rock_force().z());
   }
   print_value("bucket below the surface of the rock [mm]", 1e3 * (-0.4 - lowest), "<= 10", "vehicle/bullet/rock.h");
   print_value("rock on the bucket [N]", most, "> 10e3: lifts the front wheels", "test");
   EXPECT_LT(lowest, -0.35) << "it went through the soil";
   EXPECT_GT(lowest, -0.41);
   EXPECT_GT(most, 10e3);
-  EXPECT_GT(world.link(0, 0).X_WL.linear()(2, 0), 0.01) << "nose up";
-  EXPECT_EQ(world.soil().ledger().error(), 0);
+  EXPECT_GT(world.machine(0).link(0).pose().linear()(2, 0), 0.01) << "nose up";
+  EXPECT_EQ(world.mass_ledger().error, 0);
 }
 
 }  // namespace

@@ -152,12 +152,15 @@ Verdict judge(const KnownMiss* known, double measured, const Band& gate) {
   return between ? Verdict::kBetterMiss : Verdict::kWorse;
 }
 
-void expect_between(const std::string& figure, double measured, double low, double high, const std::string& source) {
+void expect_between(const std::string& figure, double measured, double low, double high, const std::string& source,
+                    double expected) {
   const testing::TestInfo* running = testing::UnitTest::GetInstance()->current_test_info();
   const KnownMiss* known = running == nullptr ? nullptr : table().find(name_of(*running), figure);
   const Verdict verdict = judge(known, measured, {low, high});
-  std::printf("| %-44s | %12.5g | %10.5g .. %-10.5g | %-10s | %s |\n", figure.c_str(), measured, low, high,
-              mark(verdict), source.c_str());
+  char wanted[32] = "";
+  if (!std::isnan(expected)) std::snprintf(wanted, sizeof wanted, "%.5g", expected);
+  std::printf("| %-44s | %12.5g | %8s | %10.5g .. %-10.5g | %-10s | %s |\n", figure.c_str(), measured, wanted, low,
+              high, mark(verdict), source.c_str());
   switch (verdict) {
     case Verdict::kMet:
       break;

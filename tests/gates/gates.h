@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ enum class Verdict {
 /// `known` is null for a figure that is not in the table. Not a number is outside every gate and worse than every row.
 Verdict judge(const KnownMiss* known, double measured, const Band& gate);
 
-/// Prints the row measured, gate, source, and fails the running test as `judge` says.
-void expect_between(const std::string& figure, double measured, double low, double high, const std::string& source);
+/// Prints the row figure, measured, expected, gate, result, source (tests/validation/table.py reads it), and fails the
+/// running test as `judge` says. `expected` is left empty when it is not a number.
+void expect_between(const std::string& figure, double measured, double low, double high, const std::string& source,
+                    double expected = std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace navvy::gates

@@ -34,7 +34,7 @@ Ground marked(double easting, double northing, double offset) {
   return ground;
 }
 
-using Writer = void (*)(const Ground&, const std::string&);
+using Writer = void (*)(const Terrain&, const std::string&);
 struct Format {
   const char* name;
   Writer writer;

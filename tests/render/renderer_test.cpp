@@ -92,8 +92,7 @@ TEST_F(RendererTest, DugCellsChangePixelsWhereTheyAre) {
       ground.height[i] -= 0.5f;
       ground.change[i] -= 0.5f;
     }
-  ground.dirty_x0 = ground.dirty_y0 = 40;
-  ground.dirty_x1 = ground.dirty_y1 = 56;
+  ground.changed = {{40, 40, 56, 56}};
   ++ground.revision;
   const Image after = renderer.render(frame_, camera_);
   EXPECT_GT(changed_pixels(before, after), 1500);
@@ -110,12 +109,30 @@ TEST_F(RendererTest, ADirtyRectangleGivesTheSamePictureAsAWholeUpdate) {
   EXPECT_EQ(updated.render(frame_, camera_).rgb, Renderer().render(frame_, camera_).rgb);
 }
 
+TEST_F(RendererTest, SeveralRectanglesGiveTheSamePictureAsAWholeUpdate) {
+  Renderer updated;
+  updated.render(frame_, camera_);
+  scene::FrameGround& ground = frame_.ground;
+  // Two that share shadows, one far away, one column and one beyond the edge.
+  ground.changed = {{40, 40, 50, 44}, {52, 41, 60, 47}, {5, 8, 9, 20}, {ground.nx - 3, 2, ground.nx - 2, 3}};
+  for (const scene::FrameRect& rect : ground.changed)
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) {
+        const auto i = static_cast<std::size_t>(iy * ground.nx + ix);
+        ground.height[i] -= 0.4f;
+        ground.change[i] -= 0.4f;
+      }
+  ground.changed.push_back({ground.nx, 0, ground.nx + 5, 5});
+  ++ground.revision;
+  EXPECT_EQ(updated.render(frame_, camera_).rgb, Renderer().render(frame_, camera_).rgb);
+}
+
 TEST_F(RendererTest, ComparesHeightsWhenARevisionWasMissed) {
   Renderer updated;
   updated.render(frame_, camera_);
   dig_trench(frame_.ground, -2, 0.3);
   frame_.ground.revision += 5;
-  frame_.ground.dirty_x1 = frame_.ground.dirty_y1 = 0;
+  frame_.ground.changed.clear();
   EXPECT_EQ(updated.render(frame_, camera_).rgb, Renderer().render(frame_, camera_).rgb);
 }
 

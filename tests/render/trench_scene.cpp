@@ -107,9 +107,7 @@ void dig_trench(scene::FrameGround& ground, double x0, double y0) {
       ground.height[at(ground, ix, iy)] += static_cast<float>(change);
       ground.change[at(ground, ix, iy)] += static_cast<float>(change);
     }
-  ground.dirty_x0 = ground.dirty_y0 = 0;
-  ground.dirty_x1 = ground.nx;
-  ground.dirty_y1 = ground.ny;
+  ground.changed = {{0, 0, ground.nx, ground.ny}};
   ++ground.revision;
 }
 

@@ -41,10 +41,12 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
       weight += 1;
     }
     const double slope = zs / zz, rms = std::sqrt(error2 / zz);
-    print_value("sigma_z / (rho g z), c " + std::to_string(cohesion), slope, "0.99 .. 1.01", "VALIDATION 1");
-    print_value("rms of sigma_z", rms, "< 4 %", "VALIDATION 1");
-    print_value("sigma_x / sigma_z", ratio / weight, std::to_string(k0) + " +-3 %", "VALIDATION 1");
-    print_value("farthest motion in 1 s [mm]", farthest * 1000, "< 1", "SOIL_SOLVER 6: 0.1-0.3 mm");
+    print_value("sigma_z / (rho g z), c " + std::to_string(cohesion), slope, "0.99 .. 1.01",
+                "[docs/validation.md, Rest and stress]");
+    print_value("rms of sigma_z", rms, "< 4 %", "[docs/validation.md, Rest and stress]");
+    print_value("sigma_x / sigma_z", ratio / weight, std::to_string(k0) + " +-3 %",
+                "[docs/validation.md, Rest and stress]");
+    print_value("farthest motion in 1 s [mm]", farthest * 1000, "< 1", "[docs/validation.md, Rest and stress]");
     EXPECT_NEAR(slope, 1, 0.01);
     EXPECT_LT(rms, 0.04);
     EXPECT_NEAR(ratio / weight, k0, 0.03 * k0);
@@ -81,8 +83,8 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   const double front = xs[static_cast<std::size_t>(0.99 * static_cast<double>(xs.size()))];
   const double run_out = (front - x0 - length) / length;
   print_value("plane collapse a = 1, run-out / L0", run_out, "1.0 .. 1.8",
-              "Lube 2005, VALIDATION 2; lower end for 20 cells");
-  // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short (SOIL_SOLVER 3).
+              "[Lube 2005], lower end for 20 cells [docs/validation.md, Columns and collapse]");
+  // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short.
   EXPECT_GT(run_out, 1.0);
   EXPECT_LT(run_out, 1.8);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
@@ -147,7 +149,7 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
     double speed = 0;
     const double ratio = tipped(soil, speed);
     print_value("volume of the tipped load / bank, c " + std::to_string(soil.cohesion), ratio,
-                std::to_string(soil.swell) + " +-5 %", "VALIDATION 1, swell; throw and re-land");
+                std::to_string(soil.swell) + " +-5 %", "[docs/validation.md, Swell, pouring and heaps]");
     EXPECT_NEAR(ratio, soil.swell, 0.05 * soil.swell);
     EXPECT_LT(speed, 0.05);
   }

@@ -114,7 +114,7 @@ TEST(SoilSolver, FallsAndFliesLikeABody) {
   }
   const Vec3 v_expected(2, 0.5, 1 - kGravity * t);
   print_value("vertical speed after 0.4 s of free flight [m/s]", v.z(), std::to_string(v_expected.z()) + " +-1e-4 rel.",
-              "VALIDATION 1");
+              "[docs/validation.md, Element and law]");
   for (int a = 0; a < 3; ++a) EXPECT_NEAR(v[a], v_expected[a], 1e-4 * v_expected.norm());
   // Symplectic Euler is half a step behind the parabola; the rest is float rounding of positions.
   const Vec3 x_expected = start + Vec3(2, 0.5, 1) * t - Vec3(0, 0, 0.5 * kGravity * t * (t + dt));
@@ -139,7 +139,7 @@ TEST(SoilSolver, ConservesMomentumInInnerMotion) {
   const double t = 0.05;
   rig.run(t);
   const Vec3 change = momentum(ignored) - before - mass * rig.world().gravity * t;
-  EXPECT_LT(change.norm(), 1e-4 * scale);  // VALIDATION 1: 1e-4 relative on the float device
+  EXPECT_LT(change.norm(), 1e-4 * scale);  // rounding of floats
 }
 
 TEST(SoilSolver, RepeatsBitForBitAndASingleBitMatters) {

@@ -39,6 +39,11 @@ std::vector<SourceFile> sources(const std::string& folder, const std::vector<std
   return files;
 }
 
+SourceFile read_source(const std::string& path) {
+  std::ifstream stream(fs::path(NAVVY_SOURCE_DIR) / path, std::ios::binary);
+  return {path, std::string(std::istreambuf_iterator<char>(stream), {})};
+}
+
 bool exists(const std::string& path) { return fs::exists(fs::path(NAVVY_SOURCE_DIR) / path); }
 
 std::vector<Include> includes(const std::string& text) {

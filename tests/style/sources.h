@@ -17,6 +17,8 @@ struct SourceFile {
 
 /// Every file below `folder` (relative to the repository) with one of these extensions or names, sorted by path.
 std::vector<SourceFile> sources(const std::string& folder, const std::vector<std::string>& endings);
+/// One file, `path` relative to the repository; its text is empty when it is not there.
+SourceFile read_source(const std::string& path);
 bool exists(const std::string& path);
 
 /// One `#include`: the name, whether it stands in angle brackets, line number, and depth of enclosing conditionals

@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, forces come from the soil";
+constexpr const char* kSource = "forces come from the soil [docs/validation.md, Whole digs]";
 // Times of the path [s]: dragged level at 0.3 m of depth; then curled; lifted clear.
 constexpr double kDragStart = 2.0, kDragEnd = 3.6, kLifted = 7.0;
 constexpr double kDepth = 0.3;
@@ -26,19 +26,19 @@ struct Scooped {
 };
 
 Scooped scoop(const std::vector<std::string>& settings, double until) {
-  sim::Session session(load_scene("bucket_path.sdf", settings), shared_device());
+  session::Session session(load_scene("bucket_path.sdf", settings), shared_device());
   Scooped out;
   double steps = 0;
   while (session.world().time() < until) {
     session.step();
-    const coupling::ToolLoad& tool = session.world().coupling().tools().at(0);
-    out.most = std::max(out.most, tool.force_W.norm());
+    const Vec3 force = session.world().tools().at(0).force();
+    out.most = std::max(out.most, force.norm());
     if (session.world().time() < kDragStart || session.world().time() > kDragEnd) continue;
-    out.drag -= tool.force_W.x();
+    out.drag -= force.x();
     steps += 1;
   }
   out.drag /= std::max(steps, 1.0);
-  out.payload = session.world().coupling().payload(session.world().coupling().tools().at(0));
+  out.payload = session.world().tools().at(0).payload();
   return out;
 }
 
@@ -60,7 +60,8 @@ TEST(ScoopForce, IsThatOfTheWedgeWithinAFactorOfTwo) {
   const Scooped loam = scoop({}, kLifted);
   const double expected = wedge(load_scene("bucket_path.sdf"));
   std::printf("drag %.0f N, McKyes and Ali %.0f N, payload %.1f kg\n", loam.drag, expected, loam.payload);
-  expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2, "VALIDATION 3");
+  expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2,
+                 "[McKyes 1977] [docs/validation.md, Whole digs]");
   // Half the bank density, all else equal. Its cohesion then holds twice the height, so it heaps higher.
   const Scooped light = scoop({kHalfDensity}, kLifted);
   expect_between("payload at half the density / payload, loam", light.payload / loam.payload, 0.45, 0.55, kSource);

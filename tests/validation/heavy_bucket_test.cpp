@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, 1.4 t in the 0.7 t bucket";
+constexpr const char* kSource = "1.4 t in the 0.7 t bucket [docs/validation.md, Buckets and carried loads]";
 constexpr double kLoad = 1400;  ///< [kg]
 
 /// The bucket as a free body on a servo that holds its place and attitude.
@@ -130,7 +130,7 @@ TEST_P(HeavyBucket, CarriesTwiceItsMassWithoutChatter) {
   const auto swing = bucket.run(0.8, Vec3(0.8, 0.3, 0.4));
   bucket.run(1.0);
   const auto again = bucket.run(0.5);
-  // Explicit exchange of impulses rings at 15 to 29 m/s2 (thin-tools.md section 6).
+  // Explicit exchange of impulses rings at 15 to 29 m/s2.
   expect_between("rms acceleration at rest [m/s2]", rest.rms, 0, 1.5, kSource);
   expect_between("force of the load / weight", rest.mean_force / (kLoad * kGravity), 0.98, 1.02, kSource);
   expect_between("fastest while its servo moves at 0.94 m/s", swing.most_speed, 0.8, 1.5, kSource);

@@ -37,7 +37,7 @@ TEST(ToolLab, NarrowBladeInWashedSand) {
     last = force;
   }
   const double exponent = std::log(last / first) / std::log(2.5);
-  const char* source = "Obermayr 2011; VALIDATION 3";
+  const char* source = "[Obermayr 2011] [docs/validation.md, Blades and earth pressure]";
   expect_between("mean absolute error of the four forces", error, 0, 0.25, source);
   expect_between("exponent of force against depth", exponent, 1.6, 2.3, source);
 }
@@ -82,7 +82,7 @@ TEST(ToolLab, RakedBladeInSand) {
     const lab::Report creeping = rake(rakes[i], 0.05, 0.4, 0.5);
     const double force = lab::measured(creeping, "horizontal force");
     expect_between("force / Miedema, " + name, force / forces[i], 0.7, 1.3,
-                   "Miedema for Hatamura and Chijiiwa 1977; VALIDATION 3");
+                   "[Miedema 2014] for [Hatamura 1977] [docs/validation.md, Blades and earth pressure]");
     expect_wedge(creeping, name);
     EXPECT_GT(force, std::exchange(slow, force));
     // Six times as fast, where the pile is full grown after 1 m.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <variant>
 
+#include "sim/world_parts.h"
 #include "soil/rig.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
@@ -15,7 +16,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, momentum";
+constexpr const char* kSource = "conservation of momentum [docs/validation.md, Whole digs]";
 
 /// The trench with the machine standing at its place already.
 scene::World standing_at_the_trench() {
@@ -31,12 +32,12 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
   const scene::World description = standing_at_the_trench();
   double mass = 0;
   for (const scene::Link& link : description.machines[0].machine.links) mass += link.mass;
-  sim::Session session(description, shared_device());
+  session::Session session(description, shared_device());
   const sim::World& world = session.world();
-  const auto& tool = world.coupling().tools().at(0);
+  const auto& tool = parts(world).coupling.tools().at(0);
   while (!session.done() && tool.smooth_W.norm() < 5000) session.step();
-  const vehicle::Engine& engine = world.engine(0);
-  const int m = world.engine_index(0);
+  const vehicle::Engine& engine = parts(world).coupling.engine(0);
+  const int m = parts(world).coupling.index(0);
   const Vec3 start = engine.momentum(m);
   const double t0 = world.time();
   Vec3 bucket = Vec3::Zero(), ground = Vec3::Zero();

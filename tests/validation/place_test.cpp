@@ -12,7 +12,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 2, place";
+constexpr const char* kSource = "place does not matter [docs/validation.md, Whole digs]";
 constexpr double kLifted = 7.0;
 
 struct Dug {
@@ -25,7 +25,7 @@ struct Dug {
 
 /// The scoop of bucket_path.sdf with its frame at (x, y) of a site whose corner is W's origin, to the end.
 Dug dig_at(double x, double y, double until = 20) {
-  sim::Session session(
+  session::Session session(
       load_scene("bucket_path.sdf",
                  {"ground.size_m=1000 1000", "ground.origin_m=0 0", "machine.x_m=" + std::to_string(x),
                   "machine.y_m=" + std::to_string(y), "recording.settle_s=6", "recording.duration_s=20"}),
@@ -37,18 +37,18 @@ Dug dig_at(double x, double y, double until = 20) {
     if (session.world().time() < kLifted)
       out.payload = 0;
     else if (out.payload == 0)
-      out.payload = session.world().coupling().payload(session.world().coupling().tools().at(0));
+      out.payload = session.world().tools().at(0).payload();
   }
   out.wall = watch.seconds();
   out.force = session.force().mean();
   out.earth = record::measure_earthwork(session.world());
-  out.work = static_cast<double>(session.world().soil().stats().particle_steps);
-  EXPECT_EQ(session.world().soil().ledger().error(), 0);
+  out.work = static_cast<double>(session.world().soil_counts().particle_steps);
+  EXPECT_EQ(session.world().mass_ledger().error, 0);
   std::printf(
       "(%.1f, %.1f): force %.6g N, payload %.6g kg, bank %.6g m3, loose %.6g m3, %.6g particle-steps, %d still awake, "
       "%.1f s\n",
       x, y, out.force, out.payload, out.earth.bank_volume, out.earth.loose_volume, out.work,
-      session.world().soil().stats().particles, out.wall);
+      session.world().soil_counts().particles, out.wall);
   return out;
 }
 

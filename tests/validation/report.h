@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One printed row a measurement: case, measured, gate, source; known misses show without failing (gates/gates.h).
+// One printed row a measurement: figure, measured, expected, gate, source; known misses show without failing
+// (gates/gates.h).
 #pragma once
 
 #include <cmath>
 #include <limits>
 
 #include "gates/gates.h"
-#include "lab/lab.h"
+#include "lab/report.h"
 
 namespace navvy::validation {
 
@@ -19,7 +20,8 @@ inline void expect_gates(const lab::Report& report) {
   for (const lab::Quantity& q : report.results)
     if (q.has_gate())
       expect_between(q.name + (q.unit.empty() ? "" : " [" + q.unit + "]"), q.measured,
-                     std::isnan(q.low) ? -kNoLimit : q.low, std::isnan(q.high) ? kNoLimit : q.high, q.source);
+                     std::isnan(q.low) ? -kNoLimit : q.low, std::isnan(q.high) ? kNoLimit : q.high, q.source,
+                     q.expected);
   EXPECT_EQ(report.ledger_error, 0);
 }
 

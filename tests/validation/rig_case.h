@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/math.h"
-#include "lab/report.h"
+#include "lab/run_rig.h"
 #include "validation/report.h"
 
 namespace navvy::validation {

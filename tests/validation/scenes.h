@@ -7,7 +7,7 @@
 
 #include "device/device.h"
 #include "scene_io/loader.h"
-#include "sim/session.h"
+#include "session/session.h"
 
 namespace navvy::validation {
 
@@ -25,7 +25,7 @@ inline device::Device& shared_device() {
   return device;
 }
 
-inline void run_to(sim::Session& session, double time) {
+inline void run_to(session::Session& session, double time) {
   while (session.world().time() < time) session.step();
 }
 

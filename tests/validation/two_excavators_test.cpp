@@ -14,17 +14,18 @@ namespace navvy::validation {
 namespace {
 
 TEST(TwoExcavators, DigSideBySideToTheEnd) {
-  const char* source = "issue 2, Machine";
-  sim::Session session(load_scene("two_excavators.sdf"), shared_device());
+  const char* source = "two machines in one soil [docs/validation.md, Whole digs]";
+  session::Session session(load_scene("two_excavators.sdf"), shared_device());
   const sim::World& world = session.world();
   double fastest_rise = 0;
   while (!session.done()) {
     session.step();
-    for (int m = 0; m < 2; ++m) fastest_rise = std::max(fastest_rise, std::abs(world.link(m, 0).v_WL.z()));
+    for (int m = 0; m < 2; ++m)
+      fastest_rise = std::max(fastest_rise, std::abs(world.machine(m).link(0).velocity().z()));
   }
   std::array<double, 2> cycles{};
   double worst_loss = 0;
-  for (const sim::Cycle& cycle : session.cycles()) {
+  for (const session::Cycle& cycle : session.cycles()) {
     cycles.at(static_cast<std::size_t>(cycle.machine)) += 1;
     if (cycle.payload_lift_out > 50)
       worst_loss = std::max(worst_loss, std::abs(cycle.payload_dump / cycle.payload_lift_out - 1));
@@ -33,10 +34,12 @@ TEST(TwoExcavators, DigSideBySideToTheEnd) {
   expect_between("cycles of the second", cycles[1], 3, 60, source);
   expect_between("bank volume [m3]", record::measure_earthwork(world).bank_volume, 2, 20, source);
   expect_between("simulated [s]", world.time(), 1, world.description().recording.duration - 1, "ends by itself");
-  expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01, "issue 2, Shell");
-  expect_between("machines' vertical speed [m/s]", fastest_rise, 0, 1.0, "issue 2, point 8");
-  expect_between("ledger error [units]", static_cast<double>(world.soil().ledger().error()), 0, 0, source);
-  expect_between("shell crossings", static_cast<double>(world.soil().stats().shell_crossings), 0, 0, source);
+  expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
+                 "the shell holds its load [docs/validation.md, Buckets and carried loads]");
+  expect_between("machines' vertical speed [m/s]", fastest_rise, 0, 1.0,
+                 "a machine does not jump [docs/validation.md, Machines]");
+  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0, source);
+  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
 }
 

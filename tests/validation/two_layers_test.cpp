@@ -13,7 +13,7 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "issue 3, Physics 3: two layers";
+constexpr const char* kSource = "two layers [docs/validation.md, Whole digs]";
 
 /// What the cut took out of the uppermost `cap` [m] of all columns that were dug [m3].
 double cut_above(const heightfield::Ground& ground, double cap) {
@@ -27,14 +27,14 @@ double cut_above(const heightfield::Ground& ground, double cap) {
 }
 
 TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
-  sim::Session session(load_scene("two_layers.sdf"), shared_device());
+  session::Session session(load_scene("two_layers.sdf"), shared_device());
   const sim::World& world = session.world();
   const scene::World& description = world.description();
   while (!session.done()) session.step();
   const scene::Dig dig = dig_step(description);
   const TrenchMeasure trench = measure(world.ground(), dig);
   const record::Earthwork earth = record::measure_earthwork(world);
-  const soil::Ledger ledger = world.soil().ledger();
+  const sim::MassLedger ledger = world.mass_ledger();
   const double cap = description.ground.layers.at(0).thickness;
   double swelled = 0;  // of what was dug, each soil at its own loose density [m3]
   for (std::size_t i = 0; i < 2; ++i) {
@@ -50,8 +50,9 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
                  earth.soils[0].dug / (cut_above(world.ground(), cap) * description.soils[0].bank_density), 0.95, 1.05,
                  kSource);
   expect_between("spoil volume / dug volume with each soil's swell", earth.loose_volume / swelled, 0.95, 1.05, kSource);
-  expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0, "issue 2, The trench");
-  expect_between("shell crossings", static_cast<double>(world.soil().stats().shell_crossings), 0, 0, kSource);
+  expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0,
+                 "the trench [docs/validation.md, Whole digs]");
+  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, kSource);
   std::printf("%zu cycles, %.0f s simulated, %.2f m3 bank, %.2f m3 loose, %.0f and %.0f kg dug\n",
               session.cycles().size(), world.time(), earth.bank_volume, earth.loose_volume, earth.soils[0].dug,
               earth.soils[1].dug);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig `wheel` beside a measured smooth wheel in dry sand. VALIDATION 4 gates wheel laws that were fitted to part of
+// The rig `wheel` beside a measured smooth wheel in dry sand. Wheel laws are gated once they are fitted to part of
 // the data; the particles are fitted to nothing, so here the load, leaks and the order of the pulls are gated and the
 // rest is shown.
-#include "lab/report.h"
+#include "lab/run_rig.h"
 #include "validation/report.h"
 
 namespace navvy::lab {

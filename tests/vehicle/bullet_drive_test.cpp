@@ -56,7 +56,7 @@ TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
     }
     const double measured = circle_radius(p[0], p[1], p[2]);
     print_value("radius of the turn [m]", measured, std::to_string(std::abs(radius)) + " +-3 %",
-                "Ackermann; VALIDATION 5");
+                "Ackermann [docs/validation.md, Machines]");
     EXPECT_NEAR(measured, std::abs(radius), 0.03 * std::abs(radius));
     EXPECT_EQ(engine->link(0, 0).w_WL.z() > 0, radius > 0);
     // The open differential: both wheels turn, the outer one faster.

@@ -4,6 +4,7 @@
 #define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 
 #include "soil/groups/group.h"
+#include "soil/point.h"
 
 #define CHUNK 208  // particles at a time, a multiple of NAVVY_LANES and at most CELLS
 
@@ -15,7 +16,12 @@
 #define STAGED_F 13
 #define STAGED 16
 
-// Slot of this work-item's particle among the `count` of the chunk, by cell, then in stored order. first, counts (zero
+// Number of the cell of base nodes.
+static inline int cell_of(float x, float y, float z) {
+  return (int)base_node(x) + 1 + 6 * ((int)base_node(y) + 1) + 36 * ((int)base_node(z) + 1);
+}
+
+// Place of this work-item's particle among the `count` of the chunk, by cell, then in stored order. first, counts (zero
 // before): where each cell's particles stand afterwards.
 static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first, local int* counts) {
   const int me = get_local_id(0);
@@ -40,15 +46,15 @@ static inline void add_layer(local const float* stage, local const int* sides, i
   for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
   for (int i = first; i < first + count; ++i) {
     if (sides[i] != t) continue;
-    local const float* at = stage + i;
+    local const float* staged = stage + i;
     float wx[3], wy[3], wz[3];
-    spline(at[(STAGED_F + 0) * CHUNK], wx);
-    spline(at[(STAGED_F + 1) * CHUNK], wy);
-    spline(at[(STAGED_F + 2) * CHUNK], wz);
-    const float4 start = (float4)(at[0], at[CHUNK], at[2 * CHUNK], at[STAGED_MASS * CHUNK]);
-    const float4 ax = (float4)(at[3 * CHUNK], at[4 * CHUNK], at[5 * CHUNK], 0.0f);
-    const float4 ay = (float4)(at[6 * CHUNK], at[7 * CHUNK], at[8 * CHUNK], 0.0f);
-    const float4 az = (float4)(at[9 * CHUNK], at[10 * CHUNK], at[11 * CHUNK], 0.0f);
+    spline(staged[(STAGED_F + 0) * CHUNK], wx);
+    spline(staged[(STAGED_F + 1) * CHUNK], wy);
+    spline(staged[(STAGED_F + 2) * CHUNK], wz);
+    const float4 start = (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
+    const float4 ax = (float4)(staged[3 * CHUNK], staged[4 * CHUNK], staged[5 * CHUNK], 0.0f);
+    const float4 ay = (float4)(staged[6 * CHUNK], staged[7 * CHUNK], staged[8 * CHUNK], 0.0f);
+    const float4 az = (float4)(staged[9 * CHUNK], staged[10 * CHUNK], staged[11 * CHUNK], 0.0f);
     const float w = layer == 0 ? wz[0] : layer == 1 ? wz[1] : wz[2];
     float4 row = start + (float)layer * az;
     UNROLL

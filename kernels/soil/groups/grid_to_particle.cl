@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and moves them: schedule of work-groups.
 //
-// In, Out: as in soil/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each
+// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each
 // work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is found by
-// an integer maximum, which has no order. Host: src/soil/particles/transfer.cpp.
+// an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
+#include "soil/point.h"
 
 #define MEMBERS 128
 
@@ -39,16 +40,16 @@ static inline float4 gather(local const float4* front, local const float4* back,
 }
 
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const int4* restrict homes,
+    global float* restrict state, const int capacity, global const Home* restrict homes,
     global const int* restrict neighbours, global const float4* restrict velocity0,
     global const float4* restrict velocity1, global const int* restrict near_slot,
-    global const int* restrict node_split, global const int* restrict used, global float* restrict report,
+    global const int* restrict node_split, global const int* restrict used, global Report* restrict report,
     const float dt, const float dx, const float full, const float closing) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
-  const int4 home = homes[block];
+  const Home home = homes[block];
   (void)used;  // tells the lanes' schedule which tiles to copy; here split nodes choose their field when they are read
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
@@ -61,15 +62,15 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     front[i] = velocity0[(size_t)active * BLOCK_NODES + n];
     back[i] = (float4)(0.0f);
     split[i] = 0;
-    const int slot = home.w ? near_slot[active] : -1;
-    if (slot >= 0 && node_split[slot * BLOCK_NODES + n] != 0) {
-      split[i] = (uchar)node_split[slot * BLOCK_NODES + n];
-      back[i] = velocity1[(size_t)slot * BLOCK_NODES + n];
+    const int near = home.near ? near_slot[active] : -1;
+    if (near >= 0 && node_split[near * BLOCK_NODES + n] != 0) {
+      split[i] = (uchar)node_split[near * BLOCK_NODES + n];
+      back[i] = velocity1[(size_t)near * BLOCK_NODES + n];
     }
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (int at = home.x + me; at < home.x + home.y; at += MEMBERS) {
+  for (int slot = home.start + me; slot < home.start + home.count; slot += MEMBERS) {
     const float x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
     const float b[3] = {base_node(x[0]), base_node(x[1]), base_node(x[2])};
     float w[3][3];
@@ -77,31 +78,21 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     for (int axis = 0; axis < 3; ++axis) spline(x[axis] - b[axis], w[axis]);
     const int base = (int)b[0] + 1 + 8 * ((int)b[1] + 1) + 64 * ((int)b[2] + 1);
     float4 moments[3];
-    const float4 v = gather(front, back, split, base, tile_of(as_int(LOAD(FIELD_TAG))), w[0], w[1], w[2], &moments[0],
-                            &moments[1], &moments[2]);
-    // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T.
-    const float scale = 4.0f / dx;
+    const int tile = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
+    const float4 sum = gather(front, back, split, base, tile, w[0], w[1], w[2], &moments[0], &moments[1], &moments[2]);
+    const float v[3] = {sum.x, sum.y, sum.z};
+    // v, C, J from the nodes' mean mass, x += dt v.
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const float3 c = scale * (moments[axis].xyz - (x[axis] - b[axis]) * v.xyz);
-      STORE(FIELD_C + axis, c.x);
-      STORE(FIELD_C + 3 + axis, c.y);
-      STORE(FIELD_C + 6 + axis, c.z);
+      const float m[3] = {moments[axis].x, moments[axis].y, moments[axis].z}, f = x[axis] - b[axis];
+      UNROLL
+      for (int i = 0; i < 3; ++i) STORE(FIELD_C + 3 * i + axis, velocity_gradient(m[i], f, v[i], dx));
+      STORE(FIELD_V + axis, v[axis]);
+      STORE(FIELD_X + axis, x[axis] + (dt / dx) * v[axis]);
     }
-    // v.w is the nodes' mean mass: soil packed tighter than J and its density state say closes
-    // (soil/grid_to_particle.cl).
-    const float j = LOAD(FIELD_J);
-    const float packed = full / fmax(v.w, MASS_QUANTUM);
-    STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));
-    STORE(FIELD_V, v.x);
-    STORE(FIELD_V + 1, v.y);
-    STORE(FIELD_V + 2, v.z);
-    STORE(FIELD_X, x[0] + (dt / dx) * v.x);
-    STORE(FIELD_X + 1, x[1] + (dt / dx) * v.y);
-    STORE(FIELD_X + 2, x[2] + (dt / dx) * v.z);
-    const float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
-    keep_largest(&fastest, isfinite(v.x + v.y + v.z) ? largest : INFINITY);
+    STORE(FIELD_J, closed(LOAD(FIELD_J), LOAD(FIELD_J0), sum.w, full, closing));
+    keep_largest(&fastest, fastest_component(v));
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (me == 0) report[REPORT_WORDS * block + REPORT_SPEED] = as_float(fastest);
+  if (me == 0) report[block].speed = as_float(fastest);
 }

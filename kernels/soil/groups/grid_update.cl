@@ -2,27 +2,28 @@
 // Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
 //
 // In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added in the
-// order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host: src/soil/particles/transfer.cpp.
+// order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host: src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
-#include "soil/room.h"
+#include "soil/node.h"
+#include "soil/place.h"
 
 // Node of the tile of neighbour n that lies on this work-item's node, -1: none.
 static inline int tile_node(int n) {
   const int me = get_local_id(0);
-  const int3 at = (int3)(me & 3, (me >> 2) & 3, me >> 4) - 4 * neighbour_offset(n) + 1;
-  const bool on = at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < 8 && at.y < 8 && at.z < 8;
-  return on ? at.x + 8 * at.y + 64 * at.z : -1;
+  const int3 node = (int3)(me & 3, (me >> 2) & 3, me >> 4) - 4 * neighbour_offset(n) + 1;
+  const bool on = node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < 8 && node.y < 8 && node.z < 8;
+  return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
 // v = p / m + dv; nodes lighter than a mass quantum are empty.
 static inline float4 velocity_of(float4 momentum, float4 dv) {
   if (!(momentum.w > MASS_QUANTUM)) return (float4)(momentum.xyz * 0.0f, momentum.w);
-  return (float4)(momentum.xyz * (1.0f / momentum.w) + dv.xyz, momentum.w);
+  return (float4)(momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz, momentum.w);
 }
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float4* restrict tiles, global const int* restrict used, global const float* restrict floor_height,
+    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
+    global const float4* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
     global float4* restrict velocity, const float4 dv) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
@@ -30,28 +31,28 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     const int home = around[27 * block + n], node = tile_node(n);
     if (home < 0 || node < 0) continue;
     for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1) sum += tiles[(size_t)(homes[home].z + t) * TILE_NODES + node];
+      if (used[home] >> t & 1) sum += tiles[(size_t)(homes[home].tile + t) * TILE_NODES + node];
   }
   // Nodes at or below the floor lose their velocity; masses become mass per room above the ground.
   float4 v = 0.0f;
   if (any(sum != 0.0f)) {
-    global const float* ground = floor_height + FLOOR_WORDS * block;
+    global const BlockFloor* ground = floors + block;
     const float z = (float)(me >> 4);
     v = velocity_of(sum, dv);
-    if (z <= ground[me & 15]) v.xyz *= 0.0f;
-    v.w *= 1.0f / room_above(z - vload4(me & 15, ground + FLOOR_COLUMNS));
+    if (z <= ground->held[me & 15]) v.xyz *= 0.0f;
+    v.w *= 1.0f / room_above(z - vload4(me & 15, ground->around[0]));
   }
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }
 
 // Blocks near shells, see soil/lanes/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
+    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float4* restrict field0, global float4* restrict field1,
     global float4* restrict node_surface, const float4 dv) {
-  const int slot = get_group_id(0), me = get_local_id(0);
-  const int block = list[slot];
+  const int near = get_group_id(0), me = get_local_id(0);
+  const int block = list[near];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
   // Where all homes around have one surface, as nearly everywhere, the node has it to the last bit.
   float4 surface = 0.0f, first = 0.0f;
@@ -62,7 +63,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     float mass = 0.0f;
     for (int t = 0; used[home] >> t; ++t) {
       if (!(used[home] >> t & 1)) continue;
-      const float4 part = tiles[(size_t)(homes[home].z + t) * TILE_NODES + node];
+      const float4 part = tiles[(size_t)(homes[home].tile + t) * TILE_NODES + node];
       if (t == 0) neutral += part;
       if (t == 1) front += part;
       if (t == 2) back += part;
@@ -75,9 +76,9 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     surface += here * mass;
   }
   // Neutral soil joins the side its node lies on; an unsplit node joins everything.
-  const int at = slot * BLOCK_NODES + me, split = node_split[at];
+  const int near_node = near * BLOCK_NODES + me, split = node_split[near_node];
   const float4 sum = neutral + front + back, none = 0.0f;
-  field0[at] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv);
-  field1[at] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv);
-  node_surface[at] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
+  field0[near_node] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv);
+  field1[near_node] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv);
+  node_surface[near_node] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the mass of every home block again, exactly, after each step: schedule of work-groups.
 //
-// In, Out: as in soil/ledger.cl. One work-group per home; integer sums, so any order gives the same. Host:
+// In, Out: as in soil/lanes/mass_count.cl. One work-group per home; integer sums, so any order gives the same. Host:
 // src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
 #include "soil/groups/group.h"
 
@@ -9,14 +9,14 @@
 
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(global const int* restrict state,
                                                                                const int capacity,
-                                                                               global const int4* restrict homes,
+                                                                               global const Home* restrict homes,
                                                                                global long* restrict masses,
                                                                                const int soils) {
   local long sums[MEMBERS];
   const int home = get_group_id(0), me = get_local_id(0);
   for (int soil = 0; soil < soils; ++soil) {
     long sum = 0;
-    for (int at = homes[home].x + me; at < homes[home].x + homes[home].y; at += MEMBERS)
+    for (int slot = homes[home].start + me; slot < homes[home].start + homes[home].count; slot += MEMBERS)
       sum += (LOAD(FIELD_TAG) & 0xffff) == soil ? LOAD(FIELD_MASS) : 0;
     sums[me] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -1,68 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: schedule of work-groups.
 //
-// In, Out: as in soil/shell.cl. One work-group per near block, one node or particle per work-item; what a block reports
-// is found by integer atomics, which have no order. Host: src/soil/tools/contact.cpp.
+// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per work-item; what a block reports
+// is found by integer atomics, which have no order. Host: src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
 #define MEMBERS 64
 
-// Out per near node: split (0 none, 1 in front, 2 behind), tool, and float8 (normal, phi, inset, 0 0 0) [cells].
+// Out per near node: split (0 none, 1 in front, 2 behind), tool, and where it lies.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes(
-    global const int* restrict near_list, global const int4* restrict keys, global const float4* restrict triangles,
-    const int first_rim, const int first_tool, global const int* restrict first, global const int* restrict list,
+    global const int* restrict near_list, global const int4* restrict keys,
+    global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims, const int rim_count,
+    global const Tool* restrict tools, global const int* restrict first, global const int* restrict list,
     const float band, global int* restrict node_split, global int* restrict node_tool,
-    global float8* restrict node_shell) {
-  global const float* tools = (global const float*)(triangles + first_tool);
-  const int slot = get_group_id(0), me = get_local_id(0);
-  const int node = slot * BLOCK_NODES + me;
-  const int3 key = keys[near_list[slot]].xyz, in_block = (int3)(me & 3, (me >> 2) & 3, me >> 4);
+    global NodeShell* restrict node_shell) {
+  const int near = get_group_id(0), me = get_local_id(0);
+  const int node = near * BLOCK_NODES + me;
+  const int3 key = keys[near_list[near]].xyz, in_block = (int3)(me & 3, (me >> 2) & 3, me >> 4);
   Closest best;
-  query((float)in_block.x, (float)in_block.y, (float)in_block.z, key, triangles, tools, list, first[slot],
-        first[slot + 1], band, &best);
+  query((float)in_block.x, (float)in_block.y, (float)in_block.z, key, triangles, tools, list, first[near],
+        first[near + 1], band, &best);
   node_split[node] = 0;
   node_tool[node] = -1;
   if (best.feature < 0) return;
-  const int tool = as_int(triangles[SHELL_WORDS * (best.feature >> 3)].w);
-  // Distance along the plate to its free edge; only plates of the same tool count.
-  float inset2 = INFINITY;
-  for (int r = first_rim; r < first_tool; r += 2) {
-    if (tool != as_int(triangles[r].w)) continue;
-    inset2 = fmin(inset2, segment_distance2(best.x, best.y, best.z, triangles[r].xyz, triangles[r + 1].xyz));
-  }
-  const float3 at = convert_float3(4 * (key - window_of(tools, tool)) + in_block);
+  const int tool = triangles[best.feature >> 3].tool;
+  const float inset2 = inset2_of(best.x, best.y, best.z, tool, rims, rim_count);
+  const float3 here = convert_float3(4 * (key - window_of(tools, tool)) + in_block);
   float phi;
   float3 normal;
   bool rim;
-  resolve(triangles, best.feature, at - (float3)(best.x, best.y, best.z), best.distance2, &phi, &normal, &rim);
+  resolve(triangles, best.feature, here - (float3)(best.x, best.y, best.z), best.distance2, &phi, &normal, &rim);
   node_tool[node] = tool;
-  node_split[node] = rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2;
-  node_shell[node] = (float8)(normal.x, normal.y, normal.z, phi, sqrt(inset2), 0.0f, 0.0f, 0.0f);
+  node_split[node] = split_of(rim, phi, band);
+  node_shell[node] = node_shell_of(normal, phi, sqrt(inset2));
 }
 
-// Out: side and position of the particles; REPORT_PUSH and REPORT_CROSSED of the near homes.
+// Out: side and position of the particles; Report.push and Report.crossed of the near homes.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
-    global const int4* restrict homes, global const int4* restrict keys, global const float4* restrict triangles,
-    const int first_tool, global const int* restrict first, global const int* restrict list, const float band,
-    const float longest_push, global float* restrict report) {
-  global const float* tools = (global const float*)(triangles + first_tool);
+    global const Home* restrict homes, global const int4* restrict keys,
+    global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
+    global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
   local int push, crossings;
   const int near = get_group_id(0), me = get_local_id(0);
   const int home = near_list[near];
   const int3 key = keys[home].xyz;
   if (me == 0) push = crossings = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (int at = homes[home].x + me; at < homes[home].x + homes[home].y; at += MEMBERS) {
+  for (int slot = homes[home].start + me; slot < homes[home].start + homes[home].count; slot += MEMBERS) {
     const float3 x = (float3)(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
     const int tag = as_int(LOAD(FIELD_TAG));
     Closest best;
     query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     // Out of the band and never inside it: nothing to keep.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
-    const Kept kept = keep_side(x, tag >> 16, key, best.feature, best.distance2, (float3)(best.x, best.y, best.z), band,
-                                longest_push, triangles, tools);
+    const SideResult kept = keep_side(x, tag >> 16, key, best.feature, best.distance2,
+                                      (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
     STORE(FIELD_X, kept.x.x);
     STORE(FIELD_X + 1, kept.x.y);
     STORE(FIELD_X + 2, kept.x.z);
@@ -72,6 +66,6 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me > 0) return;
-  report[REPORT_WORDS * home + REPORT_PUSH] = as_float(push);
-  report[REPORT_WORDS * home + REPORT_CROSSED] = (float)crossings;
+  report[home].push = as_float(push);
+  report[home].crossed = crossings;
 }

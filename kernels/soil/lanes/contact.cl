@@ -2,55 +2,54 @@
 // Contact of the two node fields with tools: fractional, unilateral, Coulomb and adhesion; and the sums of
 // the two-way solve.
 //
-// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per near node (tan
-//      delta, adhesion [Pa], 1 / bank density, 0); tools: TOOL_WORDS floats each.
+// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per near node; tools.
+//      only: tool whose nodes count, -1: all.
 // One work-item per near block. Host: src/soil/tools/contact.cpp.
 // Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "soil/contact_node.h"
 
-// Out: CONTACT_SUMS per near block, see add_sums.
+// Out: sums per near block.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
-                                                                        global float* restrict sums) {
-  const int slot = get_global_id(0);
-  const int3 key = keys[near_list[slot]].xyz;
-  float out[CONTACT_SUMS];
-  for (int i = 0; i < CONTACT_SUMS; ++i) out[i] = 0.0f;
+                                                                        global ContactSums* restrict sums) {
+  const int near = get_global_id(0);
+  const int3 key = keys[near_list[near]].xyz;
+  ContactSums out = NO_SUMS;
   for (int n = 0; n < BLOCK_NODES; ++n)
-    for (int s = 0; s < 2; ++s) add_sums(out, s, slot, n, key, NODE_SAME);
-  for (int i = 0; i < CONTACT_SUMS; ++i) sums[CONTACT_SUMS * slot + i] = out[i];
+    for (int s = 0; s < 2; ++s) add_sums(&out, s, near, n, key, NODE_SAME);
+  sums[near] = out;
 }
 
 // One sweep of the two-way solve.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global float4* restrict frame,
-                                                                         const int first_tool, const int tool,
-                                                                         global const float* restrict sums,
-                                                                         const int slots) {
-  float total[CONTACT_SUMS];
-  for (int i = 0; i < CONTACT_SUMS; ++i) total[i] = 0.0f;
-  for (int slot = 0; slot < slots; ++slot)
-    for (int i = 0; i < CONTACT_SUMS; ++i) total[i] += sums[CONTACT_SUMS * slot + i];
-  solve_twist((global float*)(frame + first_tool) + TOOL_WORDS * tool, total);
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global Tool* restrict tools, const int tool,
+                                                                         global const ContactSums* restrict sums,
+                                                                         const int blocks) {
+  ContactSums total = NO_SUMS;
+  for (int near = 0; near < blocks; ++near) {
+    for (int i = 0; i < 6; ++i) total.wrench[i] += sums[near].wrench[i];
+    for (int i = 0; i < 21; ++i) total.stiffness[i] += sums[near].stiffness[i];
+  }
+  solve_twist(tools + tool, &total);
 }
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
 // Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
-// (room.h). For the books: touched[slot] = 1 when any node changed; books per node and field float8 (v before, m, v
-// after contact and before the floor, normal impulse), valid in touched blocks.
+// (soil/node.h). For the host: touched[near] = 1 when any node of the block changed; records per node and field, valid in
+// touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
-    BLOCK_ARGS, NODE_ARGS, global const float* restrict floor_height, global int* restrict touched,
-    global float8* restrict books, global float4* restrict velocity0, global float4* restrict velocity1) {
-  const int slot = get_global_id(0);
-  const int block = near_list[slot];
+    BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
+    global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {
+  const int near = get_global_id(0);
+  const int block = near_list[near];
   const int3 key = keys[block].xyz;
   int changed = 0;
   for (int n = 0; n < BLOCK_NODES; ++n) {
-    const int i = slot * BLOCK_NODES + n;
-    const Result result = apply_contact(slot, n, key, floor_height + FLOOR_WORDS * block, NODE_SAME);
-    books[2 * i] = result.books[0];
-    books[2 * i + 1] = result.books[1];
+    const int i = near_node(near, n);
+    const NodeResult result = apply_contact(near, n, key, floors + block, NODE_SAME);
+    records[2 * i] = result.records[0];
+    records[2 * i + 1] = result.records[1];
     velocity0[(size_t)block * BLOCK_NODES + n] = result.felt[0];
     velocity1[i] = result.felt[1];
     changed |= result.changed;
   }
-  touched[slot] = changed;
+  touched[near] = changed;
 }

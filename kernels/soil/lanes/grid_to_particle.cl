@@ -6,9 +6,11 @@
 //      a step takes;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C, x and J of the particles; REPORT_SPEED, INFINITY for a NaN.
-// One work-item per home block, no shared writes. Host: src/soil/particles/transfer.cpp.
+// Out: v, C, x and J of the particles; Report.speed.
+// One work-item per home block, no shared writes. Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/lanes/lanes.h"
+#include "soil/place.h"
+#include "soil/point.h"
 
 // Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block lies.
 static inline void copy_part(global const float* block, float* tile, int3 d) {
@@ -78,18 +80,18 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const int4* restrict homes,
+    global float* restrict state, const int capacity, global const Home* restrict homes,
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
-    global const int* restrict used, global float* restrict report, const float dt, const float dx, const float full,
+    global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
     const float closing) {
   const int block = get_global_id(0);
-  const int4 home = homes[block];
+  const Home home = homes[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
     copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
   for (int i = 2048; i < 4 * TILE_NODES; ++i) tile[i] = 0.0f;
-  if (home.w) {
+  if (home.near) {
     const int mask = used[block];
     for (int t = 1; mask >> t; ++t) {
       if (!(mask >> t & 1)) continue;
@@ -97,10 +99,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     }
     float* back = mask & 4 ? tile + 8 * TILE_NODES : 0;
     for (int n = 0; n < 27; ++n) {
-      const int slot = near_slot[neighbours[27 * block + n]];
-      if (slot >= 0)
-        copy_split(velocity1 + (size_t)slot * (4 * BLOCK_NODES), node_split + slot * BLOCK_NODES, tile,
-                   back, neighbour_offset(n));
+      const int near = near_slot[neighbours[27 * block + n]];
+      if (near >= 0)
+        copy_split(velocity1 + (size_t)near * (4 * BLOCK_NODES), node_split + near * BLOCK_NODES, tile, back,
+                   neighbour_offset(n));
     }
   }
 
@@ -109,32 +111,29 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   Rows rows;
   int cell = -1;
   real fastest = 0.0f;
-  for (int at = home.x; at < home.x + home.y; at += 16) {
-    const int count = min(16, home.x + home.y - at);
+  for (int slot = home.start; slot < home.start + home.count; slot += 16) {
+    const int count = min(16, home.start + home.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_S; ++f) SOON(f);
     SOON(FIELD_J);
     SOON(FIELD_J0);
     SOON(FIELD_TAG);
-    const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    const real bx = base_node(x), by = base_node(y), bz = base_node(z);
-    const real fx = x - bx, fy = y - by, fz = z - bz;
-    real w0, w1, w2, mass;
+    const real x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
+    const real bx = base_node(x[0]), by = base_node(x[1]), bz = base_node(x[2]);
+    const real f[3] = {x[0] - bx, x[1] - by, x[2] - bz};
+    real w[3];
     const real zero = 0.0f;
-    spline(fy, &w0, &w1, &w2);
-    vstore16(w0, 0, wy);
-    vstore16(w1, 1, wy);
-    vstore16(w2, 2, wy);
-    spline(fz, &w0, &w1, &w2);
-    vstore16(w0, 0, wz);
-    vstore16(w1, 1, wz);
-    vstore16(w2, 2, wz);
-    spline(fx, &w0, &w1, &w2);
-    TURN(wxs, w0, w1, w2, zero);
-    const int16 side = as_int16(LOAD(FIELD_TAG)) >> 16;
-    const int16 which = side > 0 ? 2 - (side & 1) : 0;
-    vstore16(convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1) + which * TILE_NODES, 0,
-             nodes);
+    spline(f[1], w);
+    vstore16(w[0], 0, wy);
+    vstore16(w[1], 1, wy);
+    vstore16(w[2], 2, wy);
+    spline(f[2], w);
+    vstore16(w[0], 0, wz);
+    vstore16(w[1], 1, wz);
+    vstore16(w[2], 2, wz);
+    spline(f[0], w);
+    TURN(wxs, w[0], w[1], w[2], zero);
+    vstore16(tile_node(bx, by, bz) + tile_of(as_int16(LOAD(FIELD_TAG)) >> 16) * TILE_NODES, 0, nodes);
     for (int l = 0; l < count; ++l) {
       const int t = turned(l);
       float4 v, mx, my, mz;
@@ -150,31 +149,20 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     }
     for (int l = count; l < 16; ++l)  // lanes without a particle stay where they are
       for (int part = 0; part < 4; ++part) vstore4((float4)(0.0f), turned(l), parts[part]);
-    // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T.
-    real v[3];
-    UNTURN(parts[0], v[0], v[1], v[2], mass);
-    const real f[3] = {fx, fy, fz};
+    // v, C, J from the nodes' mean mass, x += dt v.
+    real v[3], m[3], node_mass, unused;
+    UNTURN(parts[0], v[0], v[1], v[2], node_mass);
     for (int axis = 0; axis < 3; ++axis) {
-      real unused;
-      UNTURN(parts[1 + axis], w0, w1, w2, unused);
-      const float scale = 4.0f / dx;
-      STORE(FIELD_C + axis, scale * (w0 - f[axis] * v[0]));
-      STORE(FIELD_C + 3 + axis, scale * (w1 - f[axis] * v[1]));
-      STORE(FIELD_C + 6 + axis, scale * (w2 - f[axis] * v[2]));
+      UNTURN(parts[1 + axis], m[0], m[1], m[2], unused);
+      UNROLL
+      for (int i = 0; i < 3; ++i) STORE(FIELD_C + 3 * i + axis, velocity_gradient(m[i], f[axis], v[i], dx));
     }
-    // mass is the nodes' mean mass now: soil packed tighter than J and its density state say closes. Opened soil
-    // (J > J0) in flight keeps its J: it could not find back to the gaps it has.
-    const real j = LOAD(FIELD_J);
-    const real packed = full / fmax(mass, MASS_QUANTUM);
-    STORE(FIELD_J, j - closing * fmax(fmin(j, LOAD(FIELD_J0)) - packed, 0.0f));
+    STORE(FIELD_J, closed(LOAD(FIELD_J), LOAD(FIELD_J0), node_mass, full, closing));
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
-    STORE(FIELD_X, x + (dt / dx) * v[0]);
-    STORE(FIELD_X + 1, y + (dt / dx) * v[1]);
-    STORE(FIELD_X + 2, z + (dt / dx) * v[2]);
-    const real largest = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
-    fastest = fmax(fastest, isfinite(v[0] + v[1] + v[2]) ? largest : INFINITY);
+    for (int axis = 0; axis < 3; ++axis) STORE(FIELD_X + axis, x[axis] + (dt / dx) * v[axis]);
+    fastest = fmax(fastest, fastest_component(v));
   }
   const float8 f8 = fmax(fastest.lo, fastest.hi);
   const float4 f4 = fmax(f8.lo, f8.hi);
-  report[REPORT_WORDS * block + REPORT_SPEED] = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
+  report[block].speed = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
 }

@@ -3,12 +3,13 @@
 //
 // In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
 //      particles there); homes.
-//      floor_height = FLOOR_WORDS per active block: resting ground.
+//      floors = resting ground per active block.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
-//      share of the node's kernel that lies above the ground (room.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/transfer.cpp.
+//      share of the node's kernel that lies above the ground (soil/node.h).
+// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
-#include "soil/room.h"
+#include "soil/node.h"
+#include "soil/place.h"
 
 // Adds the part of a neighbour's tile that lies on this block; d: where the neighbour lies.
 static inline void add_part(global const float* tile, float16* rows, int3 d) {
@@ -30,18 +31,19 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
 // v = p / m + g dt for four nodes; nodes lighter than a mass quantum are empty.
 static inline float16 velocity_of(float16 momentum, float4 dv) {
   const float4 m = momentum.s37bf;
-  const float4 inv = select((float4)(0.0f), 1.0f / m, m > MASS_QUANTUM);
+  const float4 inv = INVERSE_MASS(m);
   const float4 on = select((float4)(0.0f), (float4)(1.0f), m > MASS_QUANTUM);
   const float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
                     (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity; masses become mass per room above the ground.
-static inline float16 held(float16 v, global const float* floor_height, int row) {
+// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground]; masses become mass per
+// room above the ground [docs/soil.md, room].
+static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
-  const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, floor_height));
-  const float16 below = z - vload16(row & 3, floor_height + FLOOR_COLUMNS);
+  const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
+  const float16 below = z - vload16(row & 3, ground->around[0]);
   return v * (float16)(on.xxx, 1.0f / room_above(below.lo.lo),  //
                        on.yyy, 1.0f / room_above(below.lo.hi),  //
                        on.zzz, 1.0f / room_above(below.hi.lo),  //
@@ -49,15 +51,15 @@ static inline float16 held(float16 v, global const float* floor_height, int row)
 }
 
 // Whether no node of the block is held or has less than its full room.
-static inline bool far_above(global const float* floor_height) {
-  float16 highest = vload16(0, floor_height + FLOOR_COLUMNS) + 1.5f;
-  for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, floor_height + FLOOR_COLUMNS) + 1.5f);
-  return !some(fmax(highest, vload16(0, floor_height)) >= 0.0f);
+static inline bool far_above(global const BlockFloor* ground) {
+  float16 highest = vload16(0, ground->around[0]) + 1.5f;
+  for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, ground->around[0]) + 1.5f);
+  return !some(fmax(highest, vload16(0, ground->held)) >= 0.0f);
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
-    global const float* restrict tiles, global const int* restrict used, global const float* restrict floor_height,
+    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
+    global const float* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
     global float* restrict velocity, const float4 dv) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
@@ -67,10 +69,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     if (home < 0) continue;
     for (int t = 0; used[home] >> t; ++t)
       if (used[home] >> t & 1)
-        add_part(tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+        add_part(tiles + (size_t)(homes[home].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
-  global const float* ground = floor_height + FLOOR_WORDS * block;
+  global const BlockFloor* ground = floors + block;
   const bool in_the_open = far_above(ground);
   for (int i = 0; i < 16; ++i) {
     if (!some(rows[i] != 0.0f)) {
@@ -82,16 +84,17 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity, neither held yet.
-// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = (tan of the
-// tool friction angle, adhesion, 1 / bank density, 0) per home block; node_surface = its mean at the node by mass.
+// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
+// yet [docs/tools.md, two nodal fields].
+// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
+// Surface per home block; node_surface = its mean at the node by mass.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const int4* restrict homes,
+    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
     global float4* restrict node_surface, const float4 dv) {
-  const int slot = get_global_id(0);
-  const int block = list[slot];
+  const int near = get_global_id(0);
+  const int block = list[near];
   float16 rows[3][16], total[16];
   float4 weight[64];
   for (int i = 0; i < 16; ++i) rows[0][i] = rows[1][i] = rows[2][i] = total[i] = 0.0f;
@@ -113,7 +116,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
     for (int t = 0; used[home] >> t; ++t) {
       if (!(used[home] >> t & 1)) continue;
-      global const float* tile = tiles + (size_t)(homes[home].z + t) * (4 * TILE_NODES);
+      global const float* tile = tiles + (size_t)(homes[home].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }
@@ -127,11 +130,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
       weight[4 * i + 3] += here * m.w;
     }
   }
-  global float* out0 = field0 + (size_t)slot * (4 * BLOCK_NODES);
-  global float* out1 = field1 + (size_t)slot * (4 * BLOCK_NODES);
+  global float* out0 = field0 + (size_t)near * (4 * BLOCK_NODES);
+  global float* out1 = field1 + (size_t)near * (4 * BLOCK_NODES);
   for (int i = 0; i < 16; ++i) {
     // Neutral soil joins the side its node lies on; an unsplit node joins everything.
-    const int4 split = vload4(i, node_split + slot * BLOCK_NODES);
+    const int4 split = vload4(i, node_split + near * BLOCK_NODES);
     const int16 s = (int16)(split.xxxx, split.yyyy, split.zzzz, split.wwww);
     const float16 none = 0.0f;
     const float16 sum = rows[0][i] + rows[1][i] + rows[2][i];
@@ -140,7 +143,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     vstore16(velocity_of(select(sum, front, s > 0), dv), i, out0);
     vstore16(velocity_of(select(none, back, s > 0), dv), i, out1);
     const float4 m = fmax(sum.s37bf, MASS_QUANTUM);
-    global float4* out = node_surface + slot * BLOCK_NODES + 4 * i;
+    global float4* out = node_surface + near * BLOCK_NODES + 4 * i;
     out[0] = mixed ? weight[4 * i] / m.x : first;
     out[1] = mixed ? weight[4 * i + 1] / m.y : first;
     out[2] = mixed ? weight[4 * i + 2] / m.z : first;

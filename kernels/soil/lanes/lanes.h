@@ -11,15 +11,12 @@
 #include "common/portable.h"
 #include "soil/layout.h"
 
+// The dialect of kernels/README.md: what is computed with is sixteen lanes.
 typedef float16 real;
 typedef int16 ints;
-#define LAW_T float16
-#define LAW_LIT(x) ((float)(x))
-#define LAW_MIN(a, b) fmin(a, b)
-#define LAW_MAX(a, b) fmax(a, b)
-#define LAW_SQRT(a) sqrt(a)
-#define LAW_STEP(edge, x) step((float16)(edge), x)
-#define LAW_FN static inline
+typedef float scalar;
+typedef float3 scalar3;
+typedef float4 columns;
 
 // Loops over a particle's rows of nodes are unrolled by hand: then the rows stay in registers.
 #define UNROLL _Pragma("unroll")
@@ -51,15 +48,22 @@ typedef int16 ints;
     o3 = PICK_HIGH2(t1_, t3_);                                             \
   } while (0)
 
-// Field of the 16 slots from `at`, in kernels that name their arguments state and capacity.
-#define LOAD(field) vload16(0, state + (size_t)(field) * capacity + at)
-#define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + at)
+// Field of the 16 slots from `slot` on, in kernels that name their arguments state and capacity; and the same for all
+// fields of a list (particle_fields.h) into or out of a struct.
+#define LOAD(field) vload16(0, state + (size_t)(field) * capacity + slot)
+#define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + slot)
+#define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
+#define LOAD_MANY(NAME, member, count, rest) \
+  for (int k_ = 0; k_ < (count); ++k_) soil_state.member[k_] = LOAD(FIELD_##NAME + k_);
+#define STORE_ONE(NAME, member, rest) STORE(FIELD_##NAME, soil_state.member);
+#define STORE_MANY(NAME, member, count, rest) \
+  for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
 // Asks for a field of the pack four packs on: 27 arrays are more streams than a processor follows by itself. Nothing
 // where the compiler does not know how.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
-#define SOON(field) __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + at + 4 * NAVVY_LANES))
+#define SOON(field) __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + slot + 4 * NAVVY_LANES))
 #endif
 #endif
 #ifndef SOON
@@ -99,18 +103,12 @@ typedef struct Rows {
 // Slot of particle l among the float4s of a turned pack.
 static inline int turned(int l) { return (l & 3) * 4 + (l >> 2); }
 
-// Quadratic B-spline over nodes base, base+1, base+2 where base = floor(x - 0.5) and f = x - base in [0.5, 1.5).
-static inline void spline(real f, real* w0, real* w1, real* w2) {
-  const real a = 1.5f - f, b = f - 1.0f, c = f - 0.5f;
-  *w0 = 0.5f * a * a;
-  *w1 = 0.75f - b * b;
-  *w2 = 0.5f * c * c;
+// Number in the tile of a base node that base_node() gave.
+static inline int16 tile_node(real bx, real by, real bz) {
+  return convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1);
 }
 
-// Offset of neighbour n of 27, x fastest, each axis -1, 0, 1.
-static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1); }
-
-// Base node of a coordinate, kept inside the tile even for a NaN (the host stops the run, the kernel must not stray).
-static inline real base_node(real x) { return fmin(fmax(floor(x - 0.5f), -1.0f), 4.0f); }
+// Mean over the four columns around a node.
+static inline float mean_of(float4 t) { return 0.25f * ((t.x + t.y) + (t.z + t.w)); }
 
 #endif  // NAVVY_KERNELS_SOIL_LANES_H

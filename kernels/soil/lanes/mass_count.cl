@@ -8,18 +8,18 @@
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global const int* restrict state,
                                                                          const int capacity,
-                                                                         global const int4* restrict homes,
+                                                                         global const Home* restrict homes,
                                                                          global long* restrict masses,
                                                                          const int soils) {
   const int home = get_global_id(0);
   const global int* mass = state + FIELD_MASS * (size_t)capacity;
   const global int* tag = state + FIELD_TAG * (size_t)capacity;
-  const int start = homes[home].x, end = start + homes[home].y;
+  const int start = homes[home].start, end = start + homes[home].count;
   for (int soil = 0; soil < soils; ++soil) {
     long16 sum = (long16)(0);
-    for (int at = start; at < end; at += NAVVY_LANES) {
-      const int16 mine = (vload16(0, tag + at) & 0xffff) == soil;
-      sum += convert_long16(vload16(0, mass + at) & mine);
+    for (int slot = start; slot < end; slot += NAVVY_LANES) {
+      const int16 mine = (vload16(0, tag + slot) & 0xffff) == soil;
+      sum += convert_long16(vload16(0, mass + slot) & mine);
     }
     const long8 half_sum = sum.lo + sum.hi;
     const long4 quarter = half_sum.lo + half_sum.hi;

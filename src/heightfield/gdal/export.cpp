@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// GeoTIFF in the coordinates of the file the site came from. Written beside the target and renamed at the end.
 #include "heightfield/gdal/export.h"
 
 #include <gdal_priv.h>
@@ -24,10 +25,11 @@ constexpr int kStripRows = 32;
 /// Fills `out` with rows [y0, y1) of the rectangle, row y0 first.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
-void write(const Ground& ground, const CellRect& rect, const RowSource& rows, const std::string& path) {
+void write(const Terrain& terrain, const CellRect& rect, const RowSource& rows, const std::string& path) {
   const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
   const std::string part = partial_name(path);
   GdalSession session;
+  // GDAL reports some failures only through its error handler, so both are asked each time.
   const auto check = [&](bool good, const char* action) {
     if (good && session.errors().empty()) return;
     ::unlink(part.c_str());
@@ -38,7 +40,8 @@ void write(const Ground& ground, const CellRect& rect, const RowSource& rows, co
   check(driver != nullptr, "this GDAL cannot write GeoTIFF");
   std::unique_ptr<GDALDataset> data(driver->Create(part.c_str(), nx, ny, 1, GDT_Float32, const_cast<char**>(options)));
   check(data != nullptr, "the file cannot be created");
-  const Ground::Setup& setup = ground.setup();
+  const GroundSetup& setup = terrain.setup();
+  // Row 0 of the file is the northern edge.
   const double step = setup.cell / setup.file_unit;
   double transform[6] = {setup.easting + rect.x0 * step, step, 0, setup.northing + rect.y1 * step, 0, -step};
   data->SetGeoTransform(transform);
@@ -68,22 +71,24 @@ void write(const Ground& ground, const CellRect& rect, const RowSource& rows, co
 
 }  // namespace
 
-void write_geotiff(const Ground& ground, const std::string& path) {
-  const CellRect site{0, 0, ground.nx(), ground.ny()};
+void write_geotiff(const Terrain& terrain, const std::string& path) {
+  const CellRect site{0, 0, terrain.nx(), terrain.ny()};
   write(
-      ground, site, [&](int y0, int y1, std::vector<float>& out) { file_rows(ground, y0, y1, out); }, path);
+      terrain, site, [&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, path);
 }
 
-void write_geotiff(const Ground& ground, const CellRect& rect, std::span<const float> values, const std::string& path) {
+void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
+                   const std::string& path) {
   const auto nx = static_cast<std::size_t>(std::max(rect.x1 - rect.x0, 0));
   if (rect.empty() || values.size() != nx * static_cast<std::size_t>(rect.y1 - rect.y0))
+    // A fault of the caller, not of the file.
     throw Error("write_geotiff: " + std::to_string(values.size()) + " values do not fill the rectangle for '" + path +
                 "'");
   const auto rows = [&](int y0, int y1, std::vector<float>& out) {
     out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
                values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
   };
-  write(ground, rect, rows, path);
+  write(terrain, rect, rows, path);
 }
 
 }  // namespace navvy::heightfield

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "heightfield/ground.h"
+#include "heightfield/terrain.h"
 
 namespace navvy::heightfield {
 
@@ -13,10 +13,11 @@ namespace navvy::heightfield {
 /// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none. Strip by
 /// strip, so a large site needs no copy. A kill leaves the old file or the new one.
 /// @throws FileError naming path and cause.
-void write_geotiff(const Ground& ground, const std::string& path);
+void write_geotiff(const Terrain& terrain, const std::string& path);
 
 /// Same for any dense layer over `rect` of the ground (x fastest, row 0 = least y), values written as they are.
 /// @throws Error when sizes do not fit, FileError.
-void write_geotiff(const Ground& ground, const CellRect& rect, std::span<const float> values, const std::string& path);
+void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
+                   const std::string& path);
 
 }  // namespace navvy::heightfield

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Maps come from everywhere, so each step names what it refuses and how to mend the file, and notes what it had to
+// guess: open, georeference, CRS, unit of heights, place of the site, cells, gaps.
 #include "heightfield/gdal/import.h"
 
 #include <cpl_vsi.h>
@@ -54,6 +56,7 @@ struct Map {
 void open(Map& map) {
   const std::string& file = map.world.ground.file;
   map.report.file = file;
+  // Asked first, as GDAL's own words for a missing file are of no help.
   VSIStatBufL status;
   if (VSIStatL(file.c_str(), &status) != 0) map.fail("terrain", "", "no such file", "check the path");
   if (VSI_ISDIR(status.st_mode)) map.fail("terrain", "", "is a directory", "name the GeoTIFF or ESRI ASCII file in it");
@@ -67,6 +70,7 @@ void open(Map& map) {
   map.band = map.data->GetRasterBand(1);
   if (GDALDataTypeIsComplex(map.band->GetRasterDataType()))
     map.fail("terrain", "", "holds complex numbers", "give a file of heights");
+  // From here on it is a map; what is odd about it is noted, not refused.
   map.report.format = map.data->GetDriver()->GetMetadataItem(GDAL_DMD_LONGNAME);
   map.report.columns = map.data->GetRasterXSize();
   map.report.rows = map.data->GetRasterYSize();
@@ -98,6 +102,7 @@ void read_transform(Map& map) {
     map.fail("georeference", number(g[2]) + ", " + number(g[4]), "the map is turned against its coordinate axes",
              "straighten it with gdalwarp");
   if (g[1] == 0 || g[5] == 0) map.fail("georeference", "0", "cells need an extent", "repair it with gdal_edit.py -tr");
+  // Either axis may run backwards; we always begin at least x and least y.
   // Row 0 of a usual map is its northern edge.
   map.step_x = std::abs(g[1]);
   map.step_y = std::abs(g[5]);
@@ -126,11 +131,13 @@ void read_crs(Map& map, Ground::Setup& setup) {
   TerrainReport& report = map.report;
   report.unit = report.height_unit = "metre";
   const OGRSpatialReference* declared = map.data->GetSpatialRef();
+  // Engineers' local grids often come without a CRS: metres is then the only sensible guess.
   if (declared == nullptr || declared->IsEmpty()) {
     report.notes.push_back("no CRS: coordinates and heights are taken as metres");
   } else {
     report.crs = declared->GetName() != nullptr ? declared->GetName() : "unnamed";
     if (declared->IsGeographic() != 0) {
+      // Coordinates of hundreds of kilometres under a CRS of degrees are a wrong label, not a wrong map.
       const Vec2 &low = report.file_min, &high = report.file_max;
       if (low.x() >= -361 && high.x() <= 361 && low.y() >= -91 && high.y() <= 91) refuse_degrees(map);
       report.notes.push_back("declares degrees (" + report.crs +
@@ -190,6 +197,7 @@ Vec2 place_site(Map& map, Ground::Setup& setup) {
   const scene::Ground& ground = map.world.ground;
   TerrainReport& report = map.report;
   const Vec2 extent(report.cell_x * report.columns, report.cell_y * report.rows);
+  // Without a wish the site lies in the middle of the map.
   Vec2 middle = 0.5 * extent;
   if (ground.has_at) middle = ground.at_is_local ? ground.at : Vec2((ground.at - report.file_min) * report.metres);
   const Vec2 size = setup.cell * Vec2(setup.nx, setup.ny);
@@ -226,6 +234,7 @@ class Decoder {
     if (has != 0) nodata_ = static_cast<float>(value);
     has_nodata_ = has != 0;
     map.report.nodata_value = has != 0 ? "declared as " + number(value) : "none declared";
+    // GDAL does not apply scale and offset itself.
     const double scale = map.band->GetScale(&has);
     if (has != 0 && std::isfinite(scale) && scale != 0) scale_ = scale;
     const double offset = map.band->GetOffset(&has);
@@ -238,6 +247,7 @@ class Decoder {
     if (!std::isfinite(single) || (has_nodata_ && single == nodata_)) return kNaN;
     for (const double usual : {-9999.0, -9999.005859375, -32768.0, -32767.0})
       if (raw == usual) return kNaN;
+    // Undeclared but usual markers were dropped by now; so is what no ground can be.
     const double height = (raw * scale_ + offset_) * metres_;
     return std::abs(height) <= kHighest ? height : kNaN;
   }
@@ -248,7 +258,6 @@ class Decoder {
   double scale_ = 1, offset_ = 0, metres_ = 1;
 };
 
-// Reads the cells under the site, flipped into our order; heights minus the offset, so that float keeps millimetres.
 /// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start of a row by reading
 /// those before it and goes on after a row that fails: asked for the last row of a cut file it tries 2^rows times.
 void find_rows(Map& map, int last_row) {
@@ -261,8 +270,10 @@ void find_rows(Map& map, int last_row) {
   }
 }
 
+// Reads the cells under the site, flipped into our order; heights minus the offset, so that float keeps millimetres.
 HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corner) {
   TerrainReport& report = map.report;
+  // Cells that the site needs, with a margin; clamped in double, as a damaged header may give any number.
   const auto first = [](double x, double cell, int n) {
     return static_cast<int>(std::clamp(std::floor(x / cell) - kMargin, 0.0, n - 1.0));
   };
@@ -280,6 +291,7 @@ HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corn
   raster.x0 = (x0 + 0.5) * report.cell_x - corner.x();
   raster.y0 = (y0 + 0.5) * report.cell_y - corner.y();
   report.source_cells = static_cast<std::int64_t>(raster.nx) * raster.ny;
+  // Before memory is asked for.
   if (static_cast<double>(report.source_cells) > kMostMapCells)
     map.fail("terrain/size", std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " map cells",
              "more than " + number(kMostMapCells) + " cells under the site",
@@ -327,6 +339,7 @@ TerrainReport import_terrain(const scene::World& world, Ground::Setup& setup) {
   const Vec2 corner = place_site(map, setup);
   auto raster = std::make_shared<HeightRaster>(read_heights(map, setup, corner));
   TerrainReport& report = map.report;
+  // What the report says of heights and slopes is said of the filled map, which is what the columns come from.
   report.nodata = fill_gaps(*raster);
   const auto [least, most] = std::minmax_element(raster->z.begin(), raster->z.end());
   report.lowest = *least + report.height_offset;
@@ -341,6 +354,7 @@ TerrainReport import_terrain(const scene::World& world, Ground::Setup& setup) {
   setup.height_offset = report.height_offset;
   setup.datum = *least - world.ground.depth;
   const double cell = setup.cell;
+  // Shared, so that copies of the setup cost nothing.
   setup.surface = [raster, cell](int ix, int iy) { return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell); };
   return report;
 }

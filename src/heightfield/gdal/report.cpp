@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What was found in a map, in lines for a person. Numbers carry as many digits as a surveyor would give.
 #include <cstdarg>
 #include <cstdio>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// GDAL talks to stderr unless told otherwise; a library of ours may not.
 #include "heightfield/gdal/session.h"
 
 #include <cpl_error.h>
@@ -10,6 +11,7 @@ namespace navvy::heightfield {
 namespace {
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* message) {
+  // Warnings are about files that were read all the same.
   if (severity >= CE_Failure) static_cast<GdalSession*>(CPLGetErrorHandlerUserData())->add(message);
 }
 
@@ -17,6 +19,7 @@ void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* me
 
 GdalSession::GdalSession() {
   CPLPushErrorHandlerEx(collect, this);
+  // Drivers are registered once a process and never taken back.
   static std::once_flag once;
   std::call_once(once, GDALAllRegister);
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "lab/soils.h"
+
 namespace navvy::lab {
 namespace {
 
@@ -17,6 +19,7 @@ void add_sides(scene::Shell& s, const Triangles& corners) {
   }
 }
 
+/// One corner of both side plates. They stand off by half their thickness: faces, not middles, bound the soil.
 void add_pair(scene::Shell& s, const ChuteShape& c, double x, double z) {
   s.vertices.emplace_back(x, -c.half, z);
   s.vertices.emplace_back(x, c.gap + c.half, z);
@@ -28,6 +31,7 @@ void add_strip(scene::Shell& s, int a, int b) {
   s.triangles.push_back({2 * a, 2 * b + 1, 2 * b});
 }
 
+// Four blocks are enough for the middle to be plane; a block on either side keeps it off the plates.
 constexpr double kRoughBlocks = 4;  ///< in the middle of a chute with friction
 
 }  // namespace
@@ -36,6 +40,7 @@ scene::Shell blade_chute(const ChuteShape& c) {
   scene::Shell s;
   s.name = "chute";
   s.half_thickness = c.half;
+  // The plates stand on the blade's ends, so that blade and plates are one surface without a gap.
   const double lean = -c.height / std::tan(c.rake);
   const double x = -c.half / std::sin(c.rake);  // of the lip's middle
   add_pair(s, c, x, 0);                         // 0 lip
@@ -53,6 +58,7 @@ scene::Shell chute_sides(const ChuteShape& c) {
   scene::Shell s;
   s.name = "sides";
   s.half_thickness = c.half;
+  // Smooth whatever the soil: what the blade's own shell feels along its face is then the blade's alone.
   s.friction_share = s.adhesion_share = 0;
   add_pair(s, c, -c.back, c.bottom);
   add_pair(s, c, -c.back, c.top);
@@ -64,6 +70,7 @@ scene::Shell chute_sides(const ChuteShape& c) {
 
 scene::Shell chute_blade(const ChuteShape& c) {
   scene::Shell s;
+  // From plate middle to plate middle, so that no soil passes its ends.
   s.name = "blade";
   s.half_thickness = c.half;
   const double x = -c.half / std::sin(c.rake);
@@ -77,6 +84,7 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
   scene::Shell s;
   s.name = "footing";
   s.half_thickness = c.half;
+  // Four corners of the stem and four of the pit; the sides are a fan around the footing.
   const double half = breadth / 2;
   add_pair(s, c, -half, 0);
   add_pair(s, c, half, 0);
@@ -87,6 +95,7 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
   add_pair(s, c, -c.ahead, c.top);
   add_pair(s, c, -half, c.top);
   add_sides(s, {{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}});
+  // The sole, then both flanks of the stem.
   add_strip(s, 0, 1);  // looks down
   add_strip(s, 1, 2);
   add_strip(s, 7, 0);
@@ -95,6 +104,7 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
 
 double chute_offset(double cell) { return 0.07 * cell; }
 
+// Measured, see the header: the force no longer depends on it.
 double chute_width(double cell) { return 8 * cell; }
 
 double chute_half(double cell) { return 0.25 * cell; }
@@ -102,14 +112,15 @@ double chute_half(double cell) { return 0.25 * cell; }
 double chute_gap(const Setup& setup, double& share) {
   const bool rough = setup.soil.tool_friction_angle > 0 || setup.soil.adhesion > 0;
   const double block = soil::kBlockCells * setup.cell;
+  // The part of the width that carries tool friction; none for a smooth tool.
   share = rough ? kRoughBlocks / (kRoughBlocks + 2) : 0;
+  // Smooth plates need no more than a few cells: nothing varies across them.
   return rough ? (kRoughBlocks + 2) * block : 5 * setup.cell;
 }
 
 std::vector<scene::Soil> chute_soils(const scene::Soil& soil) {
-  scene::Soil smooth = soil;
+  scene::Soil smooth = without_tool_friction(soil);
   smooth.name += "-smooth";
-  smooth.tool_friction_angle = smooth.adhesion = 0;
   return {soil, smooth};
 }
 
@@ -128,13 +139,16 @@ std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, do
                                        const std::function<bool(const Vec3&)>& keep,
                                        const std::function<double(double, double)>& surface) {
   const double cell = site.cell(), inset = chute_offset(cell), block = soil::kBlockCells * cell;
+  // Soil fills the chute alone; the margin outside the plates stays empty.
   const Box box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
   auto out = site.fill(box, keep, rough ? 0 : 1);
   if (rough)
     for (soil::Particle& p : out) {
       const double y = site.position(p).y();
+      // Against the plates lies the smooth kind of the same soil.
       if (y < block || y > gap - block) p.soil = 1;
     }
+  // Both kinds weigh the same: one stress at rest for all.
   site.rest(out, surface);
   return out;
 }

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `cut`: how high a vertical cut in cohesive soil stands.
+//
+// Cohesion is what lets a trench stand. A vertical face holds for certain while no tension is needed, and fails for
+// certain well above the critical height of a slip circle; between the two the rig finds by halving where the law lets
+// go.
 #include <algorithm>
 #include <cmath>
 
 #include "lab/rigs/chute.h"
-#include "lab/rigs/tool_list.h"
+#include "lab/rigs/rig_list.h"
+#include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
 namespace navvy::lab {
 namespace {
+
+const char* const kSource = "[docs/validation.md, Slopes, walls and cuts]";
 
 /// Mean motion of the upper half of the soil within half a height of the face [m].
 double face_motion(const Site& site, double height, const std::vector<Vec3>& start) {
@@ -17,36 +24,41 @@ double face_motion(const Site& site, double height, const std::vector<Vec3>& sta
   const auto now = site.solver().particles();
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Vec3& p = start[i];
+    // The wedge that comes down is this part of the soil, whatever its angle.
     if (p.z() < -0.5 * height || p.x() > 0.5 * height) continue;
+    // Particles keep their order: the i-th is the same grain.
     sum += (site.position(now[i]) - p).norm();
     ++count;
   }
   return sum / count;
 }
 
+/// Two smooth plates beside the whole bed, three cells past its ends and under it; their fronts look at the soil.
+scene::Shell plates(const ChuteBed& bed, double gap, double cell) {
+  const double half = chute_half(cell), y0 = -half, y1 = gap + half, x0 = -bed.back - 3 * cell,
+               x1 = bed.ahead + 3 * cell, z0 = -bed.below - 3 * cell, z1 = 4 * cell;
+  scene::Shell s;
+  s.name = "plates";
+  s.half_thickness = half;
+  s.vertices = {{x0, y0, z0}, {x1, y0, z0}, {x1, y0, z1}, {x0, y0, z1},
+                {x0, y1, z0}, {x1, y1, z0}, {x1, y1, z1}, {x0, y1, z1}};
+  s.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  return s;
+}
+
 /// Lets a cut of this height stand; returns the motion of its face over its height.
 double try_cut(const Setup& setup, double height, Report& report) {
   const double cell = setup.cell, gap = 4 * cell;
-  const auto whole = [cell](double x) { return cell * std::ceil(x / cell - 1e-9); };
-  const double below = whole(height + setup["below"] * height), foot = height;
-  const ChuteBed bed{whole(setup["front"] * height), whole(setup["back"] * height), below};
+  const double below = whole_cells(height + setup["below"] * height, cell), foot = height;
+  const ChuteBed bed{whole_cells(setup["front"] * height, cell), whole_cells(setup["back"] * height, cell), below};
   Site site(*setup.device, chute_soils(setup.soil), cell, chute_site(setup, bed, gap));
-  ChuteShape shape;
-  shape.half = chute_half(cell), shape.gap = gap;
-  scene::Shell walls;
-  {
-    const double y0 = -shape.half, y1 = gap + shape.half, x0 = -bed.back - 3 * cell, x1 = bed.ahead + 3 * cell,
-                 z0 = -below - 3 * cell, z1 = 4 * cell;
-    walls.name = "plates";
-    walls.half_thickness = shape.half;
-    walls.vertices = {{x0, y0, z0}, {x1, y0, z0}, {x1, y0, z1}, {x0, y0, z1},
-                      {x0, y1, z0}, {x1, y1, z0}, {x1, y1, z1}, {x0, y1, z1}};
-    walls.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
-  }
-  site.add_tool(walls, make_pose(0, chute_offset(cell), 0));
+  site.add_tool(plates(bed, gap, cell), make_pose(0, chute_offset(cell), 0));
+  // Nothing stands ahead of the face: the soil is let go by laying it without support.
   const auto keep = [foot](const Vec3& p) { return p.x() > 0 || p.z() < -foot; };
   const auto surface = [foot](double x, double) { return x > 0 ? 0.0 : -foot; };
+  // Smooth plates and one kind of soil: the face alone is free.
   site.solver().insert(chute_fill(site, bed, gap, false, keep, surface));
+  // Where the solver has them, rounded to its own positions: a motion of nothing reads as nothing.
   std::vector<Vec3> start;
   for (const soil::Particle& p : site.solver().particles()) start.push_back(site.position(p));
   site.run(setup["time"]);
@@ -54,15 +66,18 @@ double try_cut(const Setup& setup, double height, Report& report) {
   return face_motion(site, height, start) / height;
 }
 
+/// The two gated heights first, then as many halvings between them as asked for.
 Report run(const Setup& setup) {
   const scene::Soil& s = setup.soil;
   const double weight = s.bank_density * kGravity;
   const double safe = cut_no_tension_height(s.friction_angle, s.cohesion, weight),
                critical = cut_critical_height(s.friction_angle, s.cohesion, weight);
+  // Motion over height, far above the settling of a face that stands.
   const double share = setup["limit"];
   Report report;
   Series heights{"height", "m", {}}, motions{"motion over height", "", {}};
   const auto moved = [&](double height) {
+    // A face between two planes of the grid would be half held by resting ground.
     height = std::round(height / setup.cell) * setup.cell;  // whole cells
     const double motion = try_cut(setup, height, report);
     heights.values.push_back(height);
@@ -70,10 +85,12 @@ Report run(const Setup& setup) {
     if (setup.progress) setup.progress(std::min(0.99, heights.values.size() / (2 + setup["trials"])));
     return motion;
   };
+  // Below the first no element needs tension; at the second any mechanism fails.
   const double low = moved(0.9 * safe), high = moved(1.25 * critical);
   report.add("motion at 0.9 of the no-tension height", 100 * low, "% of H", 0, kNone, 100 * share,
-             "stands; VALIDATION 1");
-  report.add("motion at 1.25 Hc", 100 * high, "% of H", kNone, 100 * share, kNone, "fails; VALIDATION 1");
+             std::string("stands ") + kSource);
+  report.add("motion at 1.25 Hc", 100 * high, "% of H", kNone, 100 * share, kNone, std::string("fails ") + kSource);
+  // The two gated heights bracket the search; whether they really stand and fall is judged above.
   double stands = 0.9 * safe, fails = 1.25 * critical;
   for (int i = 0; i < setup.whole("trials"); ++i) {
     const double middle = 0.5 * (stands + fails);
@@ -81,7 +98,7 @@ Report run(const Setup& setup) {
   }
   const double height = 0.5 * (stands + fails);
   report.add("highest cut that stands over Hc", height / critical, "", 1, kNone, kNone,
-             "aim: 0.8; Hc = 3.83 c / gamma tan(45 + phi/2)");
+             "aim: 0.8; Hc = 3.83 c / gamma tan(45 + phi/2) [Taylor 1948]");
   report.note("highest cut that stands", height, "m");
   report.series = {heights, motions};
   return report;
@@ -89,7 +106,7 @@ Report run(const Setup& setup) {
 
 }  // namespace
 
-Rig cut() {
+Rig cut_rig() {
   Rig rig;
   rig.name = "cut";
   rig.summary = "vertical cut in cohesive soil: the height that stands";
@@ -97,17 +114,16 @@ Rig cut() {
       "Cohesive soil between smooth plates with an upright free face, at rest under its own weight without support of "
       "the face, is let go for `time`. It stands when the upper half of the soil within half a height of the face has "
       "moved less than `limit` heights in the mean. Tried are 0.9 of the height that holds without tension, 1.25 Hc, "
-      "and "
-      "`trials` halvings between.";
-  rig.parameters = {{"time", 1.5, "s", "of each trial"},
-                    {"trials", 3, "", "halvings between the two heights"},
-                    {"limit", 0.05, "heights", "of motion that count as failure"},
-                    {"back", 1.5, "heights", "of soil behind the face"},
-                    {"front", 0.6, "heights", "of ground in front of it"},
-                    {"below", 0.4, "heights", "of soil under the foot"}};
+      "and `trials` halvings between.";
+  rig.parameters = {{"time", 1.5, "s", "of each trial", above(0)},
+                    {"trials", 3, "", "halvings between the two heights", count_from(1)},
+                    {"limit", 0.05, "heights", "of motion that count as failure", above(0)},
+                    {"back", 1.5, "heights", "of soil behind the face", at_least(0)},
+                    {"front", 0.6, "heights", "of ground in front of it", at_least(0)},
+                    {"below", 0.4, "heights", "of soil under the foot", at_least(0)}};
   rig.default_soil = cohesive(30, 5000);
   rig.default_soil.bank_density = 18000 / kGravity;
-  rig.run = run;
+  rig.experiment = run;
   return rig;
 }
 

@@ -9,6 +9,7 @@
 namespace navvy::lab {
 namespace {
 
+/// Of a grid of its own, anchored at W's origin.
 using Cell = std::array<int, 3>;
 
 Cell cell_of(const Vec3& p, double cell) {
@@ -19,6 +20,7 @@ Cell cell_of(const Vec3& p, double cell) {
 
 /// Heights of a ball over its middle, on the surface's grid.
 struct Ball {
+  // In columns, from the ball's middle.
   int reach = 0;
   std::vector<double> height;  ///< (2 reach + 1)^2; negative outside the ball
   Ball(double radius, double spacing) : reach(static_cast<int>(std::ceil(radius / spacing))) {
@@ -28,6 +30,7 @@ struct Ball {
         height.push_back(rest >= 0 ? std::sqrt(rest) : -1);
       }
   }
+  /// Calls f(i, j, height) for every column under the ball.
   template <class F>
   void each(const F& f) const {
     std::size_t at = 0;
@@ -45,6 +48,7 @@ void dilate(Surface& s, const std::vector<Vec3>& positions, double radius) {
               cy = static_cast<int>(std::lround((p.y() - s.origin.y()) / s.spacing));
     for (int iy = std::max(0, cy - reach); iy <= std::min(s.ny - 1, cy + reach); ++iy)
       for (int ix = std::max(0, cx - reach); ix <= std::min(s.nx - 1, cx + reach); ++ix) {
+        // Exact distance from the column's middle: grains between two columns count for both.
         const double rest = radius * radius - (s.middle(ix, iy) - p.head<2>()).squaredNorm();
         if (rest < 0) continue;
         double& top = s.top[static_cast<std::size_t>(ix + s.nx * iy)];
@@ -53,6 +57,7 @@ void dilate(Surface& s, const std::vector<Vec3>& positions, double radius) {
   }
 }
 
+/// The lowest place a ball can be pushed down to under the surface: fills what no ball of this radius can enter.
 void erode(Surface& s, double radius) {
   const Ball ball(radius, s.spacing);
   std::vector<double> out(s.top.size());
@@ -61,6 +66,7 @@ void erode(Surface& s, double radius) {
       double least = s.at(ix, iy) - radius;
       ball.each([&](int i, int j, double height) {
         const int x = ix + i, y = iy + j;
+        // The margin around the pile is wider than the ball: nothing is lost at the edge.
         if (x < 0 || y < 0 || x >= s.nx || y >= s.ny) return;
         least = std::min(least, s.at(x, y) - height);
       });
@@ -72,12 +78,14 @@ void erode(Surface& s, double radius) {
 }  // namespace
 
 std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours) {
+  // Two passes: count by cell, then look around each cell that has any.
   std::vector<Vec3> positions, out;
   std::map<Cell, int> count;
   for (const soil::Particle& p : particles) {
     positions.push_back(site.position(p));
     ++count[cell_of(positions.back(), site.cell())];
   }
+  // By cell, not by pairs: linear in the particles and good enough to tell a heap from a spray.
   std::map<Cell, bool> touching;
   for (const auto& [cell, here] : count) {
     int around = -1;  // not oneself
@@ -94,6 +102,7 @@ std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>
   return out;
 }
 
+/// Nearest column; p must be a particle of the pile, which lies well inside the surface's rectangle.
 double Surface::over(const Vec3& p) const {
   return at(static_cast<int>(std::lround((p.x() - origin.x()) / spacing)),
             static_cast<int>(std::lround((p.y() - origin.y()) / spacing)));
@@ -102,6 +111,7 @@ double Surface::over(const Vec3& p) const {
 double Surface::volume() const {
   double sum = 0;
   for (const double z : top) sum += z - floor;
+  // Columns are all alike: a sum is the integral.
   return sum * spacing * spacing;
 }
 
@@ -117,6 +127,7 @@ Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor
     low = low.cwiseMin(p.head<2>());
     high = high.cwiseMax(p.head<2>());
   }
+  // Wide enough for both balls.
   low -= Vec2::Constant(1.5 * cell);
   high += Vec2::Constant(1.5 * cell);
   // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost grain lies.
@@ -124,6 +135,7 @@ Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor
   s.nx = static_cast<int>((high.x() - s.origin.x()) / s.spacing) + 1;
   s.ny = static_cast<int>((high.y() - s.origin.y()) / s.spacing) + 1;
   s.top.assign(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny), floor);
+  // A larger ball out than in: the difference is the quarter of a cell by which a pile stands above its topmost grains.
   dilate(s, positions, 0.75 * cell);
   erode(s, 0.5 * cell);
   return s;
@@ -136,6 +148,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
     sx += x[i], sz += z[i];
     sxx += x[i] * x[i], sxz += x[i] * z[i];
   }
+  // Normal equations; the values are a few tens of metres or seconds at most, so that nothing cancels.
   Line out;
   out.b = (n * sxz - sx * sz) / (n * sxx - sx * sx);
   out.a = (sz - out.b * sx) / n;
@@ -144,10 +157,13 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
 
 std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
                                                      double cell) {
+  // Sum and count by ring.
   std::map<int, std::pair<double, int>> rings;
+  // The middle third between the plates: half of it on either side.
   const double across = surface.spacing * surface.ny / 6;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
+      // Both flanks of a plane heap fall into the same strips and average out a lean.
       const Vec2 d = surface.middle(ix, iy) - axis;
       if (!axisymmetric && std::abs(d.y()) > across) continue;
       const double r = axisymmetric ? d.norm() : std::abs(d.x());
@@ -161,6 +177,7 @@ std::vector<std::pair<double, double>> flank_profile(const Surface& surface, con
   return out;
 }
 
+// The line is fitted where a flank is straight: not at the rounded top, not in the thin toe.
 double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
   const auto profile = flank_profile(surface, axis, axisymmetric, cell);
   double highest = 0, shoulder = 0;
@@ -170,6 +187,7 @@ double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, 
     if (height > 0.8 * highest) shoulder = r;
   std::vector<double> x, z;
   for (const auto& [r, height] : profile) {
+    // Below a fifth lie single grains that have run out.
     if (r <= shoulder || height < 0.2 * highest) continue;
     x.push_back(r);
     z.push_back(height);
@@ -180,6 +198,7 @@ double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return kNone;
   const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  // Order of the others does not matter: linear time.
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
   return values[at];
 }

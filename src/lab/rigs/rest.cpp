@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `rest`: level ground under its own weight.
+//
+// The plainest thing soil does, and what everything else starts from: if the weight above is not carried, no force on a
+// tool can be right. Stress is read from the particles, as the law keeps it, and not from a reaction at the floor,
+// which would be right for any distribution inside.
+// What holds: vertical stress within one percent and a percent or two of ringing. sigma_x is K0 sigma_z only while the
+// soil stays elastic; loose sand of low friction yields at rest and rightly shows less.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +16,13 @@
 namespace navvy::lab {
 namespace {
 
-const char* const kSource = "closed form; VALIDATION 1";
+const char* const kSource = "[docs/validation.md, Rest and stress]";
 
-/// Sums over the particles of the middle third, one cell clear of the pit's floor and of the free surface.
+/// Sums over the particles of the middle third, one cell clear of the pit's floor and of the free surface. The walls
+/// carry some of the weight beside them, hence the middle alone.
 struct StressSums {
+  // A fit through the origin, sigma_z = slope x weight above: slope = sum(w s) / sum(w w). A free intercept would hide
+  // a surface that carries load.
   double zz = 0, zs = 0, error = 0, ratio = 0, count = 0;
 
   void add(const Site& site, double half, double depth) {
@@ -21,8 +30,10 @@ struct StressSums {
     for (const soil::Particle& p : site.solver().particles()) {
       const Vec3 at = site.position(p);
       if (std::max(std::abs(at.x()), std::abs(at.y())) > half / 3) continue;
+      // The nodes of a cell at floor and surface mix soil with resting ground or air.
       if (at.z() < site.cell() - depth || at.z() > -site.cell()) continue;
       const double pressure = site.pressure(p), weight = weight_of * at.z();
+      // s is the deviator; stress is positive in tension, the pressure in compression.
       const double sz = static_cast<double>(p.s[2]) - pressure, sx = static_cast<double>(p.s[0]) - pressure;
       zz += weight * weight;
       zs -= weight * sz;
@@ -33,6 +44,7 @@ struct StressSums {
   }
 };
 
+/// Every particle of the middle third, floor and surface included: a plot shows what the fit leaves out.
 void write_profile(const Site& site, double half, Report& report) {
   Series height{"z", "m", {}}, vertical{"sigma_z", "Pa", {}}, horizontal{"sigma_x", "Pa", {}};
   for (const soil::Particle& p : site.solver().particles()) {
@@ -46,17 +58,20 @@ void write_profile(const Site& site, double half, Report& report) {
   report.series = {height, vertical, horizontal};
 }
 
+/// Fills the pit, waits, and averages the second half of the time.
 Report run(const Setup& setup) {
   const double depth = setup["depth"], half = setup["width"] / 2, seconds = setup["time"];
   const Box bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
   SiteOptions options;
   options.surface = pit(bed);
+  // A metre of resting ground under the pit: bedrock is not felt.
   options.depth = depth + 1;
   Site site(setup, options);
   site.expect(seconds);
   std::vector<soil::Particle> start = site.fill(bed);
-  if (setup.whole("stressed") != 0) site.rest(start, 0.0);
+  if (setup.is("stressed", "yes")) site.rest(start, 0.0);
   site.solver().insert(start);
+  // The first half lets the start's sound waves die away; the second is sampled, as sand at rest rings.
   site.run(seconds / 2);
   StressSums sums;
   const int samples = 12;
@@ -64,18 +79,21 @@ Report run(const Setup& setup) {
     site.run(seconds / 2 / samples);
     sums.add(site, half, depth);
   }
+  // Particles keep their order while none comes or goes, so that the i-th is the same grain.
   double farthest = 0;
   const std::vector<soil::Particle> end = site.solver().particles();
   for (std::size_t i = 0; i < end.size(); ++i)
     farthest = std::max(farthest, (site.position(end[i]) - site.position(start[i])).norm());
 
   Report report;
+  // Uniaxial strain of an elastic body; holds while the soil does not yield, see the drawing.
   const double k0 = setup.soil.poisson / (1 - setup.soil.poisson);
   report.add("sigma_z over rho g z", sums.zs / sums.zz, "", 1, 0.99, 1.01, kSource);
   report.add("rms of sigma_z", 100 * std::sqrt(sums.error / sums.zz), "%", 0, 0, 4,
-             "VALIDATION 1; Chrono's SPH soil 3.8 %");
-  report.add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0, "nu / (1 - nu)");
-  report.add("farthest motion", 1000 * farthest, "mm", 0, 0, 1, "SOIL_SOLVER 6");
+             std::string(kSource) + "; an SPH soil's published figure is 3.8 %");
+  report.add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0,
+             "nu / (1 - nu), elastic rest");
+  report.add("farthest motion", 1000 * farthest, "mm", 0, 0, 1, kSource);
   write_profile(site, half, report);
   site.finish(report);
   return report;
@@ -83,25 +101,22 @@ Report run(const Setup& setup) {
 
 }  // namespace
 
-Rig rest() {
+Rig rest_rig() {
   Rig rig;
   rig.name = "rest";
   rig.summary = "level ground at rest: vertical and horizontal stress against the weight above";
   rig.drawing =
       "A square pit, `width` wide and `depth` deep, in resting ground that holds its walls and floor. Particles fill "
-      "it "
-      "up to the surface, with the stress of level ground at rest (stressed 1) or without any (stressed 0: they "
+      "it up to the surface, with the stress of level ground at rest (`stressed` yes) or without any (no: they "
       "settle). Over the second half of `time` the stress of the middle third is fitted, sigma_z = slope x rho g z, "
-      "twelve "
-      "samples in all: sand at rest rings by a percent or two. The plane-strain "
-      "cone yields under K0 = nu / (1 - nu) when phi is below about 32 degrees (nu 0.3): then sigma_x is not K0 "
-      "sigma_z.";
-  rig.parameters = {{"width", 2.8, "m", "edge of the pit"},
-                    {"depth", 0.8, "m", "depth of the pit"},
-                    {"time", 1.0, "s", "simulated time"},
-                    {"stressed", 1, "", "1: particles start with the stress of rest, 0: without stress"}};
+      "twelve samples in all: sand at rest rings by a percent or two. The plane-strain cone yields under K0 = nu / (1 "
+      "- nu) when phi is below about 32 degrees (nu 0.3): then sigma_x is not K0 sigma_z.";
+  rig.parameters = {{"width", 2.8, "m", "edge of the pit", above(0)},
+                    {"depth", 0.8, "m", "depth of the pit", above(0)},
+                    {"time", 1.0, "s", "simulated time", above(0)},
+                    yes_no("stressed", true, "particles start with the stress of rest", "without stress")};
   rig.default_soil = clean_sand(35);
-  rig.run = run;
+  rig.experiment = run;
   return rig;
 }
 

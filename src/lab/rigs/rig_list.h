@@ -1,18 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function per rig, each in a file of the rig's name; rigs.cpp lists them.
+// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp; the program's command,
+// its help and the checks of its parameters follow from what the function returns.
 #pragma once
 
-#include "lab/lab.h"
+#include "lab/rig.h"
 
 namespace navvy::lab {
 
-Rig rest();
-Rig column();
-Rig pour();
-Rig cone();
-Rig slope();
-Rig slide();
-Rig throw_apart();
-Rig swell();
+// Soil by itself.
+Rig rest_rig();
+Rig column_rig();
+Rig pour_rig();
+Rig cone_rig();
+Rig slope_rig();
+Rig slide_rig();
+Rig throw_rig();
+Rig swell_rig();
+
+// Soil and tools.
+Rig blade_rig();
+Rig wall_rig();
+Rig footing_rig();
+Rig plate_rig();
+Rig wheel_rig();
+Rig cut_rig();
+Rig shear_box_rig();
+Rig hold_rig();
+Rig light_tool_rig();
+Rig bucket_rig();
+Rig scrape_rig();
+Rig cycle_rig();
 
 }  // namespace navvy::lab

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/rigs/rig_list.h"
-#include "lab/rigs/tool_list.h"
 
 namespace navvy::lab {
 
 const std::vector<Rig>& rigs() {
+  // Made on first use and never changed: setups keep pointers to its entries.
   static const std::vector<Rig> list = {
-      // Soil by itself.
-      rest(),
-      column(),
-      pour(),
-      cone(),
-      slope(),
-      slide(),
-      throw_apart(),
-      swell(),
-      // Soil and tools.
-      blade(),
-      wall(),
-      footing(),
-      plate_sinkage(),
-      wheel(),
-      cut(),
-      shear_box(),
-      hold(),
-      light_tool(),
-      bucket(),
-      scrape(),
-      cycle(),
+      // Soil by itself, from what hardly moves to what flies.
+      rest_rig(),
+      column_rig(),
+      pour_rig(),
+      cone_rig(),
+      slope_rig(),
+      slide_rig(),
+      throw_rig(),
+      swell_rig(),
+      // Soil and tools, from a plate of one direction to a bucket on a path.
+      blade_rig(),
+      wall_rig(),
+      footing_rig(),
+      plate_rig(),
+      wheel_rig(),
+      cut_rig(),
+      shear_box_rig(),
+      hold_rig(),
+      light_tool_rig(),
+      bucket_rig(),
+      scrape_rig(),
+      cycle_rig(),
   };
   return list;
 }

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `slide`: a block on a plane with Coulomb friction, once the block is soil, once it is a rigid plate on soil.
+//
+// The contact's friction by itself, without a yield of soil: the block is too strong to shear. Once the soil moves and
+// the steel is fixed, once the steel moves and the soil lies still, which take different ways through the contact, and
+// both must give Coulomb's acceleration.
+// Adhesion acts on the whole face without push, so that a bonded block slows by adhesion x area / mass.
 #include <cmath>
 
 #include "lab/rigs/heap.h"
@@ -11,6 +16,7 @@
 namespace navvy::lab {
 namespace {
 
+/// Gravity is tilted, not the plane: faces stay aligned with the grid for every angle.
 SiteOptions tilted(const Setup& setup) {
   const double angle = radians(setup["tilt-deg"]);
   SiteOptions out;
@@ -30,10 +36,13 @@ double acceleration(const std::vector<double>& time, const std::vector<double>& 
 double slide_soil(const Setup& setup, Report& report) {
   const double cell = setup.cell;
   SiteOptions options = tilted(setup);
+  // The steel hangs in the air: what the block feels is the plate alone.
   options.surface = [cell](double, double) { return -8 * cell; };
   Site site(setup, options);
   site.expect(2 * setup["time"]);
+  // Off the grid's planes in y and z, as any plate is.
   const int tool = site.add_tool(plate(70 * cell, 24 * cell), make_pose(0, 0.07 * cell, 0.03 * cell));
+  // Over the plate's half thickness and its place: the block starts just out of contact and settles.
   const double thick = 0.015 + 0.03 * cell, x = 20 * cell;
   auto block = site.fill({Vec3(-x - 6 * cell, -4 * cell, thick), Vec3(-x + 6 * cell, 4 * cell, thick + 5 * cell)});
   site.rest(block, thick + 5 * cell);
@@ -44,9 +53,11 @@ double slide_soil(const Setup& setup, Report& report) {
     site.run(setup["time"] / 20, [&] {
       const soil::ToolImpulse& impulse = site.tool(tool).impulse;
       if (site.time() < 0.5 * setup["time"]) return;
+      // Sums of impulses, so that a ringing contact still gives a clean ratio.
       friction += impulse.J_W.x();
       normal -= impulse.J_W.z();
     });
+    // The mean of all grains: the block shears a little as it settles.
     double sum = 0, count = 0;
     for (const soil::Particle& p : site.solver().particles()) sum += static_cast<double>(p.v[0]), count += 1;
     time.values.push_back(site.time());
@@ -63,6 +74,7 @@ double slide_soil(const Setup& setup, Report& report) {
 /// A rigid plate with the weight of a block on a bed of cohesive soil.
 double slide_plate(const Setup& setup, Report& report) {
   const double cell = setup.cell, half = 34 * cell, wide = 9 * cell;
+  // Five cells deep: the nodes of a cell at the floor are not those under the plate.
   const Box bed{Vec3(-half, -wide, -5 * cell), Vec3(half, wide, 0)};
   SiteOptions options = tilted(setup);
   options.surface = pit(bed);
@@ -74,6 +86,7 @@ double slide_plate(const Setup& setup, Report& report) {
   const double length = 12 * cell, width = 8 * cell;
   const int tool = site.add_tool(plate(length, width), make_pose(-20 * cell, 0.07 * cell, 0.015 + 0.02 * cell));
   Tool& block = site.tool(tool);
+  // No inertia is needed: the plate keeps its attitude.
   block.mass = setup["pressure"] * length * width / kGravity;
   block.keep_attitude = true;
   Series time{"time", "s", {}}, speed{"speed of the plate", "m/s", {}};
@@ -89,6 +102,7 @@ double slide_plate(const Setup& setup, Report& report) {
   }
   const double bond = setup.soil.adhesion * length * width * 0.5 * setup["time"];
   const double most = bond + std::tan(setup.soil.tool_friction_angle) * normal;
+  // Without friction and adhesion there is no bound to hold the shear against.
   if (most > 0)
     report.add("rigid plate, shear over adhesion x area + tan delta x normal force", shear / most, "", 1, 0.95, 1.05,
                "Coulomb with adhesion");
@@ -98,15 +112,18 @@ double slide_plate(const Setup& setup, Report& report) {
   return acceleration(time.values, speed.values);
 }
 
+/// Both blocks, one after the other, against the same closed form.
 Report run(const Setup& setup) {
   Report report;
   const double angle = radians(setup["tilt-deg"]);
+  // Coulomb friction on an inclined plane.
   const double expected = kGravity * (std::sin(angle) - std::tan(setup.soil.tool_friction_angle) * std::cos(angle));
   const double soil = slide_soil(setup, report), rigid = slide_plate(setup, report);
   // Adhesion on the face slows by a A / m: the soil block is 5 cells high, the plate weighs `pressure`.
   const double a = setup.soil.adhesion, soil_expected = expected - a / (setup.soil.bank_density * 5 * setup.cell),
                plate_expected = expected - a * kGravity / setup["pressure"];
-  const char* source = a > 0 ? "g (sin - mu cos) - a A / m" : "g (sin - mu cos); VALIDATION 1";
+  const char* source = a > 0 ? "g (sin - mu cos) - a A / m" : "g (sin - mu cos) [docs/validation.md, Element and law]";
+  // Two percent of the acceleration without adhesion: a bond may make the net one as small as one likes.
   const auto row = [&](const char* name, double measured, double right) {
     report.add(name, measured, "m/s2", right, right - 0.02 * expected, right + 0.02 * expected, source);
   };
@@ -117,22 +134,20 @@ Report run(const Setup& setup) {
 
 }  // namespace
 
-Rig slide() {
+Rig slide_rig() {
   Rig rig;
   rig.name = "slide";
   rig.summary = "block on a plane with Coulomb friction: a block of soil on steel, a rigid plate on soil";
   rig.drawing =
       "Gravity is tilted by `tilt-deg`. First a block of strong cohesive soil, 12 x 8 x 5 cells, slides on a steel "
       "plate; then a rigid plate of 12 x 8 cells that weighs `pressure` slides on a bed of the same soil, 5 cells "
-      "deep. "
-      "The friction angle of both is the soil's delta, the shear they bear without push its adhesion. The acceleration "
-      "is the slope of the speed in the second half "
-      "of `time`.";
-  rig.parameters = {{"tilt-deg", 30, "deg", "of gravity"},
-                    {"pressure", 2000, "Pa", "weight of the plate over its area"},
-                    {"time", 0.8, "s", "each"}};
+      "deep. The friction angle of both is the soil's delta, the shear they bear without push its adhesion. The "
+      "acceleration is the slope of the speed in the second half of `time`.";
+  rig.parameters = {{"tilt-deg", 30, "deg", "of gravity", between(0, 90)},
+                    {"pressure", 2000, "Pa", "weight of the plate over its area", above(0)},
+                    {"time", 0.8, "s", "each", above(0)}};
   rig.default_soil = cohesive(30, 20000);
-  rig.run = run;
+  rig.experiment = run;
   return rig;
 }
 

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip that is kept.
+//
+// The single-wheel test of terramechanics: slip is kept, the wheel sinks as it likes, and pull, torque and sinkage are
+// read. The formulas beside the results integrate a measured plate curve over the rim; the particles know nothing of
+// that curve, so a gap between both is no error of either.
+// What must hold whatever the soil: the load is carried, no particle passes the drum, more slip pulls more, and power
+// goes into the soil and never comes out.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
-#include "lab/rigs/tool_list.h"
+#include "lab/rigs/rig_list.h"
 #include "lab/shapes.h"
+#include "lab/soils.h"
 #include "lab/theory/wheel_formula.h"
 #include "lab/tool_driver.h"
 
@@ -17,24 +24,26 @@ constexpr double kDashpot = 0.05;  // sinking speed at which the carriage's damp
 
 WheelCase wheel_of(const Setup& setup) { return {setup["radius"], setup["width"], setup["load-n"], setup["slip"]}; }
 
-/// Dry sand of a single-wheel test bed [Carnegie Mellon, robomechanics rig; VALIDATION 4]: its plate curve is 1734 kPa
+/// Dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its plate curve is 1734 kPa
 /// (z / m)^1.34, 20 degrees of friction on the rim are an estimate.
 scene::Soil wheel_bed_sand() {
   scene::Soil soil = clean_sand(29);
   soil.bank_density = 13000 / kGravity;
   soil.tool_friction_angle = radians(20);
+  // Of the plate curve: read by the formula beside the rig, not by the particles.
   soil.bekker_kc = 0, soil.bekker_kphi = 1734000, soil.bekker_n = 1.34;
   soil.janosi_k = 0.021;
   return soil;
 }
 
+/// What ties parameters to each other or to the cell; their own ranges are checked already.
 void check_wheel(const Setup& setup) {
   std::vector<Fault> faults;
   const auto refuse = [&faults](const char* name, double value, const char* rule, const char* remedy) {
-    faults.push_back(Fault{Fault::Severity::kError, "", 0, name, std::to_string(value), rule, remedy});
+    faults.push_back(
+        Fault{Fault::Severity::kError, "", 0, std::string("lab wheel --") + name, short_text(value), rule, remedy});
   };
-  const double slip = setup["slip"], radius = setup["radius"];
-  if (slip < -1 || slip > 0.95) refuse("slip", slip, "-1 (locked) .. 0.95", "0 rolls, 0.2 pulls, -0.2 brakes");
+  const double radius = setup["radius"];
   if (radius < 4 * setup.cell) refuse("radius", radius, "at least 4 cells", "a finer --cell, or a larger wheel");
   if (setup["width"] < 2 * setup.cell)
     refuse("width", setup["width"], "at least 2 cells", "a finer --cell, or a wider wheel");
@@ -46,14 +55,16 @@ void check_wheel(const Setup& setup) {
 /// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
 Box bed_of(const Setup& setup) {
   const double cell = setup.cell, r = setup["radius"];
-  const auto whole = [cell](double x) { return cell * std::ceil(x / cell - 1e-9); };
-  const double side = whole(setup["width"] / 2 + setup["beside"] * r);
-  return {Vec3(-whole(2 * r), -side, -whole(setup["below"] * r)), Vec3(whole(setup["travel"] + 2.5 * r), side, 0)};
+  // A wheel pushes soil aside by less than its radius.
+  const double side = whole_cells(setup["width"] / 2 + setup["beside"] * r, cell);
+  return {Vec3(-whole_cells(2 * r, cell), -side, -whole_cells(setup["below"] * r, cell)),
+          Vec3(whole_cells(setup["travel"] + 2.5 * r, cell), side, 0)};
 }
 
 /// Loads the wheel slowly, then lets it go at its slip for the travel. Height of the axle over time in `height`.
 class Carriage {
  public:
+  // The wheel's mass is its load over g: what sinks, sinks with the inertia of what it carries.
   Carriage(const Setup& setup, ToolDriver& driver) : setup_(setup), driver_(driver), wheel_(wheel_of(setup)) {
     Tool& tool = driver.site().tool(driver.tool());
     tool.mass = wheel_.load / kGravity;
@@ -61,6 +72,7 @@ class Carriage {
   }
 
   void run() {
+    // A load that drops on the soil digs a hole that the wheel must then climb out of.
     load_up(kLoading);
     const double speed = setup_["speed"];
     run_for(kLoading / 2, [&](double share) { roll(share * speed); });
@@ -73,11 +85,13 @@ class Carriage {
  private:
   Tool& tool() { return driver_.site().tool(driver_.tool()); }
 
+  /// Sinking is left to the soil: only the twist along the way and about the axle is set.
   void roll(double speed) {
     const double rim = rim_speed(speed, wheel_.slip);
     driver_.set_twist(Vec3(speed, 0, tool().motion.v_WT.z()), Vec3(0, rim / wheel_.radius, 0));
   }
 
+  /// The carriage bears less and less of the load, linearly.
   void load_up(double seconds) {
     run_for(seconds, [&](double share) { bearing_ = 1 - share; });
     bearing_ = 0;
@@ -85,14 +99,17 @@ class Carriage {
 
   template <class Each>
   void run_for(double seconds, const Each& each) {
+    // One step for the whole run, and so for the speed to come: the wheel stands still when it is asked for.
     const double dt = driver_.site().step_limit(rim_speed(setup_["speed"], std::max(0.0, wheel_.slip)) * 1.5);
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds / dt)));
     for (int i = 0; i < steps; ++i) {
       each((i + 1.0) / steps);
       const double damper = -0.1 * wheel_.load * tool().motion.v_WT.z() / kDashpot;
+      // The carriage carries what it still bears; its damper takes the bounce.
       tool().force_W = Vec3(0, 0, bearing_ * wheel_.load + damper);
       driver_.step(seconds / steps);
       height_.push_back(driver_.pose().translation().z());
+      // The first force that is more than noise.
       if (std::isnan(touched_) && driver_.trace().force.back().z() > 0.02 * wheel_.load) touched_ = height_.back();
     }
   }
@@ -115,6 +132,7 @@ Steady steady_part(const Trace& trace, const std::vector<double>& height, double
   Steady out;
   int count = 0;
   for (std::size_t i = 0; i < trace.time.size(); ++i) {
+    // By time and not by travel: the travel of the driver counts the sinking too.
     if (trace.time[i] < from_time) continue;
     out.force += trace.force[i];
     out.moment += trace.moment[i];
@@ -125,6 +143,7 @@ Steady steady_part(const Trace& trace, const std::vector<double>& height, double
   return out;
 }
 
+/// Lays the bed, loads the wheel, rolls, and averages the last part of the way.
 Report run(const Setup& setup) {
   check_wheel(setup);
   const WheelCase wheel = wheel_of(setup);
@@ -138,6 +157,7 @@ Report run(const Setup& setup) {
   site.rest(soil, 0.0);
   site.solver().insert(soil);
 
+  // Contact reaches past the shell by up to a cell: a shell of the wheel's own size would stand on air.
   const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
   scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
   shell.half_thickness = half;  // faces stand at radius and width, less the offset
@@ -147,11 +167,14 @@ Report run(const Setup& setup) {
   site.expect(start + travel_time);
   carriage.run();
 
+  // The bed's first half digests the start; a wheel needs about a diameter of way to find its sinkage.
   const Trace& trace = driver.trace();
   const Steady mean = steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
+  // A soil too soft for the law has no expected values, which is said instead.
   const WheelForce law = rigid_wheel(wheel, setup.soil);
-  const std::string source = law.carried ? "Bekker, Janosi and Hanamoto over the arc, the soil's own parameters"
-                                         : "none: by Bekker's law the soil does not carry this load";
+  const std::string source =
+      law.carried ? "[Bekker 1969] [Janosi 1961] over the arc, the soil's own parameters [docs/validation.md, Wheels]"
+                  : "none: by Bekker's law the soil does not carry this load";
   const auto expected = [&law](double value) { return law.carried ? value : kNone; };
   Report report;
   report.add("drawbar pull", mean.force.x(), "N", expected(law.drawbar), kNone, kNone, source);
@@ -161,6 +184,7 @@ Report run(const Setup& setup) {
   report.note("torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
               "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
                   " bears at most about this");
+  // Soil takes energy and gives none: a negative figure means the contact makes some.
   report.note("power in: torque x turning less pull x speed",
               -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius - mean.force.x() * setup["speed"],
               "W", "what soil and slip take; above 0");
@@ -170,6 +194,7 @@ Report run(const Setup& setup) {
              "none may pass; summed over steps");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);
+  // Low-passed like the forces: facets of 7.5 degrees ring.
   std::vector<double> torque;
   for (const Vec3& moment : trace.moment) torque.push_back(-moment.y());
   report.series.push_back({"torque", "N m", low_pass(trace.time, torque, 20)});
@@ -180,7 +205,7 @@ Report run(const Setup& setup) {
 
 }  // namespace
 
-Rig wheel() {
+Rig wheel_rig() {
   Rig rig;
   rig.name = "wheel";
   rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
@@ -190,23 +215,26 @@ Rig wheel() {
       "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a single-wheel test bed; a "
       "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are means from `from` to "
       "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's "
-      "and Janosi's laws give over the arc with the soil's own numbers (--set bekker_kphi_n_per_m_n2=..., bekker_n, "
-      "janosi_k_m), which the particles do not follow; those of the default soil were measured on its sand. Contact "
-      "begins up to a cell before the shell; `offset` makes up for it.";
+      "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not follow; those of "
+      "the default soil were measured on its sand. Contact begins up to a cell before the shell; `offset` makes up "
+      "for it.";
   rig.parameters = {
-      {"radius", 0.0625, "m", "of the wheel; at least 4 cells"},
-      {"width", 0.06, "m", "of the wheel"},
-      {"load-n", 24.6, "N", "on the axle, the wheel's own weight included"},
-      {"slip", 0.2, "", "that is kept, -1 .. 0.95"},
-      {"speed", 0.2, "m/s", "of the axle"},
-      {"travel", 0.25, "m", "of the axle"},
-      {"from", 0.12, "m", "where the means begin"},
-      {"offset", 0.5, "cells", "by which the shell is smaller than the wheel on every side: contact reaches farther"},
-      {"beside", 1.6, "radii", "of soil on either side"},
-      {"below", 2.2, "radii", "of soil"}};
+      {"radius", 0.0625, "m", "of the wheel, 4 cells or more", above(0)},
+      {"width", 0.06, "m", "of the wheel, 2 cells or more", above(0)},
+      {"load-n", 24.6, "N", "on the axle, the wheel's own weight included", above(0)},
+      {"slip", 0.2, "", "that is kept: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked", between(-1, 0.95)},
+      {"speed", 0.2, "m/s", "of the axle", above(0)},
+      {"travel", 0.25, "m", "of the axle", above(0)},
+      {"from", 0.12, "m", "where the means begin", above(0)},
+      {"offset", 0.5, "cells", "by which the shell is smaller than the wheel on every side: contact reaches farther",
+       at_least(0)},
+      {"beside", 1.6, "radii", "of soil on either side", at_least(0)},
+      {"below", 2.2, "radii", "of soil", at_least(0)}};
+  rig.examples = {{"A wheel on a soil whose plate curve is known",
+                   "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set janosi_k_m=0.021"}};
   rig.default_soil = wheel_bed_sand();
   rig.default_cell = 0.01;
-  rig.run = run;
+  rig.experiment = run;
   return rig;
 }
 

@@ -21,6 +21,7 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   const bool steel = soil.tool_friction_angle < soil.friction_angle;
   const double slope = std::tan(steel ? soil.tool_friction_angle : soil.friction_angle);
   const double bond = steel ? soil.adhesion : soil.residual_cohesion;
+  // Ways against the soil depend on the ratio of speeds alone.
   const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
   Arc out;
   const double slice = entry / kSlices;
@@ -32,6 +33,7 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
         rim > 1e-6 ? r * ((entry - at) - (std::sin(entry) - std::sin(at)) / rim) : -1e3 * soil.janosi_k;
     const double shear =
         std::copysign(bond + pressure * slope, moved) * (1 - std::exp(-std::abs(moved) / soil.janosi_k));
+    // Pressure acts along the radius, shear along the rim.
     const double area = r * wheel.width * slice;
     out.lift += (pressure * std::cos(at) + shear * std::sin(at)) * area;
     out.drawbar += (shear * std::cos(at) - pressure * std::sin(at)) * area;

@@ -20,10 +20,11 @@ struct WheelForce {
   bool carried = true;  ///< false: the ground does not carry the load with the axle above it
 };
 
-/// Bekker's pressure and Janosi and Hanamoto's shear summed over the arc in contact, which ends below the axle, where
-/// the pressure is largest. Wong and Reece (1967, J. Terramechanics 4) let it be largest farther ahead; a wheel then
-/// sinks deeper (VALIDATION 4 quotes 32 mm for a case that gives 25 mm here). Friction on the rim is the lesser of the
-/// soil's and the tool's; the soil's residual cohesion is left out beside it when the tool's is the lesser.
+/// Pressure p = (kc / b + kphi) z^n [Bekker 1969] and shear tau = (c + p tan phi) (1 - exp(-j / K)) [Janosi 1961], j
+/// the way of the rim against the soil, summed over the arc in contact, which ends below the axle, where
+/// the pressure is largest. Where it is let be largest farther ahead [Wong 1967] a wheel
+/// sinks deeper: 32 mm for a case that gives 25 mm here [docs/validation.md, Wheels]. Friction on the rim is the lesser
+/// of the soil's and the tool's; the soil's residual cohesion is left out beside it when the tool's is the lesser.
 WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil);
 
 /// Speed of the rim [m/s] of a wheel that goes at `speed` with this slip.

@@ -9,12 +9,11 @@
 namespace navvy::soil {
 namespace {
 
-// At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [evidence, section 3: 10 and 60 mm/s; its 0.3
-// s asleep and 0.5 s more before deposit are one wait here].
+// At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [docs/exchange.md, rest].
 constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
 /// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake for good too [s].
 constexpr double kHollowRest = 5;
-/// A tool this far above the soil leaves it free to settle [cells] [evidence, section 4].
+/// A tool this far above the soil leaves it free to settle [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
 /// Where particles crowd into less room than their state asks for (beside plates the tracked volume misses up to half
 /// of it), a block may rise this much above its surface; the rest is stored as density, down to the limit below.

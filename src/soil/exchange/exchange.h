@@ -13,14 +13,9 @@
 #include "heightfield/ground.h"
 #include "scene/world.h"
 #include "soil/particles/particle.h"
+#include "soil/tools/tool_motion.h"
 
 namespace navvy::soil {
-
-/// Where a tool is, for waking ahead of it and for keeping soil near it awake.
-struct ToolRegion {
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< box of the shell in W [m]
-  Vec3 velocity = Vec3::Zero();                 ///< of the box centre [m/s]
-};
 
 /// Decides at each check which columns wake and which particles are booked back.
 ///

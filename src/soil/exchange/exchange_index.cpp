@@ -10,8 +10,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Between centres, past which soil does not rest on what is below: one empty cell [evidence, section 4] and half a
-/// particle above and below it.
+/// Between centres, past which soil does not rest on what is below: one empty cell and half a particle above
+/// and below it [docs/exchange.md, deposit].
 constexpr double kMostGap = 1.5;
 constexpr double kHalfParticle = 0.25;  // [cells]
 constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;

@@ -22,7 +22,8 @@ inline double height_in_cells(const Particle& p) {
 /// The particles that rest one on another on a column, without an empty gap below them.
 struct Pile {
   /// Above the column [cells]: the larger of their volume in their density state and of where the highest one ends. The
-  /// number of particles over one column scatters by 6 cm and would show slopes that are none [evidence, section 4].
+  /// number of particles over one column scatters by 6 cm and would show slopes that are none
+  /// [docs/exchange.md, deposit].
   double height = 0;
   std::int64_t mass = 0;  ///< [kMassQuantum]
   double top = 0;         ///< centre of the highest one, the column's surface when there is none [cells above datum]

@@ -7,9 +7,10 @@
 namespace navvy::soil {
 namespace {
 
-/// Sweeps per simulated second: a 1 m cliff needs about 90 [evidence, section 5] and real soil about a second.
+/// Sweeps per simulated second: a 1 m cliff needs about 90 and real soil about a second
+/// [docs/exchange.md, slump].
 constexpr double kSweepRate = 100;
-/// Drops are evened out to this [m] [evidence, section 5].
+/// Drops are evened out to this [m] [docs/exchange.md, slump].
 constexpr double kEnough = 0.001;
 /// Sweeps without motion after which a column rests again. tuned: ExchangeSlump.ACliffOfSandStopsNearItsFrictionAngle.
 constexpr int kMostStill = 8;

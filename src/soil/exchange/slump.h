@@ -17,7 +17,7 @@ namespace navvy::soil {
 ///
 /// A column that failed slides down to the height of what it failed over; what it sheds lies loose and remoulded on its
 /// neighbours and slides on. Pairs of neighbours exchange soil in four colours, in integers, until no pair that slides
-/// is steeper than phi - 1 deg [evidence/columns-and-particles, 5]. Sweeps follow simulated time, so that nothing
+/// is steeper than phi - 1 deg [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing
 /// jumps. Costs the sliding columns only.
 class Slump {
  public:

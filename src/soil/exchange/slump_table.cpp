@@ -7,7 +7,7 @@
 namespace navvy::soil {
 namespace {
 
-// Hysteresis about the friction angle [SOIL_SOLVER section 6].
+// Hysteresis about the friction angle [docs/exchange.md, slump].
 constexpr double kStartAbove = radians(2.0), kStopBelow = radians(1.0);
 /// A heap booked back from particles is this rough without being steep [cells].
 /// tuned: ExchangeDeposit.AHeapComesBackWithItsMassVolumeAndShape.
@@ -64,7 +64,7 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
 }
 
 double SlumpTable::start(std::uint16_t soil, float shear, int steps, bool diagonal) const {
-  // Share of the bond that is left, as in the law [SOIL_SOLVER section 3].
+  // Share of the bond that is left, as in the law [docs/soil.md, cohesion].
   const double soft = 1 + std::max(0.0, static_cast<double>(shear)) / soils_[soil].remoulding_strain;
   const int level = static_cast<int>(std::clamp(std::floor((kLevels - 1) / (soft * soft)), 0.0, kLevels - 1.0));
   return start_[place(soil, level, steps, diagonal)];

@@ -15,7 +15,7 @@ namespace navvy::soil {
 ///
 /// A drop over the distance d may reach the larger of d tan(phi + 2 deg), with a little room for roughness, and
 /// Culmann's height for a face that falls back by d - cell/2: the largest H with
-/// H <= 4 c sin b cos phi / (gamma (1 - cos(b - phi))), b = atan(H / w) [Taylor 1948, Fundamentals of Soil Mechanics].
+/// H <= 4 c sin b cos phi / (gamma (1 - cos(b - phi))), b = atan(H / w) [Taylor 1948].
 class SlumpTable {
  public:
   /// Distances looked at, in columns along an axis or diagonal.

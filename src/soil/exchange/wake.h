@@ -16,7 +16,7 @@ namespace navvy::soil {
 ///
 /// The soil above the cut is divided, soil by soil, into equal layers of about half a cell and each layer into 2 x 2
 /// particles; masses are differences of rounded cumulative integers. Particles are at rest under their own weight and
-/// that of what lies on them, so untouched woken ground stays where it is [evidence/columns-and-particles, 1].
+/// that of what lies on them, so untouched woken ground stays where it is [docs/exchange.md, wake].
 class Waker {
  public:
   /// `gravity` [m/s2]. @throws InputError when a particle of these soils would not fit its integer mass.

@@ -7,14 +7,14 @@
 namespace navvy::soil {
 namespace {
 
-// Zone in dig depths and the least dig depth [evidence, sections 1 and 2: box 2/1/1/1 with motion and slope].
+// Zone in dig depths and the least dig depth [docs/exchange.md, wake].
 constexpr double kAhead = 2, kSides = 1, kLeastDepthCells = 2;
-/// Soil within this of a tool stays particles [cells] [evidence, section 4].
+/// Soil within this of a tool stays particles [cells] [docs/exchange.md, deposit].
 constexpr int kToolGuard = 2;
 /// A tool slower than this has no direction and no speed to take a share of [m/s]. tuned: ExchangeWake tests
 constexpr double kSlowTool = 0.1;
 /// What is dragged along under a tool wakes no further down than this [cells]: soil fails upwards from the edge, and a
-/// cell of depth gives the same force as many [evidence, section 1].
+/// cell of depth gives the same force as many [docs/exchange.md, wake].
 constexpr double kDeepest = 3;
 /// A cut column ends within a mass quantum of the height asked for; this is above that [cells].
 constexpr double kCutError = 1e-3;

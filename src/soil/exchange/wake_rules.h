@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which columns must wake because of a tool (rule A) or because soil moves beside them (rule B).
-// [evidence/columns-and-particles, sections 1, 2 and 7]
+// [docs/exchange.md, wake]
 #pragma once
 
 #include <map>

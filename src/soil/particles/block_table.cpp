@@ -6,6 +6,7 @@
 namespace navvy::soil {
 namespace {
 
+/// Mixes the bits so that neighbouring blocks do not queue up behind one another.
 std::size_t scatter_bits(const BlockKey& key) {
   std::uint64_t h = static_cast<std::uint32_t>(key.x) * 0x9e3779b97f4a7c15ULL;
   h ^= static_cast<std::uint32_t>(key.y) * 0xc2b2ae3d27d4eb4fULL;
@@ -17,6 +18,7 @@ std::size_t scatter_bits(const BlockKey& key) {
 
 void BlockIndex::build(const std::vector<BlockKey>& keys) {
   keys_ = keys;
+  // At most a third full: a search ends after a step or two.
   std::size_t size = 16;
   while (size < 3 * keys.size()) size *= 2;
   mask_ = size - 1;
@@ -40,6 +42,7 @@ void BlockTable::build(std::vector<BlockKey> sorted_homes) {
   home_index.build(homes);
   active.clear();
   active.reserve(homes.size() * 4);
+  // All nodes that particles of the homes can reach before the next re-bin.
   for (const BlockKey& home : homes)
     for (int n = 0; n < 27; ++n) active.push_back(home + neighbour_offset(n));
   std::sort(active.begin(), active.end());

@@ -8,7 +8,7 @@
 #include "soil/particles/particle.h"
 
 namespace navvy::soil {
-Floor::Patch Floor::make_patch(int bx, int by) const {
+BlockFloor Floor::make_patch(int bx, int by) const {
   // Node i touches the columns i - 1 and i, so 4 x 4 nodes need 5 x 5 columns.
   std::vector<float> columns;
   const int x0 = grid_.column_x({by, bx}, 0) - 1, y0 = grid_.column_y({by, bx}, 0) - 1;
@@ -16,20 +16,22 @@ Floor::Patch Floor::make_patch(int bx, int by) const {
   const auto height = [&](int ix, int iy) {
     return (static_cast<double>(columns[static_cast<std::size_t>(ix + 5 * iy)]) - ground_->datum()) / ground_->cell();
   };
-  Patch patch;
+  BlockFloor patch;
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x) {
       const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)};
-      const auto at = static_cast<std::size_t>(x + 4 * y);
-      patch[at] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
-      for (std::size_t i = 0; i < 4; ++i) patch[FLOOR_COLUMNS + 4 * at + i] = static_cast<float>(around[i]);
+      const int node = x + 4 * y;
+      patch.held[node] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
+      for (int i = 0; i < 4; ++i) patch.around[node][i] = static_cast<float>(around[i]);
     }
   return patch;
 }
 
+// Patches are kept by column of blocks: all blocks above one another share it, and the ground changes in few places.
 bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   const bool ground_changed = first_ || ground_->sequence() != sequence_;
   if (!ground_changed && !blocks_changed) return false;
+  // Forget the patches whose 5 x 5 columns the change touches.
   if (ground_changed && !first_) {
     const heightfield::CellRect rect = ground_->changed_since(sequence_);
     std::erase_if(patches_, [&](const auto& entry) {
@@ -41,8 +43,9 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   sequence_ = ground_->sequence();
   first_ = false;
 
-  std::map<std::pair<int, int>, Patch> used;
-  heights_.resize(FLOOR_WORDS * active.size());
+  // Only what active blocks use is kept on; the rest is looked up again when soil comes back.
+  std::map<std::pair<int, int>, BlockFloor> used;
+  blocks_.resize(active.size());
   for (std::size_t b = 0; b < active.size(); ++b) {
     const std::pair<int, int> key{active[b].x, active[b].y};
     auto found = used.find(key);
@@ -50,8 +53,12 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
       const auto known = patches_.find(key);
       found = used.emplace(key, known != patches_.end() ? known->second : make_patch(key.first, key.second)).first;
     }
+    // Heights from the block's own corner keep a float's precision.
     const float corner = static_cast<float>(kBlockCells * active[b].z);
-    for (std::size_t i = 0; i < FLOOR_WORDS; ++i) heights_[FLOOR_WORDS * b + i] = found->second[i] - corner;
+    blocks_[b] = found->second;
+    for (float& height : blocks_[b].held) height -= corner;
+    for (auto& node : blocks_[b].around)
+      for (float& height : node) height -= corner;
   }
   patches_.swap(used);
   return true;

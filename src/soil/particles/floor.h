@@ -2,7 +2,6 @@
 // Which nodes resting ground holds: nodes at or below the highest of the four columns around them plus a quarter cell.
 #pragma once
 
-#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,7 +13,7 @@
 
 namespace navvy::soil {
 
-/// Nodes up to this far above the columns are held too [cells] [SOIL_SOLVER section 6; 0.5 makes no difference].
+/// Nodes up to this far above the columns are held too [cells] [docs/soil.md, resting ground].
 inline constexpr double kHeldMargin = 0.25;
 
 /// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
@@ -24,20 +23,19 @@ class Floor {
 
   /// Brings the list up to date for these active blocks; true when it changed since the last call.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
-  /// FLOOR_WORDS per active block: see kernels/soil/layout.h.
-  const std::vector<float>& heights() const { return heights_; }
+  /// One per active block, in its order; heights from the block's corner [cells].
+  const std::vector<BlockFloor>& blocks() const { return blocks_; }
 
  private:
-  /// One block's words with heights from the datum.
-  using Patch = std::array<float, FLOOR_WORDS>;
-  Patch make_patch(int bx, int by) const;
+  /// Of one column of blocks, with heights from the datum.
+  BlockFloor make_patch(int bx, int by) const;
 
   const heightfield::Ground* ground_;
   PlanGrid grid_;
-  std::map<std::pair<int, int>, Patch> patches_;
+  std::map<std::pair<int, int>, BlockFloor> patches_;  ///< by (bx, by)
   std::uint64_t sequence_ = 0;
   bool first_ = true;
-  std::vector<float> heights_;
+  std::vector<BlockFloor> blocks_;
 };
 
 }  // namespace navvy::soil

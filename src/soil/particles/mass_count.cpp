@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
-#include "soil/particles/transfer.h"
 
 namespace navvy::soil {
 
@@ -15,6 +15,7 @@ MassCount::MassCount(device::Device& device, std::size_t soils)
       kernel_(program_, "mass_count") {}
 
 void MassCount::queue(ParticleStore& store) {
+  // Unmap before the kernel writes again.
   sums_.reset();
   ensure(device_, masses_, store.homes().size() * soils_);
   kernel_.args(store.state(), store.capacity(), store.homes_buffer(), masses_, static_cast<int>(soils_))

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
-#include "soil/layout.h"
-#include "soil/particles/schedule.h"
+#include "soil/particles/buffers.h"
 
 namespace navvy::soil {
 namespace {
 
+/// Runs of homes begin at full packs, so that sixteen lanes never belong to two homes.
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
 /// Moves a particle's block to that of its base node floor(x - 0.5).
@@ -33,36 +35,35 @@ int cell_of(const Particle& p) {
   return cell;
 }
 
+// Particle and store have the fields of one list: a field that one lacks does not compile.
 void put_record(const Particle& p, float* state, std::size_t capacity, std::size_t slot) {
-  float* at = state + slot;
-  for (std::size_t a = 0; a < 3; ++a) at[(FIELD_X + a) * capacity] = p.x[a];
-  for (std::size_t a = 0; a < 3; ++a) at[(FIELD_V + a) * capacity] = p.v[a];
-  for (std::size_t a = 0; a < 9; ++a) at[(FIELD_C + a) * capacity] = p.c[a];
-  for (std::size_t a = 0; a < 6; ++a) at[(FIELD_S + a) * capacity] = p.s[a];
-  at[FIELD_J * capacity] = p.j;
-  at[FIELD_J0 * capacity] = p.j0;
-  at[FIELD_SHEAR * capacity] = p.shear;
-  at[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
-  at[FIELD_TAG * capacity] =
+  float* words = state + slot;
+#define PUT_ONE(NAME, member, rest) words[FIELD_##NAME * capacity] = p.member;
+#define PUT_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) words[(FIELD_##NAME + k) * capacity] = p.member[k];
+  FLOAT_FIELDS(PUT_ONE, PUT_MANY)
+#undef PUT_ONE
+#undef PUT_MANY
+  words[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
+  words[FIELD_TAG * capacity] =
       std::bit_cast<float>(static_cast<std::int32_t>(p.soil) | static_cast<std::int32_t>(p.side) << 16);
-  at[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
+  words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
 Particle get_record(const float* state, std::size_t capacity, std::size_t slot) {
-  const float* at = state + slot;
+  const float* words = state + slot;
   Particle p;
-  for (std::size_t a = 0; a < 3; ++a) p.x[a] = at[(FIELD_X + a) * capacity];
-  for (std::size_t a = 0; a < 3; ++a) p.v[a] = at[(FIELD_V + a) * capacity];
-  for (std::size_t a = 0; a < 9; ++a) p.c[a] = at[(FIELD_C + a) * capacity];
-  for (std::size_t a = 0; a < 6; ++a) p.s[a] = at[(FIELD_S + a) * capacity];
-  p.j = at[FIELD_J * capacity];
-  p.j0 = at[FIELD_J0 * capacity];
-  p.shear = at[FIELD_SHEAR * capacity];
-  p.mass = std::bit_cast<std::int32_t>(at[FIELD_MASS * capacity]);
-  const auto tag = std::bit_cast<std::uint32_t>(at[FIELD_TAG * capacity]);
+#define GET_ONE(NAME, member, rest) p.member = words[FIELD_##NAME * capacity];
+#define GET_MANY(NAME, member, count, rest) \
+  for (std::size_t k = 0; k < (count); ++k) p.member[k] = words[(FIELD_##NAME + k) * capacity];
+  FLOAT_FIELDS(GET_ONE, GET_MANY)
+#undef GET_ONE
+#undef GET_MANY
+  p.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
+  const auto tag = std::bit_cast<std::uint32_t>(words[FIELD_TAG * capacity]);
   p.soil = static_cast<std::uint16_t>(tag & 0xffff);
   p.side = static_cast<std::uint16_t>(tag >> 16);
-  p.id = std::bit_cast<std::uint32_t>(at[FIELD_ID * capacity]);
+  p.id = std::bit_cast<std::uint32_t>(words[FIELD_ID * capacity]);
   return p;
 }
 
@@ -70,37 +71,26 @@ int slots_of(const std::vector<int>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
 }
 
-/// What a lane without a particle holds: inside its tile, no mass, no stress.
+/// What a lane without a particle holds: the values at rest of particle_fields.h.
 Particle empty_lane() {
   Particle p;
-  p.x[0] = p.x[1] = p.x[2] = 2.0f;
+#define REST_ONE(NAME, member, rest) p.member = rest;
+#define REST_MANY(NAME, member, count, rest) std::fill(std::begin(p.member), std::end(p.member), rest);
+  FLOAT_FIELDS(REST_ONE, REST_MANY)
+#undef REST_ONE
+#undef REST_MANY
   return p;
-}
-
-template <class T>
-void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
-  if (buffer.empty()) {
-    buffer = device::Buffer<T>(device, std::max<std::size_t>(size, 1));
-  } else if (buffer.size() < size) {
-    buffer.resize(size + size / 2);
-  }
 }
 
 }  // namespace
 
 ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
-                             const std::vector<float>& soils)
-    : device_(device),
-      site_(site),
-      program_(device, kernel_path(device, "rebin")),
-      count_kernel_(program_, "rebin_count"),
-      gather_kernel_(program_, "rebin_gather"),
-      move_kernel_(program_, "rebin_move"),
-      soils_(device, soils),
-      soils_host_(soils) {
+                             const std::vector<SoilRow>& soils)
+    : device_(device), site_(site), rebin_(device), soils_(device, soils), soil_rows_(soils) {
   assign({});
 }
 
+// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
 int ParticleStore::lay_out(const std::vector<int>& counts) {
   homes_.assign(table_.homes.size(), Home{});
   int slot = 0;
@@ -121,9 +111,10 @@ void ParticleStore::upload_homes() {
   for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z, 0};
   fit(device_, home_keys_, keys.size());
   home_keys_.write(keys);
-  fit(device_, home_surface_, 4 * homes_.size());
+  fit(device_, home_surface_, homes_.size());
 }
 
+// Tiles are numbered anew: a home near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
@@ -158,6 +149,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, boo
   return out;
 }
 
+// Room is made with some to spare: soil wakes in small portions.
 void ParticleStore::make_room(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
@@ -176,12 +168,14 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
     }
     ++counts.back();
   }
+  // Sorted particles of one home stand together, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
   const int slots = lay_out(counts);
-  make_room(at_, slots, slots + slots / 2);
+  make_room(now_, slots, slots + slots / 2);
   {
-    const auto view = state_[at_].map_update();
-    const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+    // Every slot of the runs is written, padding as well: kernels read whole packs.
+    const auto view = state_[now_].map_update();
+    const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
     for (const Home& home : homes_) {
       const auto start = static_cast<std::size_t>(home.start), n = static_cast<std::size_t>(home.count);
@@ -194,20 +188,20 @@ void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_gi
   home_surface_.write(surfaces(sorted));
 }
 
-std::vector<float> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
-  // The same sums in the same order as in rebin_move.
-  constexpr std::array<std::size_t, 3> kWords{SOIL_TOOL_FRICTION, SOIL_ADHESION, SOIL_INV_DENSITY};
-  std::vector<float> out(4 * homes_.size(), 0.0f);
+std::vector<Surface> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
+  // The same sums in the same order as in rebin_move: differences from the first, word by word.
+  constexpr std::array kWords{std::pair(&Surface::friction, &SoilRow::tool_friction),
+                              std::pair(&Surface::adhesion, &SoilRow::adhesion),
+                              std::pair(&Surface::inv_density, &SoilRow::inv_density)};
+  std::vector<Surface> out(homes_.size());
   std::size_t next = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
     const auto count = static_cast<std::size_t>(homes_[h].count);
-    for (std::size_t w = 0; w < kWords.size(); ++w) {
-      const auto value = [&](std::size_t i) {
-        return soils_host_[sorted[i].soil * std::size_t{SOIL_WORDS} + kWords[w]];
-      };
+    for (const auto& [mean, of_soil] : kWords) {
+      const auto value = [&, word = of_soil](std::size_t i) { return soil_rows_[sorted[i].soil].*word; };
       float more = 0;
       for (std::size_t i = next; i < next + count; ++i) more += value(i) - value(next);
-      out[4 * h + w] = value(next) + more / static_cast<float>(count);
+      out[h].*mean = value(next) + more / static_cast<float>(count);
     }
     next += count;
   }
@@ -218,10 +212,10 @@ std::vector<Particle> ParticleStore::records() const {
   std::vector<Particle> out;
   out.reserve(static_cast<std::size_t>(count_));
   if (count_ == 0) return out;
-  const auto view = state_[at_].map_read();
+  const auto view = state_[now_].map_read();
   for (std::size_t h = 0; h < homes_.size(); ++h)
     for (int i = 0; i < homes_[h].count; ++i) {
-      Particle p = get_record(view.data(), static_cast<std::size_t>(capacity_[at_]),
+      Particle p = get_record(view.data(), static_cast<std::size_t>(capacity_[now_]),
                               static_cast<std::size_t>(homes_[h].start + i));
       p.block[0] = table_.homes[h].x;
       p.block[1] = table_.homes[h].y;
@@ -237,18 +231,18 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
   constexpr double kFrom = -1, kTo = kBlockCells + 2;
   std::vector<PointMass> out;
   if (count_ == 0) return out;
-  const auto view = state_[at_].map_read();
-  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  const auto view = state_[now_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   for (std::size_t h = 0; h < homes_.size(); ++h) {
     const Vec3 corner = kBlockCells * Vec3(table_.homes[h].x, table_.homes[h].y, table_.homes[h].z);
     if (((corner.array() + kFrom) > high.array()).any() || ((corner.array() + kTo) < low.array()).any()) continue;
     for (int i = 0; i < homes_[h].count; ++i) {
-      const float* at = view.data() + homes_[h].start + i;
+      const float* words = view.data() + homes_[h].start + i;
       PointMass point;
       for (std::size_t a = 0; a < 3; ++a)
         point.grid[static_cast<int>(a)] =
-            corner[static_cast<int>(a)] + static_cast<double>(at[(FIELD_X + a) * capacity]);
-      point.mass = std::bit_cast<std::int32_t>(at[FIELD_MASS * capacity]);
+            corner[static_cast<int>(a)] + static_cast<double>(words[(FIELD_X + a) * capacity]);
+      point.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
       out.push_back(point);
     }
   }
@@ -257,16 +251,15 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
 
 double ParticleStore::densest() const {
   double out = 0;
-  for (std::size_t i = 0; i < soils_host_.size(); i += SOIL_WORDS)
-    out = std::max(out, 1 / static_cast<double>(soils_host_[i + SOIL_INV_DENSITY]));
+  for (const SoilRow& soil : soil_rows_) out = std::max(out, 1 / static_cast<double>(soil.inv_density));
   return out;
 }
 
 std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   std::vector<std::int64_t> out(soils, 0);
   if (count_ == 0) return out;
-  const auto view = state_[at_].map_read();
-  const auto capacity = static_cast<std::size_t>(capacity_[at_]);
+  const auto view = state_[now_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   std::vector<float> sums;
   for (const Home& home : homes_) {
     const auto n = static_cast<std::size_t>(home.count);
@@ -284,14 +277,15 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   return out;
 }
 
-std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts) {
+std::vector<Particle> ParticleStore::drop_outside() {
+  // Rare: a few particles roll over the edge. The host sorts who stays.
   const std::vector<Particle> all = records();
-  const std::vector<std::uint8_t> codes = codes_.read();
+  const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
-  for (std::size_t h = 0; h < homes_.size(); ++h)
-    for (int i = 0; i < homes_[h].count; ++i) {
-      const bool out = counts[28 * h + 27] > 0 && codes[static_cast<std::size_t>(homes_[h].start + i)] == 27;
+  for (const Home& home : homes_)
+    for (int i = 0; i < home.count; ++i) {
+      const bool out = codes[static_cast<std::size_t>(home.start + i)] == kRebinCodes - 1;
       (out ? left : stay).push_back(all[next++]);
     }
   assign(stay);
@@ -301,67 +295,41 @@ std::vector<Particle> ParticleStore::drop_outside(const std::vector<int>& counts
 std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
   const std::size_t old_homes = homes_.size();
-  fit(device_, codes_, static_cast<std::size_t>(capacity_[at_]));
-  fit(device_, cells_, static_cast<std::size_t>(capacity_[at_]));
-  fit(device_, counts_, 28 * old_homes);
-  count_kernel_.args(state_[at_], capacity_[at_], homes_buffer_, home_keys_, codes_, cells_, counts_, site_)
-      .enqueue_groups(old_homes);
-  std::vector<int> counts(28 * old_homes);
-  counts_.read(counts);
+  const std::vector<int> counts =
+      rebin_.count({state_[now_], capacity_[now_], homes_buffer_}, old_homes, home_keys_, site_);
   for (std::size_t h = 0; h < old_homes; ++h)
-    if (counts[28 * h + 27] > 0) return drop_outside(counts);
+    if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
-  // New homes: wherever a flow leads.
-  std::vector<BlockKey> keys;
-  for (std::size_t h = 0; h < old_homes; ++h)
-    for (std::size_t n = 0; n < 27; ++n)
-      if (counts[28 * h + n] > 0) keys.push_back(table_.homes[h] + neighbour_offset(static_cast<int>(n)));
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-
-  std::vector<int> sources(27 * keys.size(), -1), new_counts(keys.size(), 0);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    for (std::size_t n = 0; n < 27; ++n) {
-      const BlockKey d = neighbour_offset(static_cast<int>(n));
-      const int old = table_.home_index.find({keys[k].x - d.x, keys[k].y - d.y, keys[k].z - d.z});
-      const int flow = old < 0 ? 0 : counts[28 * static_cast<std::size_t>(old) + n];
-      if (flow == 0) continue;
-      sources[27 * k + n] = old;
-      new_counts[k] += flow;
-    }
+  RebinPlan plan = plan_rebin(table_, counts);
   // Room first: without it the old order still stands.
-  const int other = 1 - at_;
-  const int slots = slots_of(new_counts);
-  make_room(other, slots, std::max(slots + slots / 4, capacity_[at_]));
-  fit(device_, old_homes_buffer_, keys.size());
-  fit(device_, home_keys_, keys.size());
-  fit(device_, home_surface_, 4 * keys.size());
-  fit(device_, sources_, sources.size());
-  fit(device_, from_, static_cast<std::size_t>(slots));
+  const int other = 1 - now_;
+  const int slots = slots_of(plan.counts);
+  make_room(other, slots, std::max(slots + slots / 4, capacity_[now_]));
+  fit(device_, old_homes_buffer_, plan.keys.size());
+  fit(device_, home_keys_, plan.keys.size());
+  fit(device_, home_surface_, plan.keys.size());
+  rebin_.make_room(plan.keys.size(), static_cast<std::size_t>(slots));
+  // From here on nothing can fail but the device itself.
   std::swap(homes_buffer_, old_homes_buffer_);
-  if (!(keys == table_.homes)) table_.build(std::move(keys));
-  lay_out(new_counts);
+  if (!(plan.keys == table_.homes)) table_.build(plan.keys);
+  lay_out(plan.counts);
   upload_homes();
-  sources_.write(sources);
-  gather_kernel_.args(old_homes_buffer_, codes_, cells_, counts_, homes_buffer_, sources_, from_)
-      .enqueue_groups(homes_.size());
-  move_kernel_
-      .args(state_[at_], capacity_[at_], codes_, from_, homes_buffer_, state_[other], capacity_[other], soils_,
-            home_surface_)
-      .enqueue_groups(homes_.size());
-  at_ = other;
+  rebin_.move({state_[now_], capacity_[now_], old_homes_buffer_}, {state_[other], capacity_[other], homes_buffer_},
+              plan, soils_, home_surface_);
+  now_ = other;
   return {};
 }
 
+// Words as they stand on the device, in stored order; padding and room to spare are not state.
 void ParticleStore::hash(StateHash& hash) const {
-  const auto view = state_[at_].map_read();
+  const auto view = state_[now_].map_read();
   for (std::size_t h = 0; h < homes_.size(); ++h) {
     hash.value(table_.homes[h].x);
     hash.value(table_.homes[h].y);
     hash.value(table_.homes[h].z);
     hash.value(homes_[h].count);
     for (std::size_t f = 0; f < FIELD_COUNT; ++f)
-      hash.bytes(view.data() + f * static_cast<std::size_t>(capacity_[at_]) + homes_[h].start,
+      hash.bytes(view.data() + f * static_cast<std::size_t>(capacity_[now_]) + homes_[h].start,
                  sizeof(float) * static_cast<std::size_t>(homes_[h].count));
   }
 }

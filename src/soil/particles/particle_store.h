@@ -10,19 +10,12 @@
 #include "core/math.h"
 #include "core/state_io.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "soil/layout.h"
 #include "soil/particles/block_table.h"
 #include "soil/particles/particle.h"
+#include "soil/particles/rebin.h"
 
 namespace navvy::soil {
-
-/// One home block as the kernels see it.
-struct Home {
-  std::int32_t start = 0;  ///< first slot, a multiple of NAVVY_LANES
-  std::int32_t count = 0;
-  std::int32_t tile = 0;  ///< first tile
-  std::int32_t near = 0;  ///< 1: near a shell, three tiles
-};
 
 /// What weighing needs of a particle.
 struct PointMass {
@@ -38,7 +31,7 @@ struct PointMass {
 class ParticleStore {
  public:
   /// `site` = x and y of its lower left and its upper right corner in G [cells]; `soils` the constant table.
-  ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<float>& soils);
+  ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<SoilRow>& soils);
 
   /// Replaces everything. `homes_given`: Particle::block is the home to keep (a snapshot), else homes are found.
   void assign(const std::vector<Particle>& particles, bool homes_given = false);
@@ -56,17 +49,17 @@ class ParticleStore {
   int set_near(const std::vector<std::uint8_t>& near);
 
   int count() const { return count_; }
-  int capacity() const { return capacity_[at_]; }
+  int capacity() const { return capacity_[now_]; }
   const BlockTable& table() const { return table_; }
   const std::vector<Home>& homes() const { return homes_; }
-  device::Buffer<float>& state() { return state_[at_]; }
-  const device::Buffer<float>& state() const { return state_[at_]; }
-  device::Buffer<float>& soils() { return soils_; }
+  device::Buffer<float>& state() { return state_[now_]; }
+  const device::Buffer<float>& state() const { return state_[now_]; }
+  device::Buffer<SoilRow>& soils() { return soils_; }
   /// Largest bank density of all soils [kg/m3].
   double densest() const;
   device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
   device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
-  device::Buffer<float>& home_surface() { return home_surface_; }
+  device::Buffer<Surface>& home_surface() { return home_surface_; }
 
   /// Feeds block keys and every word of every particle.
   void hash(StateHash& hash) const;
@@ -77,25 +70,25 @@ class ParticleStore {
   /// the device has no room.
   void make_room(int side, int slots, int wanted);
   void upload_homes();
-  /// Four floats a home: mean tan of the tool friction angle, adhesion, 1 / bank density, 0.
-  std::vector<float> surfaces(const std::vector<Particle>& sorted) const;
-  std::vector<Particle> drop_outside(const std::vector<int>& counts);
+  /// Mean over the particles of each home.
+  std::vector<Surface> surfaces(const std::vector<Particle>& sorted) const;
+  std::vector<Particle> drop_outside();
 
   device::Device& device_;
   std::array<std::int32_t, 4> site_;
-  device::Program program_;
-  device::Kernel count_kernel_, gather_kernel_, move_kernel_;
-  device::Buffer<float> soils_, state_[2], home_surface_;
-  std::vector<float> soils_host_;
+  Rebin rebin_;
+  // On the device; written by `assign` and by re-binning, the state by the transfer in every step, too.
+  device::Buffer<SoilRow> soils_;         ///< one per soil, constant
+  device::Buffer<float> state_[2];        ///< FIELD_COUNT x capacity words, field after field (particle_fields.h)
+  device::Buffer<Surface> home_surface_;  ///< one per home, mean over its particles
+  std::vector<SoilRow> soil_rows_;
   int capacity_[2] = {0, 0};
-  int at_ = 0;
+  int now_ = 0;  ///< which of the two states stands; re-binning writes the other
   int count_ = 0;
   BlockTable table_;
   std::vector<Home> homes_;
-  device::Buffer<Home> homes_buffer_, old_homes_buffer_;
-  device::Buffer<std::array<std::int32_t, 4>> home_keys_;
-  device::Buffer<std::uint8_t> codes_, cells_;
-  device::Buffer<std::int32_t> counts_, sources_, from_;
+  device::Buffer<Home> homes_buffer_, old_homes_buffer_;   ///< one per home, as `homes_`; before the last re-bin
+  device::Buffer<std::array<std::int32_t, 4>> home_keys_;  ///< block (x, y, z, 0) of each home
 };
 
 }  // namespace navvy::soil

@@ -7,12 +7,11 @@
 
 #include "core/error.h"
 #include "scene/soil_values.h"
-#include "soil/layout.h"
 
 namespace navvy::soil {
 namespace {
 
-/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [SOIL_SOLVER section 3].
+/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [docs/soil.md, viscosity].
 constexpr double kViscosityShare = 0.05;
 /// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of bank instead of 1.23;
 /// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22.
@@ -44,7 +43,7 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
   // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and Mohr-Coulomb's radius
-  // for phi [SOIL_SOLVER section 3].
+  // for phi [docs/soil.md, dilatancy].
   const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
   k.dilatancy = soil.swell > 1 ? b : 0;
   k.inv_range = soil.swell > 1 ? 1 / (soil.swell - 1) : 0;
@@ -69,36 +68,20 @@ bool needs_extended_law(const std::vector<scene::Soil>& soils) {
   });
 }
 
-std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell) {
+std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell) {
   std::vector<Fault> faults;
   for (const scene::Soil& soil : soils)
     for (Fault& fault : scene::check_soil(soil)) faults.push_back(std::move(fault));
   if (!faults.empty()) throw InputError(faults);
-  std::vector<float> table(soils.size() * SOIL_WORDS, 0.0f);
+  std::vector<SoilRow> table(soils.size());
   for (std::size_t i = 0; i < soils.size(); ++i) {
-    const LawConstants k = law_constants(soils[i], cell);
-    float* at = table.data() + i * SOIL_WORDS;
-    at[SOIL_BULK] = static_cast<float>(k.bulk);
-    at[SOIL_SHEAR] = static_cast<float>(k.shear);
-    at[SOIL_ALPHA] = static_cast<float>(k.alpha);
-    at[SOIL_K_RESIDUAL] = static_cast<float>(k.k_residual);
-    at[SOIL_K_BOND] = static_cast<float>(k.k_bond);
-    at[SOIL_INV_REMOULD] = static_cast<float>(k.inv_remould);
-    at[SOIL_INV_OPENING] = static_cast<float>(k.inv_opening);
-    at[SOIL_VISCOSITY] = static_cast<float>(k.viscosity);
-    at[SOIL_SWELL] = static_cast<float>(k.swell);
-    at[SOIL_LOOSENING] = static_cast<float>(k.loosening);
-    at[SOIL_DILATANCY] = static_cast<float>(k.dilatancy);
-    at[SOIL_INV_RANGE] = static_cast<float>(k.inv_range);
-    at[SOIL_MATCHED] = static_cast<float>(k.matched);
-    at[SOIL_ALPHA_FAST] = static_cast<float>(k.alpha_fast);
-    at[SOIL_GRAIN] = static_cast<float>(k.grain);
-    at[SOIL_INERTIAL] = static_cast<float>(k.inertial);
-    at[SOIL_CAP] = static_cast<float>(k.cap);
-    at[SOIL_CAP_GROWTH] = static_cast<float>(k.cap_growth);
-    at[SOIL_INV_DENSITY] = static_cast<float>(1 / soils[i].bank_density);
-    at[SOIL_ADHESION] = static_cast<float>(soils[i].adhesion);
-    at[SOIL_TOOL_FRICTION] = static_cast<float>(std::tan(soils[i].tool_friction_angle));
+    const LawConstants law = law_constants(soils[i], cell);
+#define ROW_CONSTANT(name) table[i].name = static_cast<float>(law.name);
+    ALL_LAW_CONSTANTS(ROW_CONSTANT)
+#undef ROW_CONSTANT
+    table[i].inv_density = static_cast<float>(1 / soils[i].bank_density);
+    table[i].adhesion = static_cast<float>(soils[i].adhesion);
+    table[i].tool_friction = static_cast<float>(std::tan(soils[i].tool_friction_angle));
   }
   return table;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/world.h"
+#include "soil/law_constants.h"
 
 namespace navvy::soil {
 
@@ -23,15 +24,17 @@ double closing_time();
 /// Whether the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has dilatancy, mu(I) or compaction.
 bool needs_extended_law(const std::vector<scene::Soil>& soils);
 
-/// SOIL_WORDS floats per soil (kernels/soil/layout.h). `cell` in m.
+/// What the kernels read of each soil, in the order of the world. `cell` in m.
 /// @throws InputError for soils the law cannot compute: every fault is listed.
-std::vector<float> soil_table(const std::vector<scene::Soil>& soils, double cell);
+std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell);
 
-/// Shared by the table and the reference: law constants derived from a soil.
+/// The constants of the law (kernels/soil/law_constants.h says what each is), derived from a soil; what the table and
+/// the double twin are made of.
+#define LAW_DOUBLE(name) double name = 0;
 struct LawConstants {
-  double bulk, shear, alpha, k_residual, k_bond, inv_remould, inv_opening, viscosity, swell, loosening;
-  double dilatancy, inv_range, matched, alpha_fast, grain, inertial, cap, cap_growth;
+  ALL_LAW_CONSTANTS(LAW_DOUBLE)
 };
+#undef LAW_DOUBLE
 LawConstants law_constants(const scene::Soil& soil, double cell);
 
 }  // namespace navvy::soil

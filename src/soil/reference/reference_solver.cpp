@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "soil/particles/floor.h"
-#include "soil/reference/double_law.h"
+#include "soil/reference/double_contact.h"
 
 namespace navvy::soil::reference {
 namespace {
@@ -22,13 +22,13 @@ Weights weights_at(const Vec3& x) {
   for (int a = 0; a < 3; ++a) {
     const auto i = static_cast<std::size_t>(a);
     out.base[i] = static_cast<int>(std::floor(x[a] - 0.5));
-    const double f = x[a] - out.base[i];
-    out.f[a] = f;
-    out.w[i] = {0.5 * (1.5 - f) * (1.5 - f), 0.75 - (f - 1) * (f - 1), 0.5 * (f - 0.5) * (f - 0.5)};
+    out.f[a] = x[a] - out.base[i];
+    spline(out.f[a], out.w[i].data());
   }
   return out;
 }
 
+/// Calls visit(node, weight, node - base) for the 27 nodes around a point.
 template <class Visit>
 void for_nodes(const Weights& at, const Visit& visit) {
   for (int k = 0; k < 3; ++k)
@@ -36,33 +36,27 @@ void for_nodes(const Weights& at, const Visit& visit) {
       for (int i = 0; i < 3; ++i) {
         const double w = at.w[0][static_cast<std::size_t>(i)] * at.w[1][static_cast<std::size_t>(j)] *
                          at.w[2][static_cast<std::size_t>(k)];
-        visit(std::array<int, 3>{at.base[0] + i, at.base[1] + j, at.base[2] + k}, w, Vec3(i, j, k) - at.f);
+        visit(std::array<int, 3>{at.base[0] + i, at.base[1] + j, at.base[2] + k}, w, Vec3(i, j, k));
       }
 }
 
 }  // namespace
 
-double kernel_share(double t) {
-  const double a = std::clamp(t, -0.5, 0.5), low = std::clamp(1.5 + t, 0.0, 1.0), high = std::clamp(1.5 - t, 0.0, 1.0);
-  const double share = 0.5 + a * (0.75 - a * a / 3) + (low * low * low - high * high * high) / 6;
-  return std::max(share, 0.25);
-}
-
+// By the list of fields, so that the twin never lacks one.
 Point from_particle(const Particle& particle) {
   Point p;
+#define FROM_ONE(NAME, member, rest) p.member = static_cast<double>(particle.member);
+#define FROM_MANY(NAME, member, count, rest) \
+  for (int k = 0; k < (count); ++k) p.member[k] = static_cast<double>(particle.member[k]);
+  FLOAT_FIELDS(FROM_ONE, FROM_MANY)
+#undef FROM_ONE
+#undef FROM_MANY
   for (int a = 0; a < 3; ++a) {
-    p.x[a] = kBlockCells * particle.block[a] + static_cast<double>(particle.x[a]);
-    p.v[a] = static_cast<double>(particle.v[a]);
-    for (int b = 0; b < 3; ++b) p.c(a, b) = static_cast<double>(particle.c[3 * a + b]);
+    p.x[a] += kBlockCells * particle.block[a];
+    p.home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(std::floor(p.x[a] - 0.5) / kBlockCells));
   }
-  for (std::size_t i = 0; i < 6; ++i) p.s[i] = static_cast<double>(particle.s[i]);
-  p.j = static_cast<double>(particle.j);
-  p.j0 = static_cast<double>(particle.j0);
-  p.shear = static_cast<double>(particle.shear);
   p.mass = kilograms(particle.mass);
   p.soil = particle.soil;
-  for (std::size_t a = 0; a < 3; ++a)
-    p.home[a] = static_cast<int>(std::floor(std::floor(p.x[static_cast<int>(a)] - 0.5) / kBlockCells));
   return p;
 }
 
@@ -70,11 +64,10 @@ ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, co
                                  std::function<double(int, int)> ground)
     : soils_(std::move(soils)), cell_(cell), gravity_(gravity), ground_(std::move(ground)) {}
 
-void ReferenceSolver::mix(double dt) {
-  // In a cell with open soil J / J0 relaxes to the cell's mean; see particle_to_grid.cl.
+std::vector<double> ReferenceSolver::openings() const {
+  // Sums per cell of base nodes, in mass quanta as in the kernels.
   struct Cell {
-    double volume = 0, closed = 0;
-    bool open = false;
+    double volume = 0, bank = 0, open = 0;
   };
   std::map<std::array<int, 6>, Cell> cells;
   const auto key = [](const Point& p) {
@@ -83,66 +76,86 @@ void ReferenceSolver::mix(double dt) {
   };
   for (const Point& p : points) {
     Cell& cell = cells[key(p)];
-    cell.volume += p.mass * p.j;
-    cell.closed += p.mass * p.j0;
-    cell.open = cell.open || p.j > p.j0;
+    cell.volume += p.mass / kMassQuantum * p.j;
+    cell.bank += p.mass / kMassQuantum * p.j0;
+    cell.open += p.j > p.j0 ? 1 : 0;
   }
-  const double share = std::min(1.0, dt / mixing_time());
-  for (Point& p : points) {
+  std::vector<double> out;
+  for (const Point& p : points) {
     const Cell& cell = cells.at(key(p));
-    if (cell.open) p.j += share * (p.j0 * cell.volume / cell.closed - p.j);
+    out.push_back(mean_opening(cell.volume, cell.bank, cell.open));
+  }
+  return out;
+}
+
+void ReferenceSolver::scatter(double dt) {
+  // All openings first: mixing compares particles as the step found them.
+  const std::vector<double> opening = openings();
+  const double mixing = std::min(1.0, dt / mixing_time());
+  nodes_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Point& p = points[i];
+    const scene::Soil& soil = soils_.at(static_cast<std::size_t>(p.soil));
+    const LawSoil law = law_soil(soil, cell_);
+    double sigma[6], start[3], a[9];
+    advance_state(p.c, dt, &law, opening[i], mixing, &p, sigma);
+    const Weights weights = weights_at(p.x);
+    affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, dt, cell_, start,
+                    a);
+    // Momentum is linear around a particle: a node has that at the base node and its change over the way there.
+    const Vec3 base(start[0], start[1], start[2]);
+    const Mat3 change = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(a);
+    for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
+      Node& node = nodes_[at];
+      node.mass += w * p.mass;
+      node.momentum += w * (base + change * place);
+    });
   }
 }
 
-void ReferenceSolver::step(double dt) {
-  mix(dt);
-  // Stress, then mass and momentum to the nodes.
-  nodes_.clear();
-  for (Point& p : points) {
-    const scene::Soil& soil = soils_.at(static_cast<std::size_t>(p.soil));
-    const LawSoil law = law_soil(soil, cell_);
-    double c[9], sigma[6];
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) c[3 * a + b] = p.c(a, b);
-    law_update(c, dt, &law, p.s.data(), &p.j, &p.j0, &p.shear, sigma);
-    Mat3 stress;
-    stress << sigma[0], sigma[3], sigma[5], sigma[3], sigma[1], sigma[4], sigma[5], sigma[4], sigma[2];
-    const double volume = p.j * p.mass / soil.bank_density;
-    const Mat3 affine = p.mass * cell_ * p.c - dt * (4 / cell_) * volume * stress;
-    for_nodes(weights_at(p.x), [&](const std::array<int, 3>& at, double w, const Vec3& r) {
-      Node& node = nodes_[at];
-      node.mass += w * p.mass;
-      node.momentum += w * (p.mass * p.v + affine * r);
-    });
-  }
-  // Velocity, gravity, resting ground. A node lighter than a mass quantum is empty.
+void ReferenceSolver::update_grid(double dt) {
   for (auto& [at, node] : nodes_) {
     const double above = at[2] - ground_(at[0], at[1]);
+    // A node lighter than a mass quantum is empty, as in the kernels.
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
-    node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum / node.mass + gravity_ * dt);
+    node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt);
     if (contact && !empty && !fixed) node.momentum += contact(at, node.mass, node.momentum) / node.mass;
-    node.mass /= kernel_share(above);
+    // From momentum to velocity, from mass to mass per room: what the particles ask for.
+    node.mass /= room_above(above);
   }
-  // Back to the particles; `momentum` of a node is its velocity now.
+}
+
+void ReferenceSolver::gather(double dt) {
+  // `momentum` of a node is its velocity now, `mass` that per room.
+  // Crowding is judged by the densest soil of the scene, see packed_mass.
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
-  const double packed = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
+  const double full = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
   for (Point& p : points) {
     Vec3 v = Vec3::Zero();
     Mat3 moment = Mat3::Zero();
     double mass = 0;
-    for_nodes(weights_at(p.x), [&](const std::array<int, 3>& at, double w, const Vec3& r) {
+    const Weights weights = weights_at(p.x);
+    for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
       const Node& node = nodes_.at(at);
-      const Vec3& u = node.momentum;
       mass += w * node.mass;
-      v += w * u;
-      moment += w * u * r.transpose();
+      v += w * node.momentum;
+      moment += w * node.momentum * place.transpose();
     });
-    p.j -= closing * std::max(0.0, std::min(p.j, p.j0) - packed / mass);
+    for (int i = 0; i < 3; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        p.c[3 * i + axis] = velocity_gradient(moment(i, axis), weights.f[axis], v[i], cell_);
+    // J before x: the nodes told of where the particle was.
+    p.j = closed(p.j, p.j0, mass, full, closing);
     p.v = v;
-    p.c = (4 / cell_) * moment;
     p.x += (dt / cell_) * v;
   }
+}
+
+void ReferenceSolver::step(double dt) {
+  scatter(dt);
+  update_grid(dt);
+  gather(dt);
 }
 
 Vec3 ReferenceSolver::momentum() const {

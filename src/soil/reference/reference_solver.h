@@ -10,24 +10,23 @@
 #include "core/math.h"
 #include "scene/soil.h"
 #include "soil/particles/particle.h"
+#include "soil/reference/double_law.h"
 
 namespace navvy::soil::reference {
 
-/// One particle in doubles; positions in cells of the grid frame G.
-struct Point {
+/// One particle in doubles, with the law's state and what moves it; fields as in kernels/soil/particle_fields.h, but
+/// for its position, which counts in cells of the grid frame G.
+struct Point : LawState {
+  Point() : LawState{} {}
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();
-  Mat3 c = Mat3::Zero();
-  std::array<double, 6> s{};
-  double j = 1, j0 = 1, shear = 0, mass = 0;
+  double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  double mass = 0;  ///< [kg]
   int soil = 0;
   /// Home block: that of the base node floor(x - 0.5) at the start. Cells are mixed within a home, as in the kernels.
   std::array<int, 3> home{};
 };
 
 Point from_particle(const Particle& particle);
-
-/// Share of a node's kernel on its side of a plane `t` cells away, not less than LEAST_ROOM; see kernels/soil/room.h.
-double kernel_share(double t);
 
 /// MLS-MPM with quadratic B-splines [Hu et al. 2018, "A moving least squares material point method ..."], APIC
 /// transfer, the law of kernels/soil/law.h. No tools of its own. Slow: a map from node to momentum.
@@ -48,7 +47,11 @@ class ReferenceSolver {
   Vec3 momentum() const;
 
  private:
-  void mix(double dt);
+  /// Mean opening of each point's cell, 0 where none of it is open.
+  std::vector<double> openings() const;
+  void scatter(double dt);      ///< mixing and law, then mass and momentum to the nodes
+  void update_grid(double dt);  ///< velocity, gravity, contact, resting ground; a node lighter than a quantum is empty
+  void gather(double dt);       ///< back to the points, which move
   struct Node {
     double mass = 0;
     Vec3 momentum = Vec3::Zero();

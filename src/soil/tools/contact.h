@@ -2,7 +2,6 @@
 // Tools in the soil: who is near, the side of particles, and the nodal contact solved together with the tool.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,13 +12,14 @@
 #include "device/program.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
-#include "soil/solver.h"
 #include "soil/tools/marks.h"
+#include "soil/tools/shell.h"
 #include "soil/tools/shell_geometry.h"
+#include "soil/tools/tool_motion.h"
 
 namespace navvy::soil {
 
-/// Lengths in cells [SOIL_SOLVER section 5, thin-tools.md section 7].
+/// Lengths in cells [docs/tools.md, contact weights].
 struct ContactSettings {
   double band = 2.5;          ///< how far from a shell particles keep a side
   double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
@@ -70,11 +70,11 @@ class Contact {
 
  private:
   /// Results of contact_apply and shell_nodes, mapped for the host.
-  struct Books {
+  struct Results {
     device::Mapped<const std::int32_t> touched, tool_of;
-    device::Mapped<const float> nodes;
+    device::Mapped<const ContactRecord> records;
   };
-  struct Tool {
+  struct Registered {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
     double area_factor = 1;            ///< plate area / what nodes stand for
@@ -87,8 +87,8 @@ class Contact {
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
-  void upload_frame();
-  void append_tool(std::size_t tool, std::vector<float>& words) const;
+  void upload_tools();
+  Tool tool_now(std::size_t index) const;
   template <class... Tail>
   void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
 
@@ -97,21 +97,21 @@ class Contact {
   Vec3 origin_;
   ContactSettings settings_;
   double reference_step_;
-  std::vector<Tool> tools_;
+  std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
-  device::Program shell_program_, contact_program_;
-  device::Kernel nodes_kernel_, particles_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
+  ShellQuery shells_;
+  device::Program contact_program_;
+  device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
   std::vector<std::uint8_t> near_homes_;
-  std::vector<int> near_slot_, near_home_list_;
+  std::vector<int> near_slot_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;
-  std::array<float, 7> reach_{};
-  device::Buffer<float> frame_, sums_, shell_, books_;
-  device::Buffer<std::int32_t> node_first_, node_candidates_, home_first_, home_candidates_, home_list_, node_tool_,
-      touched_;
-  int first_rim_ = 0, first_tool_ = 0;  ///< float4 numbers in the frame
-  std::vector<float> frame_words_;      ///< what the device may still be reading
-  std::optional<Books> results_;
+  ContactReach reach_{};
+  // What the kernels of contact.cl write.
+  device::Buffer<ContactRecord> records_;  ///< two per near node, one per field (contact_apply)
+  device::Buffer<ContactSums> sums_;       ///< one per near block (contact_sums)
+  device::Buffer<std::int32_t> touched_;   ///< one per near block: whether contact changed a node (contact_apply)
+  std::optional<Results> results_;
 };
 
 }  // namespace navvy::soil

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One machine as a Featherstone tree of Bullet, seen in the machine's own link frames.
+// One machine as an articulated tree of Bullet [Featherstone 2008], seen in the machine's own link frames.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Level ground at rest.
-#include "lab/report.h"
+#include "lab/run_rig.h"
 
 namespace navvy::lab {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small siblings of the tool rigs; the full sizes and half cells run in tests/validation/lab_tools_test.cpp.
 #include "core/math.h"
-#include "lab/report.h"
+#include "lab/run_rig.h"
 
 namespace navvy::lab {
 namespace {
@@ -84,7 +84,7 @@ TEST(LabRigs, NamesAndParametersAreUnique) {
   for (const Rig& rig : rigs()) {
     EXPECT_EQ(seen[rig.name]++, 0) << rig.name;
     EXPECT_FALSE(rig.drawing.empty()) << rig.name;
-    EXPECT_NE(rig.run, nullptr) << rig.name;
+    EXPECT_NE(rig.experiment, nullptr) << rig.name;
     std::map<std::string, int> names;
     for (const Parameter& parameter : rig.parameters) EXPECT_EQ(names[parameter.name]++, 0) << parameter.name;
   }

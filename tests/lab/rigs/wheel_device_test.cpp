@@ -2,7 +2,7 @@
 // A wheel on particles, four cells of radius; the measured wheel runs in tests/validation/wheel_test.cpp.
 #include "core/error.h"
 #include "core/math.h"
-#include "lab/report.h"
+#include "lab/run_rig.h"
 
 namespace navvy::lab {
 namespace {

@@ -112,8 +112,7 @@ TEST(ExchangeDeposit, WakingAndBookingBackAgainAndAgainChangesNothing) {
     }
     const double rms = std::sqrt(sum / std::max(count, 1));
     std::printf("[ VALUE    ] cycle %d: drift rms %.2f mm, most %.2f mm\n", cycle, 1000 * rms, 1000 * most);
-    // The spline smooths crests a little more each time; 2 mm is what the prototype changed in one deposit [evidence,
-    // section 4].
+    // The spline smooths crests a little more each time; one deposit changes 1 to 3 mm.
     EXPECT_LT(rms, 0.002);
     EXPECT_LT(most, 0.005);
   }

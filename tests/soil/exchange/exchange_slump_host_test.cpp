@@ -71,7 +71,7 @@ TEST(ExchangeSlump, ACliffEndsAtTheSameAngleHoweverOftenItIsLookedAt) {
     EXPECT_EQ(site.open_books(), books);
     angles.push_back(slope_of(site).mean);
     print_value("cliff 1 m, slope with a check every " + std::to_string(step) + " s [deg]", angles.back(),
-                "all within 1", "SOIL_SOLVER 6");
+                "all within 1", "[docs/validation.md, Slopes, walls and cuts]");
   }
   const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
   EXPECT_LT(*most - *least, 1);  // [deg]; sweeps follow simulated time, the scan for over-steep columns each check

@@ -13,13 +13,14 @@ namespace {
 using reference::law_soil;
 using reference::law_update;
 using reference::LawSoil;
+using reference::LawState;
 
 /// One particle under a velocity gradient that the test sets.
-struct Element {
+struct Element : LawState {
+  explicit Element(const LawSoil& of) : LawState{{0, 0, 0, 0, 0, 0}, 1, 1, 0}, soil(of) {}
   LawSoil soil;
-  double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, s[6] = {0, 0, 0, 0, 0, 0}, sigma[6] = {0, 0, 0, 0, 0, 0};
-  double j = 1, j0 = 1, shear = 0;
-  void step(double dt) { law_update(c, dt, &soil, s, &j, &j0, &shear, sigma); }
+  double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, sigma[6] = {0, 0, 0, 0, 0, 0};
+  void step(double dt) { law_update(c, dt, &soil, this, sigma); }
   double q() const {  ///< root of the second deviator invariant
     return std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
   }
@@ -35,7 +36,7 @@ TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
     for (int i = 0; i < 4000; ++i) e.step(1e-3);
     const double ratio = e.sigma[3] / -e.sigma[1];
     print_value("tau / sigma_n at phi " + std::to_string(phi), ratio, std::to_string(std::sin(radians(phi))) + " +-3 %",
-                "VALIDATION 1, simple shear without dilatancy");
+                "simple shear without dilatancy [docs/validation.md, Element and law]");
     EXPECT_NEAR(ratio, std::sin(radians(phi)), 0.03 * std::sin(radians(phi)));
   }
 }

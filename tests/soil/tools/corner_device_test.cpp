@@ -53,7 +53,7 @@ void pour(Rig& rig, const Vec3& floor, double inside, const std::function<void(d
 
 Bed poured_box(const Vec3& floor) {
   scene::Soil soil = rig::sand(33);
-  soil.tool_friction_angle = 0;  // slip walls, where soil was over-compressed [SOIL_SOLVER 3]
+  soil.tool_friction_angle = 0;  // slip walls, where soil crowds [docs/soil.md, closing]
   Rig rig({soil});
   const scene::Shell box = rig::open_box(kEdge, kEdge, 1.0);
   ToolMotion motion;
@@ -84,8 +84,9 @@ TEST(SoilCorner, OfABoxOfPlatesKeepsTheVolumeOfItsSoil) {
     const double middle = bed.crowding({Vec2::Zero()}, 0.3);
     const double corner = bed.crowding({{off, off}, {off, -off}, {-off, off}, {-off, -off}}, half) / middle;
     const double wall = bed.crowding({{off, 0}, {-off, 0}, {0, off}, {0, -off}}, half) / middle;
-    print_value("particles a cell, corner / middle of a poured box", corner, "1 +-10 %", "SOIL_SOLVER 3: 1.4 seen");
-    print_value("same, beside a wall / middle", wall, "1 +-10 %", "SOIL_SOLVER 3");
+    print_value("particles a cell, corner / middle of a poured box", corner, "1 +-10 %",
+                "1.4 without treatment [docs/validation.md, Swell, pouring and heaps]");
+    print_value("same, beside a wall / middle", wall, "1 +-10 %", "[docs/validation.md, Swell, pouring and heaps]");
     print_value("same, middle", middle, "8 in the bank", "not gated");
     EXPECT_NEAR(corner, 1, 0.1);  // grains are counted in columns of 4 cells: about 200 in the four corners
     EXPECT_NEAR(wall, 1, 0.1);

@@ -68,7 +68,8 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   const double before = rig.solver().payload(0, bucket.motion.X_WT);
   const Vec3 force = bucket.run(0.8);
   const double held = rig.solver().payload(0, bucket.motion.X_WT);
-  print_value("held bucket, F / (m g)", -force.z() / weight, "1 +-1 %", "VALIDATION 1");
+  print_value("held bucket, F / (m g)", -force.z() / weight, "1 +-1 %",
+              "[docs/validation.md, Buckets and carried loads]");
   EXPECT_NEAR(-force.z() / weight, 1, 0.01);
   EXPECT_LT(std::hypot(force.x(), force.y()), 0.01 * weight);
   EXPECT_NEAR(held, weight / kGravity, 1e-3);
@@ -81,7 +82,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   bucket.motion.w_WT = Vec3::Zero();
   bucket.run(0.9);
   print_value("left in the tipped bucket [kg]", rig.solver().payload(0, bucket.motion.X_WT), "< 1 % of 500 kg",
-              "SOIL_SOLVER 5");
+              "[docs/validation.md, Buckets and carried loads]");
   EXPECT_LT(rig.solver().payload(0, bucket.motion.X_WT), 0.01 * weight / kGravity);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_EQ(rig.solver().ledger().error(), 0);
@@ -149,7 +150,7 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
       width * (0.5 * soil.bank_density * kGravity * depth * depth * kp + 2 * soil.cohesion * depth * std::sqrt(kp));
   print_value("blade at 0.05 m of travel, c " + std::to_string(GetParam().cohesion) + ", thickness " +
                   std::to_string(thickness),
-              -force.x(), std::to_string(rankine) + " N +-20 %", "Rankine passive, smooth wide blade, VALIDATION 3");
+              -force.x(), std::to_string(rankine) + " N +-20 %", "[Rankine 1857] passive, smooth wide blade");
   // 20 %: the gate is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3 cells deep.
   EXPECT_NEAR(-force.x() / rankine, 1, 0.2);
   if (thickness == 0)
@@ -200,7 +201,8 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
     most = std::max(most, 0.5 * mass * m.v_WT.squaredNorm() + 0.5 * w.dot(inertia.cwiseProduct(w)) +
                               mass * kGravity * m.X_WT.translation().z());
   }
-  print_value("light plate, highest energy / energy at the start", most / start, "<= 1.01", "VALIDATION 1, two-way");
+  print_value("light plate, highest energy / energy at the start", most / start, "<= 1.01",
+              "two-way [docs/validation.md, Buckets and carried loads]");
   EXPECT_LE(most, 1.01 * start);  // 1 %: the gain of one gravity kick before the first contact
   EXPECT_LT(driver.motion.v_WT.norm(), 0.02);
   EXPECT_LT(driver.worst, 1e-5);
@@ -246,7 +248,8 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
     ++counted;
   }
   rms = std::sqrt(rms / counted);
-  print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5", "thin-tools.md section 6");
+  print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5",
+              "[docs/validation.md, Buckets and carried loads]");
   EXPECT_LT(rms, 1.5);  // explicit exchange: 15-29; the servo's own motion is about 1
   EXPECT_LT((m.X_WT.translation() - home.translation()).norm(), 0.05);
   EXPECT_NEAR(rig.solver().payload(0, m.X_WT), load, 0.01 * load);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mean opening J / J0 of the soil in a cell. Sixteen lanes.
+#ifndef NAVVY_KERNELS_SOIL_LANES_OPENING_H
+#define NAVVY_KERNELS_SOIL_LANES_OPENING_H
+
+#include "soil/lanes/lanes.h"
+#include "soil/point.h"
+
+// Cells of base nodes -1..4 in a home, x fastest.
+#define CELLS 216
+static inline int16 cell_of(real x, real y, real z) {
+  return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) + 36 * (convert_int16(base_node(z)) + 1);
+}
+
+// Sums per cell in float4s: volume, bank volume, open particles, 0. False, and no sums, when no particle is open.
+INLINED bool cell_openings(global const float* state, int capacity, int start, int end, float* openings) {
+  bool open = false;
+  for (int slot = start; slot < end && !open; slot += 16) open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));
+  if (!open) return false;
+  for (int i = 0; i < CELLS / 4; ++i) vstore16((float16)(0.0f), i, openings);
+  int cell = 0;
+  float4 sum = 0.0f;
+  for (int slot = start; slot < end; slot += 16) {
+    int cells[16];
+    float parts[64];
+    const real mass = convert_float16(as_int16(LOAD(FIELD_MASS))), zero = 0.0f;
+    vstore16(cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)), 0, cells);
+    const real volume = mass * LOAD(FIELD_J), bank = mass * LOAD(FIELD_J0);
+    const real opened = volume > bank ? (real)(1.0f) : zero;
+    TURN(parts, volume, bank, opened, zero);
+    for (int l = 0; l < min(16, end - slot); ++l) {
+      if (cells[l] != cell) {
+        vstore4(sum, cell, openings);
+        cell = cells[l];
+        sum = vload4(cell, openings);
+      }
+      sum += vload4(turned(l), parts);
+    }
+  }
+  vstore4(sum, cell, openings);
+  return true;
+}
+
+// Mean J / J0 of the cells of 16 particles, 0 where none is open.
+INLINED real opening_of(const float* openings, int16 cell) {
+  int cells[16];
+  float parts[64];
+  vstore16(cell, 0, cells);
+  for (int l = 0; l < 16; ++l) vstore4(vload4(cells[l], openings), turned(l), parts);
+  real volume, bank, opened, unused;
+  UNTURN(parts, volume, bank, opened, unused);
+  return mean_opening(volume, bank, opened);
+}
+
+#endif  // NAVVY_KERNELS_SOIL_LANES_OPENING_H

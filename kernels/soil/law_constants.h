@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The constants of a soil, once: the law's struct, the table on the device, its loads in both schedules, the host's
+// table and the double twin are made of these lists. Adding one: kernels/README.md.
+#ifndef NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
+#define NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
+
+// bulk, shear: elastic moduli K, G [Pa]; alpha: sin(friction angle); k_residual, k_bond: residual, and intact less
+// residual cohesion, x cos(friction angle) [Pa]; inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain;
+// viscosity: where it does not yield [Pa s]; swell: largest J0; loosening: growth of J0 per plastic shear, as far as J
+// allows.
+#define BASIC_LAW_CONSTANTS(X) \
+  X(bulk)                      \
+  X(shear)                     \
+  X(alpha)                     \
+  X(k_residual)                \
+  X(k_bond)                    \
+  X(inv_remould)               \
+  X(inv_opening)               \
+  X(viscosity)                 \
+  X(swell)                     \
+  X(loosening)
+
+// Only where LAW_EXTENDED is defined. dilatancy: b, plastic volume strain per plastic shear in bank state; inv_range:
+// 1 / (swell - 1), 0 without swell; matched: yield stress that plane strain needs at b / that without dilatancy - 1;
+// alpha_fast: growth of alpha from slow to fast flow; grain: diameter x sqrt(density) of the grains; inertial: inertial
+// number at half that growth; cap: mean pressure that bank soil bears without getting denser [Pa]; cap_growth: growth
+// of it, as a share, per volume strain.
+#define EXTENDED_LAW_CONSTANTS(X) \
+  X(dilatancy)                    \
+  X(inv_range)                    \
+  X(matched)                      \
+  X(alpha_fast)                   \
+  X(grain)                        \
+  X(inertial)                     \
+  X(cap)                          \
+  X(cap_growth)
+
+#define ALL_LAW_CONSTANTS(X) \
+  BASIC_LAW_CONSTANTS(X)     \
+  EXTENDED_LAW_CONSTANTS(X)
+
+#ifdef __cplusplus
+namespace navvy::soil {
+#endif
+
+// One soil in the constant table on the device.
+#define SOIL_ROW_FLOAT(name) float name;
+typedef struct SoilRow {
+  ALL_LAW_CONSTANTS(SOIL_ROW_FLOAT)
+  float inv_density;    // 1 / bank density [m3/kg]
+  float tool_friction;  // tan of the friction angle on tools
+  float adhesion;       // on tools [Pa]
+} SoilRow;
+#undef SOIL_ROW_FLOAT
+
+#ifdef __cplusplus
+static_assert(sizeof(SoilRow) == 4 * (10 + 8 + 3), "floats without gaps: one per constant of the lists and three");
+}  // namespace navvy::soil
+#endif
+
+#endif  // NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H

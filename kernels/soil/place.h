@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a home's particles are
+// to tools. One source for both schedules; included after their dialect.
+#ifndef NAVVY_KERNELS_SOIL_PLACE_H
+#define NAVVY_KERNELS_SOIL_PLACE_H
+
+#include "soil/layout.h"
+
+// Offset of neighbour n of 27, x fastest, each axis -1, 0, 1.
+static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1); }
+
+// Codes 0..26: into that neighbour; 27: off the site.
+#define LEFT_SITE 27
+#define CODES 28
+
+typedef struct Place {
+  uchar code;
+  uchar cell;  // of its base node in the block it goes to, 0..63, x fastest
+} Place;
+
+// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and of the upper right
+// corner of the site, from there too.
+static inline Place place_of(float x, float y, float z, float4 site) {
+  const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
+  const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
+  const bool outside = x < site.x || x >= site.z || y < site.y || y >= site.w;
+  const int3 in_home = clamp(base - 4 * d, 0, 3);
+  const Place place = {(uchar)(outside ? LEFT_SITE : (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1)),
+                       (uchar)(in_home.x + 4 * in_home.y + 16 * in_home.z)};
+  return place;
+}
+
+// The site [cells of G] from the corner of block `key`.
+static inline float4 site_from(int4 site, int4 key) {
+  const float bx = 4.0f * key.x, by = 4.0f * key.y;
+  return (float4)(site.x - bx, site.y - by, site.z - bx, site.w - by);
+}
+
+// What field f of a lane without a particle holds.
+#define REST_ONE(NAME, member, rest) \
+  if (f <= FIELD_##NAME) return rest;
+#define REST_MANY(NAME, member, count, rest) \
+  if (f <= FIELD_##NAME##_LAST) return rest;
+static inline float rest_of(int f) {
+  FLOAT_FIELDS(REST_ONE, REST_MANY)
+  return 0.0f;
+}
+
+// A Surface, all words of which are averaged alike.
+static inline float4 surface_of(constant SoilRow* soil) {
+  return (float4)(soil->tool_friction, soil->adhesion, soil->inv_density, 0.0f);
+}
+
+#endif  // NAVVY_KERNELS_SOIL_PLACE_H

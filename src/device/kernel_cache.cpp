@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/kernel_cache.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/log.h"
+
+namespace navvy::device {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kManifestName = "navvy.manifest";
+/// The manifest's first line; another one means another layout, and everything is compiled anew.
+constexpr std::string_view kManifestHead = "navvy kernel cache 1";
+/// All our kernels of one version take a few MB compiled. Above this the folder holds many versions: it is emptied.
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
+/// With less room on the disk the driver would leave half-written files behind.
+constexpr std::uintmax_t kLeastRoom = std::uintmax_t{16} << 20;
+
+[[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
+  throw FileError("kernel cache '" + folder.string() + "': " + cause);
+}
+
+std::string hash_of(const fs::path& file) {
+  const std::vector<char> bytes = read_file(file.string());
+  StateHash hash;
+  hash.bytes(bytes.data(), bytes.size());
+  return hash.hex();
+}
+
+/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at every use.
+bool is_listed(const fs::path& relative) {
+  const std::string name = relative.filename().string();
+  return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 && name != "last_accessed";
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code gone;  // a neighbour may rename its temporary file between the listing and the look at it
+    if (it->is_regular_file(gone) && !gone) files.push_back(it->path().lexically_relative(folder));
+  }
+  return files;
+}
+
+/// The part of the folder that is one compiled program: a changed file spoils the whole of it, as the driver takes the
+/// presence of some of its files as proof of the others.
+fs::path program_of(const fs::path& relative) {
+  fs::path out;
+  int depth = 0;
+  for (const fs::path& part : relative) {
+    if (depth++ == 2) break;
+    out /= part;
+  }
+  return out;
+}
+
+}  // namespace
+
+KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) fail(folder_, "the folder cannot be made: " + error.message());
+  struct statvfs disk {};
+  if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastRoom)
+    fail(folder_, "its disk is full (less than 16 MiB left)");
+  lock();
+  try {
+    check(alone_);
+    // Shared from now on. Between the two kinds of lock another process may check the folder too, which changes
+    // nothing.
+    flock(lock_, LOCK_SH);
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+KernelCache::~KernelCache() {
+  seal();
+  ::close(lock_);
+}
+
+void KernelCache::lock() {
+  const std::string path = (folder_ / kLockName).string();
+  lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (lock_ < 0) fail(folder_, std::string("it cannot be written: ") + std::strerror(errno));
+  alone_ = flock(lock_, LOCK_EX | LOCK_NB) == 0;
+  // A neighbour checks for milliseconds; a folder whose file system knows no locks is used as if alone.
+  if (!alone_ && errno != EWOULDBLOCK) alone_ = true;
+  if (!alone_) flock(lock_, LOCK_SH);
+}
+
+KernelCache::Manifest KernelCache::read_manifest() const {
+  Manifest out;
+  std::string text;
+  try {
+    const std::vector<char> bytes = read_file((folder_ / kManifestName).string());
+    text.assign(bytes.begin(), bytes.end());
+  } catch (const FileError&) {
+    return out;  // the first run here
+  }
+  std::istringstream lines(text);
+  std::string line;
+  if (!std::getline(lines, line) || line != kManifestHead) return out;
+  while (std::getline(lines, line)) {
+    // "<size> <hash> <path>"; a line that is cut short lists nothing, so that its file is compiled again.
+    std::istringstream words(line);
+    Entry entry;
+    std::string path;
+    if (words >> entry.size >> entry.hash && words.get() == ' ' && std::getline(words, path)) out[path] = entry;
+  }
+  return out;
+}
+
+void KernelCache::check(bool alone) {
+  const Manifest manifest = read_manifest();
+  const std::vector<fs::path> files = files_in(folder_);
+  std::uintmax_t bytes = 0;
+  std::set<fs::path> bad;
+  std::set<std::string> seen;
+  for (const fs::path& file : files) {
+    if (!is_listed(file)) continue;
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(folder_ / file, error);
+    const auto entry = manifest.find(file.generic_string());
+    seen.insert(file.generic_string());
+    bytes += error ? 0 : size;
+    bool good = !error;
+    if (entry == manifest.end()) {
+      good = !alone;
+    } else if (good) {
+      try {
+        good = size == entry->second.size && hash_of(folder_ / file) == entry->second.hash;
+      } catch (const FileError&) {
+        good = false;  // there, but not to be read
+      }
+    }
+    if (!good) bad.insert(program_of(file));
+  }
+  // A file that is gone spoils its program as one that changed.
+  for (const auto& [path, entry] : manifest)
+    if (seen.count(path) == 0) bad.insert(program_of(path));
+  for (const fs::path& file : files) {
+    if (!is_listed(file)) continue;
+    const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
+    ++(remove ? removed_ : whole_);
+  }
+  for (const fs::path& program : bad) {
+    std::error_code error;
+    fs::remove_all(folder_ / program, error);
+    // What cannot be removed would be loaded: such a folder is no cache.
+    if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
+  }
+  if (alone && bytes > kMostBytes) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+      if (entry.path().filename() != kLockName) fs::remove_all(entry.path());
+  }
+}
+
+void KernelCache::seal() noexcept {
+  try {
+    Manifest old = read_manifest(), now;
+    for (const fs::path& file : files_in(folder_)) {
+      if (!is_listed(file) || file.filename().string().rfind("tempfile_", 0) == 0) continue;
+      const std::string name = file.generic_string();
+      const auto entry = old.find(name);
+      // What is listed stays as listed: a file that changed since is found out by the next check.
+      now[name] = entry != old.end() ? entry->second : Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
+    }
+    std::string text = std::string(kManifestHead) + "\n";
+    for (const auto& [name, entry] : now) text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
+    write_file_atomically((folder_ / kManifestName).string(), text);
+  } catch (const std::exception&) {
+    // The next process finds files that nobody listed and compiles them again.
+  }
+}
+
+namespace {
+
+/// The process's folder, and how it came about.
+struct ProcessCache {
+  KernelCacheStatus status;
+  std::unique_ptr<KernelCache> cache;
+
+  ProcessCache();
+  ~ProcessCache();
+
+ private:
+  bool open(const fs::path& folder);
+  void open_temporary();
+};
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// The usual folder; empty when the environment names no place for caches.
+fs::path usual_folder() {
+  const std::string given = environment("POCL_CACHE_DIR");
+  // A child inherits what its parent has set: one of our folders is taken as it is.
+  if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName)) return given;
+  if (!given.empty()) return fs::path(given) / "navvy" / "kernels";
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return fs::path(xdg) / "navvy" / "kernels";
+  if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache/navvy/kernels";
+  return {};
+}
+
+bool ProcessCache::open(const fs::path& folder) {
+  try {
+    cache = std::make_unique<KernelCache>(folder);
+  } catch (const std::exception& error) {
+    status.trouble += (status.trouble.empty() ? "" : "; ") + std::string(error.what());
+    return false;
+  }
+  status.folder = folder.string();
+  return true;
+}
+
+void ProcessCache::open_temporary() {
+  std::vector<std::string> places = {environment("TMPDIR"), "/tmp", "/var/tmp", "/dev/shm"};
+  for (const std::string& place : places) {
+    if (place.empty()) continue;
+    std::string name = place + "/navvy-kernels-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) {
+      status.trouble += "; " + place + ": " + std::strerror(errno);
+      continue;
+    }
+    status.temporary = true;
+    if (open(name)) return;
+    std::error_code ignored;
+    fs::remove_all(name, ignored);
+    status.temporary = false;
+  }
+}
+
+ProcessCache::ProcessCache() {
+  const fs::path folder = usual_folder();
+  if (folder.empty()) status.trouble = "neither POCL_CACHE_DIR, XDG_CACHE_HOME nor HOME is set";
+  if (folder.empty() || !open(folder)) open_temporary();
+  if (status.folder.empty()) {
+    log_warning("no folder can be written for compiled kernels (" + status.trouble +
+                "): set POCL_CACHE_DIR to one that can");
+    return;
+  }
+  if (status.temporary) log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
+  if (!status.temporary && cache->removed() > 0) {
+    status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " + status.folder +
+                     " were damaged or left over from a killed run: they are compiled again";
+    log_info(status.trouble);
+  }
+  ::setenv("POCL_CACHE_DIR", status.folder.c_str(), 1);
+}
+
+ProcessCache::~ProcessCache() {
+  cache.reset();
+  std::error_code ignored;
+  if (status.temporary) fs::remove_all(status.folder, ignored);
+}
+
+ProcessCache& process_cache() {
+  static ProcessCache cache;
+  return cache;
+}
+
+}  // namespace
+
+const KernelCacheStatus& prepare_kernel_cache() { return process_cache().status; }
+
+void seal_kernel_cache() noexcept {
+  if (process_cache().cache) process_cache().cache->seal();
+}
+
+}  // namespace navvy::device

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says what a long wait is for.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace navvy::device {
+
+/// While it lives, a thread waits beside the caller; after `seconds` it hands `text` to the log, once. For calls into a
+/// driver that may compile for minutes without a word. The end of its life ends the thread and waits for it.
+class SlowCall {
+ public:
+  explicit SlowCall(std::string text, double seconds = kPatience);
+  ~SlowCall();
+  SlowCall(const SlowCall&) = delete;
+  SlowCall& operator=(const SlowCall&) = delete;
+
+  static constexpr double kPatience = 15;  ///< [s]; all our kernels take PoCL 2 to 10 s
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace navvy::device

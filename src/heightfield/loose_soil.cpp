@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/loose_soil.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace navvy::heightfield {
+namespace {
+
+constexpr double kGap = 2.0;  // [cells] what hangs farther above the surface is in the air
+
+}  // namespace
+
+LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
+  // Soil beyond the site's edge has no column to lie on.
+  std::erase_if(grains, [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
+  std::sort(grains.begin(), grains.end(), [](const LooseGrain& a, const LooseGrain& b) {
+    return std::tie(a.iy, a.ix, a.z) < std::tie(b.iy, b.ix, b.z);
+  });
+  const double area = columns.cell() * columns.cell(), gap = kGap * columns.cell();
+  for (std::size_t i = 0; i < grains.size();) {
+    const LooseGrain& first = grains[i];
+    // One column: from its resting surface up.
+    const double bottom = columns.height(first.ix, first.iy);
+    Column column{first.ix, first.iy, bottom, 0, 0, 1};
+    for (; i < grains.size() && grains[i].ix == first.ix && grains[i].iy == first.iy; ++i) {
+      if (!(grains[i].z < column.top + gap)) continue;
+      column.top += grains[i].volume / area;
+      column.soil = grains[i].soil;
+      column.specific_volume = grains[i].specific_volume;
+    }
+    column.depth = column.top - bottom;
+    // Where all of it is in the air, one sees the column.
+    if (column.depth > 0) columns_.push_back(column);
+  }
+}
+
+}  // namespace navvy::heightfield

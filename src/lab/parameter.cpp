@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/parameter.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace navvy::lab {
+namespace {
+
+/// The words of the choices as a sentence has them: "plane or round", "a, b or c".
+std::string joined(const std::vector<Choice>& choices) {
+  std::string out;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i].word;
+  return out;
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  // Infinite limits alone would let infinity pass.
+  if (!std::isfinite(value) || (whole && value != std::round(value))) return false;
+  const bool high_enough = open_least ? value > least : value >= least;
+  const bool low_enough = open_most ? value < most : value <= most;
+  return high_enough && low_enough;
+}
+
+std::string Range::text() const {
+  const bool from = std::isfinite(least), to = std::isfinite(most);
+  // A count says so first: most ranges are of lengths.
+  const std::string kind = whole ? "a whole number, " : "";
+  // Both ends closed is the common case and has the shortest form; anything else is said in words.
+  if (from && to && !open_least && !open_most) return kind + short_text(least) + " .. " + short_text(most);
+  std::string out;
+  if (from) out = (open_least ? "above " : "at least ") + short_text(least);
+  if (to) out += (from ? " and " : "") + std::string(open_most ? "below " : "at most ") + short_text(most);
+  if (out.empty()) return whole ? "a whole number" : "a finite number";
+  return kind + out;
+}
+
+Range any() { return {}; }
+
+// These five are all that rigs need; a half-open range is made by setting its flags.
+Range above(double least) {
+  Range out;
+  out.least = least;
+  out.open_least = true;
+  return out;
+}
+
+Range at_least(double least) {
+  Range out;
+  out.least = least;
+  return out;
+}
+
+Range between(double least, double most) {
+  Range out;
+  out.least = least;
+  out.most = most;
+  return out;
+}
+
+Range count_from(int least) {
+  Range out = at_least(least);
+  out.whole = true;
+  return out;
+}
+
+bool Parameter::allows(double wanted) const {
+  // Choices are numbers of their own, with nothing between them.
+  if (choices.empty()) return range.contains(wanted);
+  for (const Choice& choice : choices)
+    if (choice.number == wanted) return true;
+  return false;
+}
+
+std::string Parameter::rule() const {
+  if (!choices.empty()) return joined(choices);
+  // The unit closes the rule, so that an error needs no look at the help.
+  return range.text() + (unit.empty() ? "" : " " + unit);
+}
+
+std::string Parameter::text(double wanted) const {
+  for (const Choice& choice : choices)
+    if (choice.number == wanted) return choice.word;
+  return short_text(wanted);
+}
+
+std::optional<double> Parameter::read(const std::string& written) const {
+  for (const Choice& choice : choices)
+    if (choice.word == written) return choice.number;
+  // from_chars takes no leading '+', which people write before angles and travels that may be negative.
+  const char* begin = written.data() + (written.rfind('+', 0) == 0 ? 1 : 0);
+  const char* end = written.data() + written.size();
+  double number = 0;
+  const auto [stop, failed] = std::from_chars(begin, end, number);
+  if (failed != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+Parameter choice(const std::string& name, const std::string& word, const std::string& help,
+                 const std::vector<Choice>& choices) {
+  // The default is given by its word: no rig then counts on the order of its choices.
+  Parameter out{name, 0, "", help, any(), choices};
+  for (const Choice& one : choices) {
+    if (one.word != word) continue;
+    out.value = one.number;
+    return out;
+  }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, name, word, out.rule(), "the default must be a choice"});
+}
+
+Parameter yes_no(const std::string& name, bool value, const std::string& yes, const std::string& no) {
+  // Kept as 1 and 0 in the setup and in result files.
+  return choice(name, value ? "yes" : "no", "", {{"yes", 1, yes}, {"no", 0, no}});
+}
+
+std::string short_text(double value) {
+  char buffer[32];
+  // Five digits are more than any rig measures and fit every value into a column.
+  std::snprintf(buffer, sizeof buffer, "%.5g", value);
+  return buffer;
+}
+
+}  // namespace navvy::lab

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report.h"
+
+#include <cmath>
+
+namespace navvy::lab {
+
+bool Quantity::has_gate() const { return !std::isnan(low) || !std::isnan(high); }
+
+bool Quantity::missed() const {
+  if (!has_gate()) return false;
+  // Written so that a measured NaN misses.
+  const bool above = std::isnan(low) || measured >= low, below = std::isnan(high) || measured <= high;
+  return !(above && below) || std::isnan(measured);
+}
+
+void Report::add(const std::string& name, double measured, const std::string& unit, double expected, double low,
+                 double high, const std::string& source) {
+  // Order of adding is order of printing.
+  results.push_back({name, measured, unit, expected, low, high, source});
+}
+
+void Report::note(const std::string& name, double measured, const std::string& unit, const std::string& source) {
+  results.push_back({name, measured, unit, kNone, kNone, kNone, source});
+}
+
+const Quantity* Report::find(const std::string& name) const {
+  // A dozen results: a search by name costs nothing and keeps their order.
+  for (const Quantity& quantity : results)
+    if (quantity.name == name) return &quantity;
+  return nullptr;
+}
+
+}  // namespace navvy::lab

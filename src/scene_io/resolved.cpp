@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/resolved.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <vector>
+
+#include "core/hash.h"
+#include "scene_io/fields.h"
+#include "scene_io/loader.h"
+#include "scene_io/mesh_path.h"
+#include "scene_io/soil_reader.h"
+
+namespace navvy::scene_io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kScheme = "model://";
+constexpr std::size_t kHashedMost = std::size_t{64}
+                                    << 20;  // [bytes]: maps may hold gigabytes of which a run reads a corner
+
+std::string absolute(const std::string& path) {
+  std::error_code failed;
+  const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
+  return failed ? path : full.string();
+}
+
+/// model://NAME/... of a file below a vehicles/ directory, so that the text goes to other machines; else `path`.
+std::string portable(const std::string& path) {
+  for (const std::string& directory : data_directories()) {
+    const std::string vehicles = absolute(directory + "/vehicles") + "/";
+    if (path.compare(0, vehicles.size(), vehicles) == 0) return kScheme + path.substr(vehicles.size());
+  }
+  return path;
+}
+
+/// The file behind a name that `portable` gave; empty when there is none.
+std::string file_behind(const std::string& name) {
+  if (name.rfind(kScheme, 0) == 0) return find_data("vehicles/" + name.substr(std::strlen(kScheme)));
+  std::error_code ignored;
+  return fs::exists(name, ignored) ? name : "";
+}
+
+/// Of a file's size and first kHashedMost bytes [hex].
+std::string hash_of(const std::string& path) {
+  std::error_code failed;
+  StateHash hash;
+  hash.value(static_cast<std::uint64_t>(fs::file_size(path, failed)));
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> chunk(1 << 20);
+  for (std::size_t read = 0; read < kHashedMost && stream; read += chunk.size()) {
+    stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    hash.bytes(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return hash.hex();
+}
+
+std::string shortest(double value) {
+  char text[40];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return std::string(text, result.ptr);
+}
+
+/// Every element of `parent`, however deep, in the order of the file.
+template <class Visit>
+void visit_all(Element& parent, const Visit& visit) {
+  for (Element* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    visit(*child);
+    visit_all(*child, visit);
+  }
+}
+
+bool is_called(const tinyxml2::XMLNode* node, const char* name) {
+  return node != nullptr && node->ToElement() != nullptr && std::strcmp(node->Value(), name) == 0;
+}
+
+/// Writes one scene out. Keeps the list of files that stay outside.
+class Resolver {
+ public:
+  explicit Resolver(Element& world) : world_(world) {}
+
+  void soil(Element& element, const scene::Soil& read);
+  void ground(const scene::World& world);
+  void include(Element& element);
+  /// Names the meshes of machines; `model` still belongs to the file that their paths count from.
+  void meshes(Element& model);
+  void list_files();
+
+ private:
+  void keep(Element& element, const std::string& path) {
+    const std::string name = portable(path);
+    files_[name] = hash_of(path);
+    element.SetText(name.c_str());
+  }
+
+  Element& world_;
+  Faults none_;                               ///< the readers have reported what there was to report
+  std::map<std::string, std::string> files_;  ///< hash by name
+};
+
+void Resolver::soil(Element& element, const scene::Soil& read) {
+  const std::string ref = attribute(element, "ref");
+  if (ref.empty()) return;
+  const auto document = Document::open(soil_file(element, ref), none_);
+  Element* base = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
+  if (base == nullptr) return;
+  // Strength is given by one of two elements, and the scene's own replaces either.
+  const bool own_strength =
+      element.FirstChildElement("friction_angle_deg") || element.FirstChildElement("repose_angle_deg");
+  for (Element* value = base->FirstChildElement(); value != nullptr; value = value->NextSiblingElement()) {
+    const bool strength = is_called(value, "friction_angle_deg") || is_called(value, "repose_angle_deg");
+    if (element.FirstChildElement(value->Name()) != nullptr || (strength && own_strength)) continue;
+    element.InsertEndChild(value->DeepClone(element.GetDocument()));
+  }
+  // A residual cohesion that nobody stated was derived from both files: it is written as it came out.
+  if (Element* old = element.FirstChildElement("residual_cohesion_pa")) element.DeleteChild(old);
+  element.InsertNewChildElement("residual_cohesion_pa")->SetText(shortest(read.residual_cohesion).c_str());
+  element.DeleteAttribute("ref");
+  element.SetAttribute("name", read.name.c_str());
+}
+
+void Resolver::ground(const scene::World& world) {
+  Element* ground = world_.FirstChildElement("navvy:ground");
+  Element* file = ground != nullptr ? ground->FirstChildElement("file") : nullptr;
+  // The reader has worked out whether the name counted from the scene or from the working directory.
+  if (file != nullptr && !world.ground.file.empty()) keep(*file, absolute(world.ground.file));
+}
+
+void Resolver::meshes(Element& model) {
+  visit_all(model, [&](Element& element) {
+    const bool of_geometry = is_called(&element, "uri") && is_called(element.Parent(), "mesh");
+    const bool of_shell = is_called(&element, "mesh") && is_called(element.Parent(), "navvy:shell");
+    std::string path;
+    if ((of_geometry || of_shell) && resolve_mesh(element, path, none_)) keep(element, path);
+  });
+}
+
+void Resolver::include(Element& element) {
+  Element* uri = element.FirstChildElement("uri");
+  std::string path;
+  if (uri == nullptr || !resolve_model(*uri, path, none_)) return;
+  const auto document = Document::open(path, none_);
+  Element* model = document ? document->root()->FirstChildElement("model") : nullptr;
+  if (model == nullptr) return;
+  // SDF of another version cannot stand in this file: such a machine stays outside, with its hash.
+  const Element& root = *element.GetDocument()->RootElement();
+  if (attribute(*document->root(), "version") != attribute(root, "version")) return keep(*uri, absolute(path));
+  meshes(*model);
+  Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
+  if (element.FirstChildElement("name")) inlined.SetAttribute("name", child_text(element, "name").c_str());
+  // The place in the world is the including scene's alone.
+  while (Element* pose = inlined.FirstChildElement("pose")) inlined.DeleteChild(pose);
+  for (const Element* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    if (is_called(child, "uri") || is_called(child, "name")) continue;
+    if (is_called(child, "static")) {
+      // Saying false here does not free a machine that its own file holds.
+      if (text_of(*child) != "true" && text_of(*child) != "1") continue;
+      while (Element* own = inlined.FirstChildElement("static")) inlined.DeleteChild(own);
+    }
+    inlined.InsertEndChild(child->DeepClone(element.GetDocument()));
+  }
+  world_.InsertAfterChild(&element, &inlined);
+  world_.DeleteChild(&element);
+}
+
+void Resolver::list_files() {
+  Element& list = *world_.InsertNewChildElement("navvy:resolved");
+  list.SetAttribute("format", kResolvedFormat);
+  for (const auto& [name, hash] : files_) {
+    Element& file = *list.InsertNewChildElement("file");
+    file.SetAttribute("hash", hash.c_str());
+    file.SetText(name.c_str());
+  }
+}
+
+}  // namespace
+
+std::string resolved_text(Document& document, const scene::World& world) {
+  Element& root = *document.root()->FirstChildElement("world");
+  // A scene that was resolved before gets its list anew.
+  while (Element* old = root.FirstChildElement("navvy:resolved")) root.DeleteChild(old);
+  Resolver resolver(root);
+  std::size_t soil = 0;
+  for (Element* e = root.FirstChildElement("navvy:soil"); e != nullptr; e = e->NextSiblingElement("navvy:soil"))
+    resolver.soil(*e, world.soils.at(soil++));
+  resolver.ground(world);
+  for (Element* e = root.FirstChildElement("model"); e != nullptr; e = e->NextSiblingElement("model"))
+    resolver.meshes(*e);
+  for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
+    Element* next = e->NextSiblingElement("include");
+    resolver.include(*e);
+    e = next;
+  }
+  resolver.list_files();
+  return document.text();
+}
+
+void check_resolved(Document& document, Faults& faults) {
+  Element* world = document.root()->FirstChildElement("world");
+  Element* list = world != nullptr ? world->FirstChildElement("navvy:resolved") : nullptr;
+  if (list == nullptr) return;
+  const std::string format = attribute(*list, "format");
+  if (format != std::to_string(kResolvedFormat)) {
+    faults.error(*list, format, "this version reads format " + std::to_string(kResolvedFormat),
+                 "use the version of Navvy that wrote it");
+    return;
+  }
+  Fields(*list, faults)
+      .attribute("format")
+      .each("file",
+            [&](Element& file) {
+              // One that is gone is reported where it is used.
+              const std::string path = file_behind(text_of(file));
+              if (!path.empty() && hash_of(path) != attribute(file, "hash"))
+                faults.warning(file, text_of(file), "this file has changed since the run",
+                               "results may differ from the run's");
+            })
+      .finish();
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// A world with its operators and samplers as one thing that steps, ends, saves and hashes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "sim/world.h"
+
+namespace navvy::session {
+
+/// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket.
+/// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
+struct Cycle {
+  int machine = 0;  ///< as in scene::World::machines
+  double start = 0, lift_out = 0, dump_start = 0, end = 0;
+  double payload_lift_out = 0, payload_dump = 0;
+  double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
+};
+
+/// One tip of a machine's bed; times [s] simulated, masses [kg].
+struct BedTip {
+  int machine = 0;
+  double start = 0, end = 0;
+  double payload_start = 0, payload_end = 0;  ///< in the bed
+};
+
+/// Soil force on buckets over all steps in contact.
+/// Beds do not count: what lies in them is a load.
+struct ForceStatistics {
+  double peak = 0;  ///< of the low-passed force [N]
+  double sum = 0;   ///< of |force| x steps in contact
+  std::uint64_t steps = 0;
+  double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
+  double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
+  double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
+};
+
+/// A world and the operators that run the programs of its scene. A client of World like any other.
+///
+/// A machine with a program is driven by its operator until an input of it is set here; from then on it is driven by
+/// inputs alone, for good. Machines without a program are driven by inputs from the start. Not thread-safe.
+class Session {
+ public:
+  /// @throws InputError listing every target of a program that is out of reach, before anything moves;
+  /// device::DeviceError for the device.
+  Session(scene::World description, device::Device& device);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Operators decide, then the world takes one base step and its samplers look. @throws SimulationError.
+  void step();
+  /// True when every program has ended and the settling time has passed, or the scene's duration is over.
+  /// A machine taken by inputs keeps the run from ending by its program.
+  bool done() const;
+
+  /// Read only: what drives it goes through this session.
+  const sim::World& world() const;
+  /// As World's functions of the same names. The first of them that reaches a machine with a program takes the machine
+  /// from it: its joints stop, its drive brakes, then the value holds. @throws InputError as World's.
+  void set(int input, double value);
+  void set(const std::string& input, double value);
+  void command(const sim::JointHandle& joint, const vehicle::JointInput& input);
+  void command(const sim::MachineHandle& machine, const vehicle::DriveInput& input);
+  /// Adds a sensor or a map; it looks at the world at once and then at its rate. @throws InputError as World::add.
+  void add(std::unique_ptr<sim::Sampler> sampler);
+
+  /// As the driver names it.
+  const std::string& device_name() const;
+  /// What the operator of this machine is at (control::Operator::phase); "idle" for a machine without a program,
+  /// "inputs" once it was taken from it.
+  std::string phase(int machine) const;
+  /// Closed ones, in the order in which they ended.
+  const std::vector<Cycle>& cycles() const;
+  const std::vector<BedTip>& tips() const;
+  const ForceStatistics& force() const;
+  double energy() const;        ///< work of all machines' drives and cylinders [J]
+  double control_time() const;  ///< wall time [s]
+
+  std::string state_hash() const;  ///< hex; of the world and the operators
+  /// World::hash_parts, then the operators.
+  std::vector<std::pair<std::string, std::string>> hash_parts() const;
+  void save(StateWriter& writer) const;
+  /// Into a session of the same scene with the same samplers. @throws InputError when the snapshot does not fit.
+  void load(StateReader& reader);
+  /// Snapshot to and from a file; atomic. @throws FileError, InputError.
+  void save(const std::string& path) const;
+  void load(const std::string& path);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace navvy::session

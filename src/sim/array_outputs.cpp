@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/array_outputs.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "sim/names.h"
+
+namespace navvy::sim {
+namespace {
+
+// Names as numpy has them, so that bindings and files need no table of their own.
+constexpr struct {
+  const char* name;
+  std::size_t size;
+} kTypes[] = {{"uint8", 1}, {"uint16", 2}, {"int32", 4}, {"float32", 4}, {"float64", 8}};  // as ElementType counts
+
+const auto kName = [](const ArrayChannel& channel) -> const std::string& { return channel.name; };
+
+}  // namespace
+
+std::size_t size_of(ElementType type) { return kTypes[static_cast<std::size_t>(type)].size; }
+const char* name_of(ElementType type) { return kTypes[static_cast<std::size_t>(type)].name; }
+
+/// A negative or missing length makes no elements, which `add` refuses.
+std::size_t ArrayChannel::count() const {
+  std::size_t out = shape.empty() ? 0 : 1;
+  for (const int length : shape) out *= length > 0 ? static_cast<std::size_t>(length) : 0;
+  return out;
+}
+
+std::string ArrayChannel::type_text() const {
+  std::string out = name_of(type);
+  for (std::size_t i = 0; i < shape.size(); ++i) out += (i == 0 ? "[" : ",") + std::to_string(shape[i]);
+  return out + "]";
+}
+
+/// Elements are never converted behind a reader's back: a float scan read as double would be another scan.
+void ArrayView::require(ElementType type) const {
+  if (type == channel_->type) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, channel_->name, name_of(type),
+                         std::string("its elements are ") + name_of(channel_->type), "read it as that type"});
+}
+
+/// A handful of arrays: a list in order is enough, and its order is that of the snapshot.
+int ArrayOutputs::find(const std::string& name) const {
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+int ArrayOutputs::index(const std::string& name) const { return index_of("array", channels_, name, kName); }
+
+/// Pointers into the lists: valid until an array is added or the next value published.
+ArrayView ArrayOutputs::view(int array) const {
+  // A wrong index is a client's slip and told like a wrong name.
+  require_index("array", array, channels_.size());
+  const auto i = static_cast<std::size_t>(array);
+  ArrayView out;
+  out.channel_ = &channels_[i];
+  out.X_WF_ = &values_[i].X_WF;
+  out.bytes_ = values_[i].bytes;
+  out.sequence_ = values_[i].sequence;
+  out.time_ = values_[i].time;
+  return out;
+}
+
+int ArrayOutputs::add(ArrayChannel channel) {
+  // Refused when it is declared, which is before the first step.
+  const auto refuse = [&](const std::string& value, const std::string& rule, const std::string& remedy) {
+    throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, value, rule, remedy});
+  };
+  // An array without elements is a slip: it would look published and show nothing.
+  if (channel.count() == 0) refuse(channel.type_text(), "an array needs a shape with elements", "give it lengths > 0");
+  if (find(channel.name) >= 0) refuse(channel.name, "there is already an array of this name", "name it otherwise");
+  Value value;
+  // Zeros until the first value; the storage is never moved again, so readers may keep its address.
+  value.bytes.resize(channel.count() * size_of(channel.type));
+  channels_.push_back(std::move(channel));
+  values_.push_back(std::move(value));
+  return static_cast<int>(channels_.size()) - 1;
+}
+
+std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X_WF) {
+  require_index("array", array, channels_.size());
+  Value& value = values_[static_cast<std::size_t>(array)];
+  // Stamped before it is filled: the caller writes in place, which saves a copy of every image.
+  ++value.sequence;
+  value.time = time;
+  value.X_WF = X_WF;
+  return value.bytes;
+}
+
+// What a reader can see is state: an operator may act on the scan that lay there when the snapshot was taken.
+void ArrayOutputs::hash(StateHash& hash) const {
+  for (const Value& value : values_) {
+    // The stamp too: an old scan in new clothes would be another state.
+    hash.value(value.sequence);
+    hash.value(value.time);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 4; ++c) hash.value(value.X_WF.matrix()(r, c));
+    hash.bytes(value.bytes.data(), value.bytes.size());
+  }
+}
+
+void ArrayOutputs::save(StateWriter& writer) const {
+  writer.value(static_cast<std::uint64_t>(channels_.size()));
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    // Names go along, to tell a snapshot of other samplers from one of these.
+    writer.text(channels_[i].name);
+    writer.value(values_[i].sequence);
+    writer.value(values_[i].time);
+    writer.pose(values_[i].X_WF);
+    writer.vector(values_[i].bytes);
+  }
+}
+
+void ArrayOutputs::load(StateReader& reader) {
+  const auto require = [](bool fits, const std::string& name) {
+    if (fits) return;
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "arrays", name,
+                           "the snapshot has other arrays than the world", "add the same samplers, then load"});
+  };
+  // As many arrays, under the same names, in the same order.
+  require(reader.value<std::uint64_t>() == channels_.size(), "");
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const std::string name = reader.text();
+    require(name == channels_[i].name, name);
+    values_[i].sequence = reader.value<std::uint64_t>();
+    values_[i].time = reader.value<double>();
+    values_[i].X_WF = reader.pose();
+    std::vector<std::byte> bytes = reader.vector<std::byte>();
+    // The shape may have changed under the same name.
+    require(bytes.size() == values_[i].bytes.size(), name);
+    values_[i].bytes = std::move(bytes);
+  }
+}
+
+}  // namespace navvy::sim

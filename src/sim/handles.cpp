@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/handles.h"
+
+#include <utility>
+
+#include "sim/names.h"
+#include "sim/world_parts.h"
+
+namespace navvy::sim {
+namespace {
+
+/// Entry `index` of what a machine's file lists; every handle looks through here, so no index is ever unchecked.
+template <class Entry>
+const Entry* entry(const std::string& kind, const std::vector<Entry>& list, int index) {
+  require_index(kind, index, list.size());
+  return &list[static_cast<std::size_t>(index)];
+}
+
+// Links, joints and shells alike are looked up by their name.
+const auto kName = [](const auto& part) -> const std::string& { return part.name; };
+
+}  // namespace
+
+// Each reading asks the engine anew: nothing is kept that a step or a loaded snapshot could make stale.
+const std::string& LinkHandle::name() const { return link_->name; }
+Pose LinkHandle::pose() const { return state().X_WL; }
+// Of the link's origin; a point elsewhere moves with w x r on top.
+Vec3 LinkHandle::velocity() const { return state().v_WL; }
+Vec3 LinkHandle::angular_velocity() const { return state().w_WL; }
+// Engines answer by value from what they hold; no memory is taken.
+vehicle::LinkState LinkHandle::state() const { return engine_->link(body_, index_); }
+
+// A joint's state is worked out by the engine on each call; who needs several of its values asks for state() once.
+const std::string& JointHandle::name() const { return joint_->name; }
+// One number each; they cost what state() costs.
+double JointHandle::position() const { return state().position; }
+double JointHandle::velocity() const { return state().velocity; }
+double JointHandle::effort() const { return state().effort; }
+vehicle::JointState JointHandle::state() const { return engine_->joint(body_, index_); }
+
+// A wheel has no name of its own; its spin joint's is what telemetry shows, too.
+const std::string& WheelHandle::name() const { return wheel_->joint; }
+vehicle::WheelState WheelHandle::state() const { return engine_->wheel(body_, index_); }
+
+namespace {
+
+// The list of tools is made with the world and never changes its order, so an index into it is for life.
+const coupling::ToolLoad& load(const WorldParts& parts, int tool) {
+  return parts.coupling.tools()[static_cast<std::size_t>(tool)];
+}
+// What a tool is for stands in its machine's data: the exchange does not tell buckets from blades.
+const scene::Machine& machine_of(const WorldParts& parts, const coupling::ToolLoad& tool) {
+  return parts.description.machines[static_cast<std::size_t>(tool.machine)].machine;
+}
+
+}  // namespace
+
+const std::string& ToolHandle::name() const {
+  const coupling::ToolLoad& tool = load(*parts_, tool_);
+  return machine_of(*parts_, tool).shells[static_cast<std::size_t>(tool.shell)].name;
+}
+int ToolHandle::machine() const { return load(*parts_, tool_).machine; }
+bool ToolHandle::is_bucket() const {
+  const coupling::ToolLoad& tool = load(*parts_, tool_);
+  return machine_of(*parts_, tool).is_bucket(tool.shell);
+}
+bool ToolHandle::is_bed() const {
+  const coupling::ToolLoad& tool = load(*parts_, tool_);
+  return machine_of(*parts_, tool).is_bed(tool.shell);
+}
+// These stand in the exchange since the last step; only the payload is worked out when asked.
+Vec3 ToolHandle::force() const { return load(*parts_, tool_).force_W; }
+Vec3 ToolHandle::moment() const { return load(*parts_, tool_).moment_W; }
+Vec3 ToolHandle::smooth_force() const { return load(*parts_, tool_).smooth_W; }
+Vec3 ToolHandle::rock_force() const { return load(*parts_, tool_).rock_W; }
+// The exchange knows the other tools: what a bucket holds inside a bed is the bucket's.
+double ToolHandle::payload() const { return parts_->coupling.payload(load(*parts_, tool_)); }
+// Copied into sim's own type, so that no client sees the solver's.
+MomentumBalance ToolHandle::momentum_balance() const {
+  const soil::ToolImpulse& impulse = load(*parts_, tool_).impulse;
+  return {impulse.residual, impulse.residual_moment, impulse.scale, impulse.scale_moment};
+}
+
+const std::string& MachineHandle::name() const {
+  return parts_->description.machines[static_cast<std::size_t>(machine_)].name;
+}
+const scene::Machine& MachineHandle::description() const {
+  return parts_->description.machines[static_cast<std::size_t>(machine_)].machine;
+}
+
+// Names become indices, indices are checked, then the handle keeps all it needs to read without a look-up.
+LinkHandle MachineHandle::link(const std::string& name) const {
+  return link(index_of("link", description().links, name, kName));
+}
+LinkHandle MachineHandle::link(int index) const {
+  LinkHandle out;
+  out.link_ = entry("link", description().links, index);
+  // The engine that has this machine, and the machine's index there: it may differ from the world's.
+  out.engine_ = &parts_->coupling.engine(machine_);
+  out.body_ = parts_->coupling.index(machine_);
+  out.index_ = index;
+  return out;
+}
+
+JointHandle MachineHandle::joint(const std::string& name) const {
+  return joint(index_of("joint", description().joints, name, kName));
+}
+// A joint also keeps its machine of the world, by which commands find their way.
+JointHandle MachineHandle::joint(int index) const {
+  JointHandle out;
+  out.joint_ = entry("joint", description().joints, index);
+  out.engine_ = &parts_->coupling.engine(machine_);
+  out.machine_ = machine_;
+  out.body_ = parts_->coupling.index(machine_);
+  out.index_ = index;
+  return out;
+}
+
+// Wheels by the name of their spin joint.
+WheelHandle MachineHandle::wheel(const std::string& name) const {
+  return wheel(index_of("wheel", description().wheels, name,
+                        [](const scene::Wheel& wheel) -> const std::string& { return wheel.joint; }));
+}
+WheelHandle MachineHandle::wheel(int index) const {
+  WheelHandle out;
+  out.wheel_ = entry("wheel", description().wheels, index);
+  out.engine_ = &parts_->coupling.engine(machine_);
+  out.body_ = parts_->coupling.index(machine_);
+  out.index_ = index;
+  return out;
+}
+
+// Shells of a machine are its tools, and go by the shell's name.
+ToolHandle MachineHandle::tool(const std::string& name) const {
+  return tool(index_of("tool", description().shells, name, kName));
+}
+ToolHandle MachineHandle::tool(int index) const {
+  require_index("tool", index, description().shells.size());
+  const std::vector<coupling::ToolLoad>& tools = parts_->coupling.tools();
+  ToolHandle out;
+  out.parts_ = parts_;
+  // Every shell was made a tool, so this finds one.
+  while (out.tool_ + 1 < static_cast<int>(tools.size())) {
+    const coupling::ToolLoad& tool = load(*parts_, ++out.tool_);
+    if (tool.machine == machine_ && tool.shell == index) break;
+  }
+  return out;
+}
+
+// What belongs to the machine as a whole.
+vehicle::PumpState MachineHandle::pump() const {
+  return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
+}
+vehicle::DriveInput MachineHandle::drive() const {
+  return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
+}
+double MachineHandle::work() const { return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_)); }
+
+}  // namespace navvy::sim

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sampler.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "sim/names.h"
+
+namespace navvy::sim {
+namespace {
+
+constexpr double kHair = 1e-9;  // time = steps x dt is rounded: a period counts as over this share of it early
+
+}  // namespace
+
+// Scalars and arrays share one name space, so that a client may look a name up without knowing which of them it is.
+void Publisher::require_new(const std::string& name) const {
+  if (outputs_.find(name) < 0 && arrays_.find(name) < 0) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "output", name, "there is already an output of this name",
+                         "put the sampler's own name before it"});
+}
+
+/// The declared type is what readers in other languages were told.
+void Publisher::require(int array, ElementType type) const {
+  const ArrayChannel& channel = arrays_.view(array).channel();
+  if (channel.type == type) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, name_of(type),
+                         std::string("it was declared as ") + name_of(channel.type), "fill it with that type"});
+}
+
+int Publisher::declare(Channel channel) {
+  require_new(channel.name);
+  // The output reads through a pointer: each number has an address that a growing list does not move.
+  numbers_.push_back(std::make_unique<double>(0.0));
+  outputs_.add(std::move(channel), [value = numbers_.back().get()] { return *value; });
+  return static_cast<int>(numbers_.size()) - 1;
+}
+
+int Publisher::declare(ArrayChannel channel) {
+  require_new(channel.name);
+  // The rate is the sampler's, whatever the channel said.
+  channel.rate = rate_;
+  return arrays_.add(std::move(channel));
+}
+
+// For hash and snapshot; arrays are saved with all others.
+std::vector<double> Publisher::numbers() const {
+  std::vector<double> out;
+  for (const auto& number : numbers_) out.push_back(*number);
+  return out;
+}
+
+/// Into the same declarations: their count is all that can differ, as the sampler's name was compared before.
+void Publisher::restore(const std::vector<double>& numbers) {
+  if (numbers.size() != numbers_.size())
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", std::to_string(numbers.size()),
+                           "the snapshot has a sampler with another number of outputs",
+                           "add the same samplers, then load"});
+  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers_[i] = numbers[i];
+}
+
+SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays)
+    : sampler_(std::move(sampler)),
+      // Name and rate are asked once: a sampler that changed them would change what its channels say.
+      name_(sampler_->name()),
+      rate_(sampler_->rate()),
+      publisher_(outputs, arrays, rate_) {
+  if (!std::isfinite(rate_) || rate_ < 0)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, name_, std::to_string(rate_),
+                           "samples per second must be a number not below 0", "0 samples after every step"});
+  sampler_->declare(publisher_);
+}
+
+bool SamplerSlot::due(double before, double time) const {
+  // Counted from the start of time and not from the last sample: a resumed run samples at the same steps.
+  return rate_ == 0 || std::floor(time * rate_ + kHair) > std::floor(before * rate_ + kHair);
+}
+
+void SamplerSlot::sample(const World& world, double time) {
+  // The world's time, so that all samples of one step carry the same stamp.
+  publisher_.stamp(time);
+  sampler_->sample(world, publisher_);
+}
+
+/// Numbers first: a sampler without state of its own still has what it published.
+void SamplerSlot::hash(StateHash& hash) const {
+  for (const double number : publisher_.numbers()) hash.value(number);
+  sampler_->hash(hash);
+}
+
+/// Under the sampler's name, by which a load finds out that it meets another one.
+void SamplerSlot::save_numbers(StateWriter& writer) const {
+  writer.text(name_);
+  writer.vector(publisher_.numbers());
+}
+
+void SamplerSlot::load_numbers(StateReader& reader) {
+  const std::string name = reader.text();
+  if (name != name_)
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", name,
+                           "the snapshot has another sampler here, the world has '" + name_ + "'",
+                           "add the same samplers in the same order, then load"});
+  publisher_.restore(reader.vector<double>());
+}
+
+}  // namespace navvy::sim

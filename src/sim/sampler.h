@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What looks at a world after a step and publishes what it saw: sensors, maps. The world knows them by this interface
+// only; a new one is a class of its own and `world.add(...)`, and nothing else changes.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/math.h"
+#include "core/state_io.h"
+#include "sim/array_outputs.h"
+#include "sim/channels.h"
+
+namespace navvy::sim {
+
+class World;
+
+/// One sampler's way to the outputs of its world. Channels are declared once; each sample then sets them.
+class Publisher {
+ public:
+  /// Both lists must outlive it. `rate` [1/s] is written into every array's channel.
+  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate) : outputs_(outputs), arrays_(arrays), rate_(rate) {}
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+
+  /// A new scalar output of the world, 0 until set; telemetry records it as any other. Returns the number to set it by.
+  /// @throws InputError when the name is in use.
+  int declare(Channel channel);
+  /// A new array. Returns the number to fill it by. @throws InputError when the name is in use or the shape is empty.
+  int declare(ArrayChannel channel);
+
+  /// The value that the output shows from now on. `number` from declare; std::out_of_range for another.
+  void set(int number, double value) { *numbers_.at(static_cast<std::size_t>(number)) = value; }
+  /// Storage of the array's next value, stamped with the time of this sample: fill all of it before `sample` returns.
+  /// `X_WF` is where its frame is now. @throws InputError when T is not the array's type.
+  template <class T>
+  std::span<T> fill(int array, const Pose& X_WF = Pose::Identity()) {
+    require(array, element_type<T>());
+    const std::span<std::byte> bytes = arrays_.publish(array, time_, X_WF);
+    return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+
+  /// Time of the sample that is being taken [s]; set by the world.
+  void stamp(double time) { time_ = time; }
+  /// All numbers in the order of their declaration, for hash and snapshot; `restore` takes as many. @throws
+  /// InputError.
+  std::vector<double> numbers() const;
+  void restore(const std::vector<double>& numbers);
+
+ private:
+  void require_new(const std::string& name) const;
+  void require(int array, ElementType type) const;
+
+  Outputs& outputs_;
+  ArrayOutputs& arrays_;
+  double rate_;
+  double time_ = 0;
+  std::vector<std::unique_ptr<double>> numbers_;  ///< each at an address of its own that the output reads
+};
+
+/// A sensor, a map, a measuring instrument. Its handles and channel indices are looked up once, in its constructor or
+/// in declare, and read in sample.
+/// Reads the world, changes nothing of it.
+///
+/// Deterministic: what it publishes is a function of the world and of its own state, which it hashes and saves (a
+/// random generator, a delay line); a resumed run then goes on to the same bits.
+class Sampler {
+ public:
+  virtual ~Sampler() = default;
+  /// For messages and snapshots; unique in its world.
+  virtual std::string name() const = 0;
+  /// Samples per second of simulated time; 0: after every step. Asked once.
+  virtual double rate() const = 0;
+  /// Called once, when it is added.
+  virtual void declare(Publisher& out) = 0;
+  /// Called when it is added and after each step in which a sample fell due.
+  virtual void sample(const World& world, Publisher& out) = 0;
+  /// Only for a state of its own; what it published is hashed and saved by the world. `save` writes whole sections.
+  virtual void hash(StateHash& hash) const { (void)hash; }
+  virtual void save(StateWriter& writer) const { (void)writer; }
+  virtual void load(StateReader& reader) { (void)reader; }
+};
+
+/// Owned by the world; clients see World::add and the outputs.
+/// A sampler in its world.
+class SamplerSlot {
+ public:
+  /// Declares the sampler's channels. @throws InputError for a rate that is not finite or below 0, or a name in use.
+  SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays);
+
+  const std::string& name() const { return name_; }
+  /// True when a multiple of the period lies after `before` and not after `time` [s].
+  bool due(double before, double time) const;
+  /// Takes a sample stamped `time` [s].
+  void sample(const World& world, double time);
+  /// The numbers it published, and its own state.
+  void hash(StateHash& hash) const;
+  void save_numbers(StateWriter& writer) const;
+  void load_numbers(StateReader& reader);
+  /// The sampler itself, for its own sections of a snapshot.
+  Sampler& sampler() { return *sampler_; }
+  const Sampler& sampler() const { return *sampler_; }
+
+ private:
+  std::unique_ptr<Sampler> sampler_;
+  std::string name_;
+  double rate_;
+  Publisher publisher_;
+};
+
+}  // namespace navvy::sim

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a snapshot can be read without running the world it is of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/state_io.h"
+#include "heightfield/ground.h"
+#include "scene/world.h"
+
+namespace navvy::sim {
+
+/// The first section of a world's snapshot.
+struct SnapshotHead {
+  std::string scene;        ///< name of the scene it is of
+  double dt = 0;            ///< base step [s]
+  std::uint64_t steps = 0;  ///< time [s] is steps x dt
+};
+
+void save_head(StateWriter& writer, const SnapshotHead& head);
+/// @throws InputError when the snapshot is of a scene with another name, or of a version that is not known here.
+SnapshotHead load_head(StateReader& reader, const scene::World& scene);
+
+/// The ground as it lay when the snapshot was taken: columns alone, without the soil that was awake. `scene` is the one
+/// that ran (a run's folder holds it as scene.sdf). Needs no OpenCL device; reads a heightmap that the scene names.
+/// `head` receives the time of the snapshot when it is given.
+/// @throws FileError when the file cannot be read, InputError when it does not fit the scene; the message names it.
+heightfield::Ground load_ground(const scene::World& scene, const std::string& snapshot_file,
+                                SnapshotHead* head = nullptr);
+
+}  // namespace navvy::sim

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/world_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "heightfield/site.h"
+
+namespace navvy::sim {
+namespace {
+
+constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
+
+/// The site; what was found in a terrain file goes to the log.
+heightfield::Ground make_site(const scene::World& world) {
+  // A map may have gaps or an odd datum: worth a line to the user, no fault.
+  std::string report;
+  heightfield::Ground ground = heightfield::make_ground(world, &report);
+  if (!report.empty()) log_info(report);
+  return ground;
+}
+
+}  // namespace
+
+/// In the order of the members: ground under machines, engines and soil under the exchange that binds them.
+WorldParts::WorldParts(scene::World world, device::Device& device)
+    : description(std::move(world)),
+      ground(make_site(description)),
+      dynamic(vehicle::make_bullet_engine(description.gravity)),
+      kinematic(vehicle::make_kinematic_engine()),
+      soil(device, description, ground),
+      coupling(description, *dynamic, *kinematic, soil, ground) {
+  // The step of everything is what waves in the stiffest soil and the fastest tool allow.
+  dt = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
+                           "the base step must be positive and finite",
+                           "check cell, courant and the soils' stiffness"});
+  // Soil that starts awake before loads are filled in: beds stand where machines stand now.
+  for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+  for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
+}
+
+void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
+  const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
+  // Only the first bed is loaded; buckets start empty.
+  if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
+  // Filled where the bed is: a dumper on a slope starts with its load against the low side.
+  const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
+  try {
+    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
+  } catch (const InputError& error) {
+    // The solver knows no file: the message gets the place in the scene that asked for the load.
+    Fault fault = error.faults().front();
+    fault.file = description.file;
+    fault.element = "include[" + placed.name + "]/" + fault.element;
+    throw InputError(fault);
+  }
+}
+
+void WorldParts::wake(const scene::AwakeSoil& awake) {
+  // Rounded to whole columns, and cut at the site's edge.
+  const auto cell = [&](double metres, double from, int cells) {
+    return static_cast<int>(std::clamp(std::round((metres - from) / ground.cell()), 0.0, static_cast<double>(cells)));
+  };
+  const Vec2 from = ground.origin();
+  soil.wake({cell(awake.min.x(), from.x(), ground.nx()), cell(awake.min.y(), from.y(), ground.ny()),
+             cell(awake.max.x(), from.x(), ground.nx()), cell(awake.max.y(), from.y(), ground.ny())},
+            awake.bottom);
+}
+
+}  // namespace navvy::sim

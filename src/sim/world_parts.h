@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a world is made of: solver, engines and the exchange between them. For sim's own sources and for tests that
+// measure inside; a style test keeps this header out of the clients in src/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "coupling/coupling.h"
+#include "heightfield/ground.h"
+#include "scene/world.h"
+#include "sim/array_outputs.h"
+#include "sim/channels.h"
+#include "sim/sampler.h"
+#include "soil/solver.h"
+#include "vehicle/engine.h"
+
+namespace navvy::device {
+class Device;
+}
+
+namespace navvy::sim {
+
+// The façade that owns the parts.
+class World;
+
+/// The parts in the order in which they are built: each refers to those above it, so it is neither copied nor moved.
+struct WorldParts {
+  /// Lays the ground, places the machines on it, wakes and loads the soil that the scene says.
+  /// @throws InputError for what cannot be built, device::DeviceError for the device.
+  WorldParts(scene::World world, device::Device& device);
+  WorldParts(const WorldParts&) = delete;
+  WorldParts& operator=(const WorldParts&) = delete;
+
+  double time() const { return static_cast<double>(steps) * dt; }  ///< [s]
+
+  /// What was asked for.
+  scene::World description;
+  heightfield::Ground ground;
+  /// Machines with masses, and machines that move as told.
+  std::unique_ptr<vehicle::Engine> dynamic, kinematic;
+  /// The particles, which change `ground` as they wake and rest.
+  soil::Solver soil;
+  /// Steps the four above; knows which engine has which machine.
+  coupling::Coupling coupling;
+  /// What clients see: numbers to set and to read, arrays to read.
+  Inputs inputs;
+  Outputs outputs;
+  ArrayOutputs arrays;
+  /// In the order in which they were added, which is that of sampling, hash and snapshot.
+  std::vector<std::unique_ptr<SamplerSlot>> samplers;
+  double dt = 0;  ///< base step [s]
+  std::uint64_t steps = 0;
+
+ private:
+  /// Puts the load that the scene gives this machine into its bed.
+  void fill_bed(const coupling::ToolLoad& tool);
+  /// Turns a rectangle of the ground into particles.
+  void wake(const scene::AwakeSoil& awake);
+};
+
+/// The parts of a world: `parts(world).soil.particles()`.
+WorldParts& parts(World& world);
+const WorldParts& parts(const World& world);
+
+}  // namespace navvy::sim

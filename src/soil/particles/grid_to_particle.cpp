@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/grid_to_particle.h"
+
+#include <algorithm>
+
+#include "soil/particles/buffers.h"
+#include "soil/particles/schedule.h"
+#include "soil/particles/soil_table.h"
+
+namespace navvy::soil {
+
+GridToParticle::GridToParticle(device::Device& device)
+    : device_(device),
+      program_(device, kernel_path(device, "grid_to_particle")),
+      kernel_(program_, "grid_to_particle") {}
+
+void GridToParticle::set_blocks(const BlockTable& table) { upload(device_, neighbours_, table.neighbours); }
+
+void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
+                             device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt,
+                             double cell) {
+  // Closing takes a share of the excess a step, never more than all of it.
+  kernel_
+      .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
+            near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),
+            static_cast<float>(packed_mass(store.densest(), cell)),
+            static_cast<float>(std::min(1.0, dt / closing_time())))
+      .enqueue_groups(store.homes().size());
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gather of node velocities to particles, which move.
+#pragma once
+
+#include <cstdint>
+
+#include "device/buffer.h"
+#include "device/program.h"
+#include "soil/particles/near_nodes.h"
+#include "soil/particles/particle_store.h"
+
+namespace navvy::soil {
+
+/// The kernel of kernels/soil/*/grid_to_particle.cl.
+class GridToParticle {
+ public:
+  explicit GridToParticle(device::Device& device);
+
+  /// Takes over which active blocks lie around each home.
+  void set_blocks(const BlockTable& table);
+  /// Queues gather and motion of a step of dt [s]. `velocity`: GridUpdate::velocity; `used`: ParticleToGrid::used.
+  /// Writes Report.speed of every home.
+  void enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
+               device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double cell);
+
+ private:
+  device::Device& device_;
+  device::Program program_;
+  device::Kernel kernel_;
+  device::Buffer<std::int32_t> neighbours_;  ///< 27 active indices per home
+};
+
+}  // namespace navvy::soil

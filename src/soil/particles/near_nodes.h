@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of node data that exist only in active blocks near shells.
+#pragma once
+
+#include <cstdint>
+
+#include "device/buffer.h"
+#include "soil/layout.h"
+
+namespace navvy::soil {
+
+/// What transfer and contact hand each other, BLOCK_NODES per near active block unless said.
+struct NearNodes {
+  int count = 0;                           ///< near active blocks
+  device::Buffer<std::int32_t> list;       ///< their active indices, ascending (the host)
+  device::Buffer<std::int32_t> slot;       ///< per active block: index into the near arrays or -1 (the host)
+  device::Buffer<std::int32_t> split;      ///< 0, 1 in front, 2 behind (shell_nodes)
+  device::Buffer<float> before0, before1;  ///< float4 per node: v after gravity [m/s], m [kg] (grid_update_near)
+  device::Buffer<Surface> surface;         ///< mean by mass of the homes around (grid_update_near)
+  device::Buffer<float> velocity1;         ///< float4: what particles behind a shell feel (contact_apply)
+};
+
+}  // namespace navvy::soil

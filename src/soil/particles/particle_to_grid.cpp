@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/particle_to_grid.h"
+
+#include <algorithm>
+#include <string>
+
+#include "soil/particles/buffers.h"
+#include "soil/particles/schedule.h"
+#include "soil/particles/soil_table.h"
+
+namespace navvy::soil {
+
+ParticleToGrid::ParticleToGrid(device::Device& device, bool extended_law)
+    : device_(device),
+      program_(device, kernel_path(device, "particle_to_grid"),
+               extended_law ? std::vector{device::define("LAW_EXTENDED", 1)} : std::vector<std::string>{}),
+      kernel_(program_, "particle_to_grid") {}
+
+// Contents are rewritten by every scatter, so room is all they need.
+void ParticleToGrid::set_blocks(std::size_t homes, int tiles) {
+  ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
+  ensure(device_, used_, homes);
+}
+
+void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell) {
+  // Mixing goes a share of the way a step, never past the mean.
+  kernel_
+      .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report,
+            static_cast<float>(dt), static_cast<float>(cell), static_cast<float>(std::min(1.0, dt / mixing_time())))
+      .enqueue_groups(store.homes().size());
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/tools/shell.h"
+
+#include <utility>
+
+#include "soil/particles/buffers.h"
+#include "soil/particles/schedule.h"
+
+namespace navvy::soil {
+
+ShellQuery::ShellQuery(device::Device& device)
+    : device_(device),
+      program_(device, kernel_path(device, "shell")),
+      nodes_kernel_(program_, "shell_nodes"),
+      particles_kernel_(program_, "shell_particles") {}
+
+// Rows are as many as near blocks and homes, and one more entry ends the last.
+void ShellQuery::set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
+                          const std::vector<std::int32_t>& near_homes) {
+  near_homes_ = near_homes.size();
+  upload(device_, block_first_, of_blocks.first);
+  upload(device_, block_triangles_, of_blocks.triangles);
+  upload(device_, home_first_, of_homes.first);
+  upload(device_, home_triangles_, of_homes.triangles);
+  upload(device_, home_list_, near_homes);
+  const std::size_t nodes = (of_blocks.first.size() - 1) * BLOCK_NODES;
+  ensure(device_, node_tool_, nodes);
+  ensure(device_, node_shell_, nodes);
+}
+
+void ShellQuery::set_tools(ToolShells shells) {
+  // The step before has been waited for: nobody reads the old values any more.
+  now_ = std::move(shells);
+  const auto send = [&](auto& buffer, const auto& values) {
+    ensure(device_, buffer, values.size());
+    buffer.write_later(values);
+  };
+  send(triangles_, now_.triangles);
+  send(rims_, now_.rims);
+  send(tools_, now_.tools);
+}
+
+void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
+  const auto band_f = static_cast<float>(band);
+  // Neither kernel reads what the other writes; both see the poses of this step.
+  nodes_kernel_
+      .args(near.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(now_.rims.size()), tools_,
+            block_first_, block_triangles_, band_f, near.split, node_tool_, node_shell_)
+      .enqueue_groups(static_cast<std::size_t>(near.count));
+  // Particles may be near a shell although no node of their own block is.
+  particles_kernel_
+      .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_, tools_,
+            home_first_, home_triangles_, band_f, static_cast<float>(longest_push), transfer.report())
+      .enqueue_groups(near_homes_);
+}
+
+}  // namespace navvy::soil

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a machine is told and what it answers, as plain values. No engine is named here: clients of a world include this
+// header and no other of the vehicle room.
+#pragma once
+
+#include "core/math.h"
+
+namespace navvy::vehicle {
+
+enum class JointMode { kFree, kPosition, kVelocity, kEffort };
+
+/// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
+/// cylinder acts on the joint, by its pressure x area x lever arm, its flow and its share of the pump's.
+struct JointInput {
+  JointMode mode = JointMode::kPosition;
+  double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
+};
+
+/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering. The brake also locks an
+/// oscillating axle; without it the axle swings freely.
+struct DriveInput {
+  double speed = 0;   ///< forward [m/s]
+  double steer = 0;   ///< bicycle angle at the middle of the front axle, positive to the left [rad]
+  bool brake = true;  ///< hold the place
+};
+
+struct JointState {
+  double position = 0, velocity = 0, effort = 0;  ///< effort as applied by the servo in the last step
+  double effort_limit = 0, velocity_limit = 0;    ///< at this position
+  double cylinder_force = 0;                      ///< [N], 0 where no cylinder acts; positive pushes
+  double cylinder_length = 0;                     ///< [m]
+  bool stalled = false;                           ///< at the effort limit and not moving as told
+};
+
+/// The pump of a machine's cylinders.
+struct PumpState {
+  double flow = 0;      ///< oil that the cylinders took in the last step [m3/s]
+  double pressure = 0;  ///< of the heaviest load it moves, smoothed [Pa]
+};
+
+struct LinkState {
+  Pose X_WL = Pose::Identity();
+  Vec3 v_WL = Vec3::Zero();  ///< of L's origin [m/s]
+  Vec3 w_WL = Vec3::Zero();  ///< [rad/s]
+};
+
+struct WheelState {
+  Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre
+  Vec3 v_W = Vec3::Zero();           ///< of the centre [m/s]
+  double spin = 0;                   ///< [rad/s], positive rolls forward (+x)
+  double steer = 0;                  ///< [rad]
+  Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step [N]
+  double slip = 0;                   ///< longitudinal [-]
+  double sinkage = 0;                ///< [m]
+};
+
+}  // namespace navvy::vehicle

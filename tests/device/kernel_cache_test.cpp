@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/kernel_cache.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "device/device.h"
+#include "device/program.h"
+#include "device/slow_call.h"
+#include "folder.h"
+#include "process.h"
+
+namespace navvy::device {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Two compiled programs as PoCL lays them out, listed by a cache that has gone.
+void fill(const fs::path& folder) {
+  const KernelCache cache(folder);
+  for (const char* program : {"AB/one", "CD/two"}) {
+    write(folder / program / "program.bc", "bitcode");
+    write(folder / program / "add/1-1-1/add.so", "machine code");
+    write(folder / program / "last_accessed", "now");
+  }
+}
+
+TEST(KernelCache, KeepsWhatIsAsItWasListed) {
+  const test::Folder folder;
+  fill(folder.path());
+  write(folder.path() / "AB/one/last_accessed", "later");  // the driver's own stamp is no sign of damage
+  const KernelCache cache(folder.path());
+  EXPECT_EQ(cache.whole(), 4u);
+  EXPECT_EQ(cache.removed(), 0u);
+}
+
+TEST(KernelCache, RemovesTheWholeProgramOfAFileThatChanged) {
+  for (const char* change : {"machine", "Machine code", "machine code and more", ""}) {
+    const test::Folder folder;
+    fill(folder.path());
+    write(folder.path() / "AB/one/add/1-1-1/add.so", change);
+    const KernelCache cache(folder.path());
+    EXPECT_EQ(cache.removed(), 2u) << change;
+    EXPECT_FALSE(fs::exists(folder.path() / "AB/one")) << change;
+    EXPECT_TRUE(fs::exists(folder.path() / "CD/two/add/1-1-1/add.so")) << change;
+  }
+}
+
+TEST(KernelCache, RemovesAProgramThatLostAFile) {
+  const test::Folder folder;
+  fill(folder.path());
+  fs::remove(folder.path() / "CD/two/program.bc");
+  const KernelCache cache(folder.path());
+  EXPECT_EQ(cache.whole(), 2u);
+  EXPECT_FALSE(fs::exists(folder.path() / "CD/two"));
+}
+
+TEST(KernelCache, RemovesWhatAKilledProcessLeftWhenAloneOnly) {
+  const test::Folder folder;
+  fill(folder.path());
+  {
+    const KernelCache neighbour(folder.path());
+    write(folder.path() / "EF/three/program.bc", "of the neighbour");
+    const KernelCache cache(folder.path());
+    EXPECT_EQ(cache.removed(), 0u) << "a neighbour may have compiled it just now";
+  }
+  write(folder.path() / "GH/four/program.bc", "nobody's");
+  write(folder.path() / "tempfile_a1b2", "half");
+  const KernelCache cache(folder.path());
+  EXPECT_EQ(cache.whole(), 5u) << "two programs of two files, and the neighbour's";
+  EXPECT_EQ(cache.removed(), 2u);
+  EXPECT_FALSE(fs::exists(folder.path() / "GH/four"));
+  EXPECT_FALSE(fs::exists(folder.path() / "tempfile_a1b2"));
+}
+
+TEST(KernelCache, ADamagedListOnlyCostsCompiling) {
+  const test::Folder folder;
+  fill(folder.path());
+  const fs::path manifest = folder.path() / "navvy.manifest";
+  const std::string whole = text_of(manifest);
+  for (const std::string& text :
+       {std::string(), std::string("another layout\n"), whole.substr(0, whole.size() / 2), std::string(1000, '\xff')}) {
+    fill(folder.path());
+    write(manifest, text);
+    EXPECT_NO_THROW(KernelCache{folder.path()}) << text;
+  }
+}
+
+TEST(KernelCache, RefusesAFolderThatCannotBeMade) {
+  const test::Folder folder;
+  write(folder.path() / "file", "in the way");
+  EXPECT_THROW(KernelCache{folder.path() / "file" / "cache"}, FileError);
+}
+
+/// This program again, in a process of its own: one kernel built and run, its cache below `cache`.
+int run_one_kernel(const std::string& cache, const std::string& log) {
+  test::Command command{fs::read_symlink("/proc/self/exe").string(),
+                        {"--gtest_filter=Sizes/VectorAdd.*/3:Device.ListsItselfUnderItsIndex"},
+                        {{"POCL_CACHE_DIR", cache}},
+                        "/dev/null",
+                        log,
+                        log + ".err"};
+  return test::wait_for(test::start(command));
+}
+
+TEST(KernelCacheOfTheDriver, TruncatedMachineCodeIsCompiledAgainInsteadOfCrashing) {
+  const test::Folder folder;
+  const std::string cache = folder / "cache";
+  ASSERT_EQ(run_one_kernel(cache, folder / "first"), 0);
+  std::vector<fs::path> code;
+  for (const auto& entry : fs::recursive_directory_iterator(cache))
+    if (entry.path().extension() == ".so") code.push_back(entry.path());
+  if (code.empty()) GTEST_SKIP() << "this device keeps no machine code as files";
+  for (const fs::path& file : code) fs::resize_file(file, fs::file_size(file) / 2);
+  EXPECT_EQ(run_one_kernel(cache, folder / "second"), 0);
+  for (const fs::path& file : code) write(file, "");
+  EXPECT_EQ(run_one_kernel(cache, folder / "third"), 0);
+  EXPECT_EQ(run_one_kernel(cache, folder / "fourth"), 0);
+}
+
+TEST(KernelCacheOfTheDriver, AFolderThatCannotBeMadeIsReplacedByATemporaryOne) {
+  const test::Folder folder;
+  write(folder.path() / "file", "in the way");
+  EXPECT_EQ(run_one_kernel((folder.path() / "file").string(), folder / "log"), 0);
+}
+
+TEST(SlowCall, SpeaksOnlyAfterItsTime) {
+  std::vector<std::string> said;
+  set_log_sink([&](LogLevel, const std::string& text) { said.push_back(text); });
+  { const SlowCall quick("quick", 1000); }
+  {
+    const SlowCall slow("slow", 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  set_log_sink({});
+  EXPECT_EQ(said, std::vector<std::string>{"slow"});
+}
+
+}  // namespace
+}  // namespace navvy::device

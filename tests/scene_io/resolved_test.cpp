@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene written out as one text reads as the same scene.
+#include "scene_io/resolved.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/file.h"
+#include "folder.h"
+#include "scene/soil_values.h"
+#include "scene_io/loader.h"
+
+namespace navvy::scene_io {
+namespace {
+
+const std::string kShipped = std::string(NAVVY_SOURCE_DIR) + "/scenarios";
+/// No file of this folder exists: nothing in the text may count from where it lies.
+const std::string kElsewhere = "/no_such_folder/scene.sdf";
+
+void expect_equal(const scene::Machine& a, const scene::Machine& b) {
+  EXPECT_EQ(a.kinematic, b.kinematic);
+  EXPECT_EQ(a.fixed_base, b.fixed_base);
+  ASSERT_EQ(a.links.size(), b.links.size());
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    EXPECT_EQ(a.links[i].name, b.links[i].name);
+    EXPECT_EQ(a.links[i].X_ML.matrix(), b.links[i].X_ML.matrix());
+    EXPECT_EQ(a.links[i].mass, b.links[i].mass);
+    EXPECT_EQ(a.links[i].inertia, b.links[i].inertia);
+    ASSERT_EQ(a.links[i].visuals.size(), b.links[i].visuals.size());
+    for (std::size_t v = 0; v < a.links[i].visuals.size(); ++v)
+      EXPECT_EQ(a.links[i].visuals[v].geometry.mesh_file, b.links[i].visuals[v].geometry.mesh_file);
+  }
+  ASSERT_EQ(a.joints.size(), b.joints.size());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) EXPECT_EQ(a.joints[i].initial, b.joints[i].initial);
+  ASSERT_EQ(a.shells.size(), b.shells.size());
+  for (std::size_t i = 0; i < a.shells.size(); ++i) EXPECT_EQ(a.shells[i].vertices, b.shells[i].vertices);
+  EXPECT_EQ(a.cylinders.size(), b.cylinders.size());
+  EXPECT_EQ(a.wheels.size(), b.wheels.size());
+  EXPECT_EQ(a.beds.size(), b.beds.size());
+  EXPECT_EQ(a.has_pump, b.has_pump);
+}
+
+void expect_equal(const scene::World& a, const scene::World& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.solver.cell, b.solver.cell);
+  ASSERT_EQ(a.soils.size(), b.soils.size());
+  for (std::size_t i = 0; i < a.soils.size(); ++i) {
+    EXPECT_EQ(a.soils[i].name, b.soils[i].name);
+    EXPECT_EQ(a.soils[i].source, b.soils[i].source);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(a.soils[i].color[c], b.soils[i].color[c]);
+    for (const scene::SoilValue& value : scene::soil_values())
+      EXPECT_EQ(a.soils[i].*value.value, b.soils[i].*value.value) << a.soils[i].name << " " << value.name;
+  }
+  EXPECT_EQ(a.ground.size, b.ground.size);
+  EXPECT_EQ(a.ground.origin, b.ground.origin);
+  EXPECT_EQ(a.ground.layers.size(), b.ground.layers.size());
+  EXPECT_EQ(a.ground.features.size(), b.ground.features.size());
+  ASSERT_EQ(a.machines.size(), b.machines.size());
+  for (std::size_t i = 0; i < a.machines.size(); ++i) {
+    EXPECT_EQ(a.machines[i].name, b.machines[i].name);
+    EXPECT_EQ(a.machines[i].X_WM.matrix(), b.machines[i].X_WM.matrix());
+    EXPECT_EQ(a.machines[i].on_ground, b.machines[i].on_ground);
+    EXPECT_EQ(a.machines[i].load.mass, b.machines[i].load.mass);
+    EXPECT_EQ(a.machines[i].program.steps.size(), b.machines[i].program.steps.size());
+    expect_equal(a.machines[i].machine, b.machines[i].machine);
+  }
+  EXPECT_EQ(a.cameras.size(), b.cameras.size());
+  EXPECT_EQ(a.lights.size(), b.lights.size());
+  EXPECT_EQ(a.recording.duration, b.recording.duration);
+  EXPECT_EQ(a.recording.render, b.recording.render);
+}
+
+Overrides with(const std::vector<std::string>& settings) {
+  Overrides overrides;
+  for (const std::string& setting : settings) overrides.set.push_back(parse_setting(setting));
+  return overrides;
+}
+
+TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
+    if (entry.path().extension() != ".sdf") continue;
+    SCOPED_TRACE(entry.path());
+    std::string text, again;
+    const scene::World world = load_world(entry.path().string(), {}, &text);
+    const scene::World resolved = load_world_from_string(text, kElsewhere, {}, &again);
+    expect_equal(world, resolved);
+    EXPECT_EQ(text, again) << "written out once more it is the same text";
+    EXPECT_EQ(text.find("<include>"), std::string::npos);
+    EXPECT_EQ(text.find(" ref=\""), std::string::npos);
+    EXPECT_EQ(text.find(NAVVY_SOURCE_DIR "/vehicles"), std::string::npos) << "shipped files go by model://";
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 5);
+}
+
+TEST(Resolved, TextHoldsEveryOverride) {
+  Overrides overrides = with({"soil.cohesion_pa=3000", "solver.cell_m=0.2", "machine[excavator].x_m=-8.5",
+                              "machine[excavator].program.dig.depth_m=0.6"});
+  overrides.seed = 77;
+  overrides.duration = 12.5;
+  overrides.render = false;
+  overrides.size = Vec2(26, 22);
+  std::string text;
+  const scene::World world = load_world(kShipped + "/trench.sdf", overrides, &text);
+  const scene::World resolved = load_world_from_string(text, kElsewhere);
+  expect_equal(world, resolved);
+  EXPECT_EQ(resolved.seed, 77u);
+  EXPECT_EQ(resolved.recording.duration, 12.5);
+  EXPECT_EQ(resolved.soils[0].cohesion, 3000);
+  // Not stated by anyone: it followed the cohesion down.
+  EXPECT_EQ(resolved.soils[0].residual_cohesion, world.soils[0].residual_cohesion);
+  EXPECT_EQ(resolved.machines[0].X_WM.translation().x(), -8.5);
+}
+
+TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
+  const test::Folder folder;
+  write_file_atomically(folder / "map.asc", std::string("not read before the ground is laid"));
+  Overrides overrides;
+  overrides.terrain = std::filesystem::relative(folder / "map.asc").string();
+  std::string text;
+  const scene::World world = load_world(kShipped + "/trench.sdf", overrides, &text);
+  const scene::World resolved = load_world_from_string(text, kElsewhere);
+  EXPECT_TRUE(std::filesystem::equivalent(world.ground.file, resolved.ground.file));
+  EXPECT_TRUE(std::filesystem::path(resolved.ground.file).is_absolute());
+}
+
+TEST(Resolved, AFileThatChangedSinceIsTold) {
+  const test::Folder folder;
+  std::filesystem::copy(NAVVY_SOURCE_DIR "/vehicles/test_bucket", folder.path() / "mine",
+                        std::filesystem::copy_options::recursive);
+  std::string text;
+  load_world_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+      <navvy:ground><size_m>8 8</size_m></navvy:ground>
+      <include><uri>mine</uri><navvy:on_ground>false</navvy:on_ground></include></world></sdf>)",
+                         folder / "scene.sdf", {}, &text);
+  write_file_atomically(folder / "resolved.sdf", text);
+  EXPECT_TRUE(check(folder / "resolved.sdf").empty());
+  const std::vector<char> mesh = read_file(folder / "mine/meshes/bucket.obj");
+  write_file_atomically(folder / "mine/meshes/bucket.obj", std::string(mesh.begin(), mesh.end()) + "# more\n");
+  const std::vector<Fault> faults = check(folder / "resolved.sdf");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].severity, Fault::Severity::kWarning);
+  EXPECT_NE(faults[0].text().find("bucket.obj"), std::string::npos) << faults[0].text();
+}
+
+TEST(Resolved, AFormatOfALaterVersionIsRefused) {
+  const std::string text = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+      <navvy:ground><size_m>8 8</size_m></navvy:ground><navvy:resolved format="2"/></world></sdf>)";
+  try {
+    load_world_from_string(text, kElsewhere);
+    FAIL() << "a later format was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("reads format 1"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace navvy::scene_io

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "device/device.h"
+#include "sim/height_grid.h"
+#include "sim/scenes.h"
+#include "sim/world_channels.h"
+
+namespace navvy::sim {
+namespace {
+
+using testing::HeightGrid;
+
+constexpr int kNodes = 9;
+constexpr double kSpacing = 0.5, kRate = 50;
+
+class SamplerTest : public ::testing::Test {
+ protected:
+  /// The trench's excavator, rolling over its yard.
+  std::unique_ptr<World> rolling(bool with_grid = true) {
+    auto world = std::make_unique<World>(testing::load("trench.sdf"), device_);
+    if (with_grid) world->add(grid(*world));
+    world->command(world->machine(0), {1.0, 0, false});
+    return world;
+  }
+  static std::unique_ptr<Sampler> grid(const World& world) {
+    return std::make_unique<HeightGrid>(world.machine(0), kNodes, kSpacing, kRate);
+  }
+  static void run_to(World& world, double time) {
+    while (world.time() < time) world.step();
+  }
+  device::Device device_;
+};
+
+TEST_F(SamplerTest, LooksAtOnceAndThenAtItsRate) {
+  const auto world = rolling();
+  const int grid = world->arrays().index("excavator/height_grid");
+  EXPECT_EQ(world->arrays().view(grid).sequence(), 1u);
+  EXPECT_EQ(world->arrays().view(grid).time(), 0);
+  run_to(*world, 0.21);
+  const ArrayView view = world->arrays().view(grid);
+  EXPECT_EQ(view.sequence(), 1u + 10u);  // at 0 and after each of ten periods of 20 ms
+  // Taken after the first step that reached the period's end.
+  EXPECT_GE(view.time(), 0.2 - 1e-9);
+  EXPECT_LT(view.time(), 0.2 + world->dt());
+}
+
+TEST_F(SamplerTest, PublishesTheGroundUnderTheMachineInItsFrame) {
+  const auto world = rolling();
+  run_to(*world, 0.1);
+  const ArrayView view = world->arrays().view("excavator/height_grid");
+  EXPECT_EQ(view.channel().unit, "m");
+  EXPECT_EQ(view.channel().rate, kRate);
+  EXPECT_EQ(view.channel().type_text(), "float32[9,9]");
+  const std::span<const float> values = view.values<float>();
+  ASSERT_EQ(values.size(), static_cast<std::size_t>(kNodes * kNodes));
+  EXPECT_GT(view.X_WF().translation().x(), -9);  // it rolls
+  for (const int row : {0, 4, 8}) {
+    const Vec3 p_W = view.X_WF() * Vec3(kSpacing * (2 - 4), kSpacing * (row - 4), 0);
+    // Wheels press ruts meanwhile: as deep as they get in a tenth of a second.
+    EXPECT_NEAR(values[static_cast<std::size_t>(row * kNodes + 2)],
+                world->ground().sample(p_W.x(), p_W.y()) - view.X_WF().translation().z(), 0.02);
+  }
+  EXPECT_EQ(world->get("excavator/height_grid/samples"), static_cast<double>(view.sequence()));
+  EXPECT_LE(world->get("excavator/height_grid/lowest"), static_cast<double>(values[0]) + 1e-6);
+}
+
+TEST_F(SamplerTest, IsReadInPlace) {
+  const auto world = rolling();
+  const std::byte* storage = world->arrays().view("excavator/height_grid").bytes().data();
+  const std::uint64_t first = world->arrays().view(0).sequence();
+  run_to(*world, 0.05);
+  EXPECT_EQ(world->arrays().view(0).bytes().data(), storage);
+  EXPECT_GT(world->arrays().view(0).sequence(), first);
+}
+
+TEST_F(SamplerTest, ChangesNothingOfTheWorldItLooksAt) {
+  const auto watched = rolling(), alone = rolling(false);
+  run_to(*watched, 0.1);
+  run_to(*alone, 0.1);
+  const auto with = watched->hash_parts(), without = alone->hash_parts();
+  ASSERT_GT(with.size(), without.size());
+  for (std::size_t i = 0; i < without.size(); ++i) EXPECT_EQ(with[i], without[i]);
+}
+
+TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
+  const auto whole = rolling();
+  run_to(*whole, 0.05);
+  StateWriter writer;
+  whole->save(writer);
+  run_to(*whole, 0.1);
+  const auto resumed = rolling();
+  StateReader reader(writer.bytes());
+  resumed->load(reader);
+  EXPECT_GT(resumed->arrays().view(0).sequence(), 1u);
+  run_to(*resumed, 0.1);
+  EXPECT_EQ(resumed->state_hash(), whole->state_hash());
+  EXPECT_EQ(resumed->get("excavator/height_grid/samples"), whole->get("excavator/height_grid/samples"));
+  const auto blind = rolling(false);
+  StateReader again(writer.bytes());
+  EXPECT_THROW(blind->load(again), InputError);
+}
+
+TEST_F(SamplerTest, NamesAreUniqueAndAWrongOneGetsTheNearest) {
+  const auto world = rolling();
+  EXPECT_THROW(world->add(grid(*world)), InputError);
+  try {
+    world->arrays().view("excavator/hight_grid");
+    FAIL() << "an unknown array was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("excavator/height_grid"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(world->arrays().view(0).values<double>(), InputError);
+  EXPECT_THROW(world->arrays().view(7), InputError);
+}
+
+TEST_F(SamplerTest, StandsInTheListOfChannels) {
+  const auto world = rolling();
+  const std::string list = channel_list(*world);
+  EXPECT_NE(list.find("arrays:"), std::string::npos);
+  EXPECT_NE(list.find("excavator/height_grid "), std::string::npos) << list;
+  EXPECT_NE(list.find("float32[9,9] in excavator/height_grid, 50 Hz"), std::string::npos) << list;
+  EXPECT_NE(list.find("excavator/height_grid/lowest"), std::string::npos) << list;
+  EXPECT_EQ(channel_list(*rolling(false)).find("arrays:"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace navvy::sim

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shipped scenes without their programs: a world knows no operator.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_io/loader.h"
+
+namespace navvy::sim::testing {
+
+inline scene::World load(const std::string& name, const std::vector<std::string>& settings = {}) {
+  scene_io::Overrides overrides;
+  overrides.render = false;
+  for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+}
+
+}  // namespace navvy::sim::testing

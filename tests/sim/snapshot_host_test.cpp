@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be read of a snapshot on a machine without OpenCL: this program has the label host and asks for no device.
+#include "sim/snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "folder.h"
+#include "heightfield/site.h"
+#include "sim/scenes.h"
+
+namespace navvy::sim {
+namespace {
+
+std::string hash_of(const heightfield::Ground& ground) {
+  StateHash hash;
+  ground.hash(hash);
+  return hash.hex();
+}
+
+/// A snapshot as a world writes it, up to and with its ground; `dug` has a hole.
+void write(const std::string& path, const scene::World& scene, const heightfield::Ground& dug) {
+  StateWriter writer;
+  save_head(writer, {scene.name, 0.001, 250});
+  dug.save(writer);
+  write_file_atomically(path, writer.bytes());
+}
+
+TEST(Snapshot, GivesItsGroundWithoutADevice) {
+  const test::Folder folder;
+  const scene::World scene = testing::load("bucket_path.sdf");
+  heightfield::Ground dug = heightfield::make_ground(scene);
+  std::vector<heightfield::Layer> taken;
+  dug.take_above(20, 20, dug.height(20, 20) - 0.3, taken);
+  write(folder / "dug.snapshot", scene, dug);
+  SnapshotHead head;
+  const heightfield::Ground loaded = load_ground(scene, folder / "dug.snapshot", &head);
+  EXPECT_EQ(hash_of(loaded), hash_of(dug));
+  EXPECT_EQ(loaded.height(20, 20), dug.height(20, 20));
+  EXPECT_EQ(head.steps, 250u);
+  EXPECT_EQ(head.dt, 0.001);
+}
+
+TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
+  const test::Folder folder;
+  const scene::World scene = testing::load("bucket_path.sdf");
+  write(folder / "bucket.snapshot", scene, heightfield::make_ground(scene));
+  try {
+    load_ground(testing::load("block_collapse.sdf"), folder / "bucket.snapshot");
+    FAIL() << "a snapshot of another scene was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("bucket.snapshot"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'block_collapse'"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(load_ground(scene, folder / "none.snapshot"), FileError);
+}
+
+}  // namespace
+}  // namespace navvy::sim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/particles/grid_to_particle.h"
+
+#include <gtest/gtest.h>
+
+#include "soil/particles/stages.h"
+
+namespace navvy::soil {
+namespace {
+
+TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
+  // Quadratic weights reproduce linear fields: v(x) = v0 + G x with x in metres gives C = G.
+  const Vec3 v0(0.3, -0.2, 0.1);
+  Mat3 gradient;
+  gradient << 1, -2, 0.5, 0.25, -1, 2, -0.5, 1.5, 0.75;
+  for (const int count : {1, 16, 33}) {
+    Stages stages(strewn(count));
+    const BlockTable& table = stages.store.table();
+    std::vector<float> nodes(stages.grid.velocity().size(), 0.0f);
+    for (std::size_t i = 0; i < BLOCK_NODES * table.active.size(); ++i) {
+      const BlockKey key = table.active[i / BLOCK_NODES];
+      const int n = static_cast<int>(i % BLOCK_NODES);
+      const Vec3 node(kBlockCells * key.x + (n & 3), kBlockCells * key.y + (n >> 2 & 3),
+                      kBlockCells * key.z + (n >> 4));
+      const Vec3 v = v0 + gradient * (kStageCell * (node - Vec3::Constant(40)));
+      for (int k = 0; k < 3; ++k) nodes[4 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
+      nodes[4 * i + 3] = 1e-3f;  // loose: nothing closes
+    }
+    stages.grid.velocity().write(nodes);
+    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    const std::vector<Particle> before = stages.store.records();
+    stages.enqueue_gather();
+    const std::vector<Particle> after = stages.store.records();
+    double fastest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      Vec3 x;
+      for (int a = 0; a < 3; ++a) x[a] = kBlockCells * before[i].block[a] + static_cast<double>(before[i].x[a]);
+      const Vec3 v = v0 + gradient * (kStageCell * (x - Vec3::Constant(40)));
+      for (int a = 0; a < 3; ++a) {
+        // Float sums over 27 nodes of speeds below 2 m/s; the gradient is their difference over a cell.
+        EXPECT_NEAR(static_cast<double>(after[i].v[a]), v[a], 2e-6);
+        EXPECT_NEAR(static_cast<double>(after[i].x[a]),
+                    static_cast<double>(before[i].x[a]) + kStageStep / kStageCell * v[a], 1e-6);
+        for (int b = 0; b < 3; ++b) EXPECT_NEAR(static_cast<double>(after[i].c[3 * a + b]), gradient(a, b), 2e-4);
+      }
+      EXPECT_EQ(after[i].j, before[i].j);
+      fastest = std::max(fastest, v.cwiseAbs().maxCoeff());
+    }
+    double reported = 0;
+    for (const Report& report : stages.report.map_read(0, table.homes.size()))
+      reported = std::max(reported, static_cast<double>(report.speed));
+    EXPECT_NEAR(reported, fastest, 2e-6);
+  }
+}
+
+TEST(GridToParticle, DoesNothingWithoutParticles) {
+  Stages stages({});
+  stages.enqueue_gather();
+  EXPECT_TRUE(stages.store.records().empty());
+}
+
+}  // namespace
+}  // namespace navvy::soil

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of the tests: from their output into results.csv, from there into the tables of docs/validation.md.
+
+  table.py collect RESULTS.csv CASE=LOG... [--state S] [--device D] [--date DAY] [--seconds SECONDS.csv]
+  table.py write RESULTS.csv PAGE.md    writes the page's tables anew
+  table.py check RESULTS.csv PAGE.md    fails when a table is not what `write` would make it
+  table.py selftest
+
+A table stands in the page between two marks; the first names the cases it holds, as shell patterns:
+
+  <!-- generated: begin; cases: Rest.* GranularLab.*/Rest -->
+  <!-- generated: end -->
+
+Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in the logs; a log without
+`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/gates,
+| figure | measured | expected | gate | result | source |, and those of tests/values.h,
+[ VALUE    ] figure: measured M, expected E (source).
+"""
+import argparse
+import collections
+import csv
+import fnmatch
+import re
+import sys
+
+COLUMNS = ["case", "figure", "measured", "half", "expected", "gate", "result", "source", "seconds", "date", "device",
+           "state"]
+RESULTS = {"ok": "within", "MISS": "miss", "known miss": "known miss", "ok, table old": "within",
+           "GATE MOVED": "miss"}
+BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
+END = "<!-- generated: end -->"
+GATED = re.compile(r"^(?:\d+: )?\| (.*) \|$")
+VALUE = re.compile(r"^(?:\d+: )?\[ VALUE    \] (.*): measured (\S+), expected (.*) \((.*)\)$")
+RUNS = re.compile(r"^(?:\d+: )?\[ RUN      \] (\S+)")
+TEST = re.compile(r"^\d+/\d+ Testing: (\S+)", re.M)
+
+
+def tidy(text):
+    """Numbers without the zeros that %f leaves behind them."""
+    return re.sub(r"\d+\.\d{6}(?!\d)", lambda found: found[0].rstrip("0").rstrip("."), text)
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def save(path, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def rows_of(text, case=None):
+    """Rows of a test's output; `case` names what does not say it itself."""
+    out, running, names = [], case, TEST if TEST.search(text) else RUNS
+    for line in text.splitlines():
+        line = line.rstrip()
+        started = names.match(line) if case is None else None
+        if started:
+            running = started[1]
+        value, gated = VALUE.match(line), GATED.match(line)
+        if value:
+            out.append({"case": running, "figure": tidy(value[1]), "measured": value[2], "expected": tidy(value[3]),
+                        "gate": "", "result": "value", "source": value[4]})
+        elif gated:
+            cells = [cell.strip() for cell in gated[1].split("|")]
+            if len(cells) != 6 or cells[4] not in RESULTS:
+                continue
+            out.append({"case": running, "figure": cells[0], "measured": cells[1], "expected": cells[2],
+                        "gate": " ".join(cells[3].split()), "result": RESULTS[cells[4]], "source": cells[5]})
+    return out
+
+
+def collect(rows, found, seconds, date, device, state):
+    """`rows` with those of the cases in `found` renewed in their place; what was entered as half the cell stays."""
+    half = {(row["case"], row["figure"]): row["half"] for row in rows}
+    fresh = collections.defaultdict(list)
+    for row in found:
+        key = (row["case"], row["figure"])
+        fresh[row["case"]].append(dict(row, half=half.get(key, ""), seconds=seconds.get(row["case"], ""), date=date,
+                                       device=device, state=state))
+    out = []
+    for row in rows:
+        if row["case"] not in fresh:
+            out.append(row)
+        elif fresh[row["case"]] is not None:
+            out += fresh[row["case"]]
+            fresh[row["case"]] = None
+    for new in fresh.values():
+        out += new or []
+    return out
+
+
+def shown_gate(gate):
+    low, dots, high = gate.partition(" .. ")
+    if not dots:
+        return gate
+    if low == "-inf":
+        return "at most " + high
+    if high == "inf":
+        return "at least " + low
+    return low if low == high else gate
+
+
+def bold(text, row):
+    return "**" + text + "**" if text and row["result"] in ("miss", "known miss") else text
+
+
+def merged(rows):
+    """`rows` with the same figure of a case with parameters (Case/0, Case/1 ...) in one, as least .. largest."""
+    out, place = [], {}
+    for row in rows:
+        family = re.sub(r"/\d+$", "/*", row["case"])
+        key = (family, row["figure"], row["expected"], row["gate"])
+        if family == row["case"] or key not in place:
+            place[key] = len(out)
+            out.append(dict(row, values=[row["measured"]]))
+            continue
+        first = out[place[key]]
+        first["values"].append(row["measured"])
+        least, largest = min(first["values"], key=float), max(first["values"], key=float)
+        first.update(case=family, measured=least if least == largest else least + " .. " + largest)
+    return out
+
+
+def table(rows):
+    """Markdown of one table. A case whose name ends in Half becomes a column of the case it halves."""
+    rows = merged(rows)
+    names = {row["case"] for row in rows}
+    halves = {(row["case"][:-4], row["figure"]): row for row in rows
+              if row["case"].endswith("Half") and row["case"][:-4] in names}
+    runs = []
+    lines = ["| Case | Figure | Measured | Half the cell | Expected | Gate | Source | s | Run |",
+             "|---|---|---|---|---|---|---|---|---|"]
+    last = None
+    for row in rows:
+        if row["case"].endswith("Half") and row["case"][:-4] in names:
+            continue
+        run = (row["date"], row["state"], row["device"])
+        if run not in runs:
+            runs.append(run)
+        half, seconds = row["half"], row["seconds"]
+        finer = halves.get((row["case"], row["figure"]))
+        if finer:
+            half = bold(finer["measured"], finer)
+            seconds += "; half " + finer["seconds"] if finer["seconds"] else ""
+        again = row["case"] == last
+        last = row["case"]
+        cells = ["" if again else row["case"], row["figure"], bold(row["measured"], row), half, row["expected"],
+                 shown_gate(row["gate"]), row["source"], "" if again else seconds, "abcdefghijkl"[runs.index(run)]]
+        lines.append("| " + " | ".join(cells) + " |")
+    lines.append("")
+    for letter, (date, state, device) in zip("abcdefghijkl", runs):
+        words = [date] + (["state " + state] if state else []) + ([device] if device else [])
+        lines.append("- Run " + letter + ": " + ", ".join(words) + ".")
+    return lines
+
+
+def written(page, rows):
+    """The page with its tables made of `rows`; and what is wrong with the marks."""
+    out, wrong, taken, inside = [], [], collections.Counter(), False
+    for line in page.splitlines():
+        begin = BEGIN.match(line)
+        if begin:
+            if inside:
+                wrong.append("a table begins within another: " + line)
+            inside = True
+            patterns = begin[1].split()
+            mine = [row for row in rows if any(fnmatch.fnmatchcase(row["case"], p) for p in patterns)]
+            for case in {row["case"] for row in mine}:
+                taken[case] += 1
+            for pattern in patterns:
+                if not any(fnmatch.fnmatchcase(row["case"], pattern) for row in rows):
+                    wrong.append("no case is called " + pattern)
+            out += [line] + table(mine)
+        elif line == END:
+            inside = False
+            out.append(line)
+        elif not inside:
+            out.append(line)
+    if inside:
+        wrong.append("the last table does not end")
+    for case in dict.fromkeys(row["case"] for row in rows):
+        if taken[case] != 1:
+            wrong.append("%s stands in %d tables" % (case, taken[case]))
+    return "\n".join(out) + "\n", wrong
+
+
+def selftest():
+    log = ("7: [ RUN      ] A.Holds\n7: | force [N] |  2 |  1 |  0 .. inf | known miss | Rankine |\n"
+           "[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test | Figure |\n")
+    rows = rows_of(log)
+    assert [r["case"] for r in rows] == ["A.Holds", "A.Holds"], rows
+    assert rows[0]["gate"] == "0 .. inf" and rows[0]["result"] == "known miss", rows
+    assert rows[1]["figure"] == "drag (dry)" and rows[1]["source"] == "statics, as above", rows
+    assert rows_of("1/2 Testing: C\n" + log)[0]["case"] == "C"
+    finer = rows_of("| force [N] | 4 | 1 | 0 .. inf | ok | Rankine |", "A.HoldsHalf")
+    kept = collect([], rows + finer, {"A.Holds": "2"}, "2026-01-02", "cpu", "abc")
+    assert len(collect(kept, rows, {}, "2026-01-03", "cpu", "abc")) == 3
+    page = "# t\n<!-- generated: begin; cases: A.* -->\nby hand\n<!-- generated: end -->\nprose\n"
+    assert merged([dict(kept[0], case="D/%d" % n, measured=str(n)) for n in (2, 0, 1)])[0]["measured"] == "0 .. 2"
+    assert tidy("20.000000 at 0.342020 of 0.50") == "20 at 0.34202 of 0.50"
+    text, wrong = written(page, kept)
+    assert not wrong and "by hand" not in text and text.endswith("prose\n"), (text, wrong)
+    assert "| A.Holds | force [N] | **2** | 4 | 1 | at least 0 | Rankine | 2 | a |" in text, text
+    assert written(text, kept)[0] == text
+    assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B stands in 0 tables"]
+    assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == ["no case is called C.*",
+                                                                         "the last table does not end"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("command", choices=["collect", "write", "check", "selftest"])
+    parser.add_argument("results", nargs="?")
+    parser.add_argument("rest", nargs="*")
+    parser.add_argument("--date", default="")
+    parser.add_argument("--device", default="")
+    parser.add_argument("--state", default="")
+    parser.add_argument("--seconds", action="append", default=[])
+    options = parser.parse_intermixed_args()
+    if options.command == "selftest":
+        return selftest()
+    rows = read(options.results)
+    if options.command == "collect":
+        seconds, found = {}, []
+        for path in options.seconds:
+            with open(path, newline="") as file:
+                for row in csv.reader(file):
+                    seconds.setdefault(row[0], row[1])
+        for argument in options.rest:
+            case, _, path = argument.rpartition("=")
+            with open(path, errors="replace") as file:
+                found += rows_of(file.read(), case or None)
+        save(options.results, collect(rows, found, seconds, options.date, options.device, options.state))
+        return None
+    path = options.rest[0]
+    with open(path) as file:
+        before = file.read()
+    after, wrong = written(before, rows)
+    for line in wrong:
+        print("%s: %s" % (path, line), file=sys.stderr)
+    if options.command == "write":
+        with open(path, "w") as file:
+            file.write(after)
+    elif before != after:
+        wrong.append("edited")
+        print("%s: a table is not what %s gives: ./dev docs writes it" % (path, options.results), file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
