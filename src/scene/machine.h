@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "geometry/triangle_mesh.h"
 #include "scene/drive.h"
 
 namespace navvy::scene {
@@ -106,13 +107,11 @@ struct Wheel {
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
-/// A thin shell of triangles that touches soil: a bucket, blade, plate, bed. The front (inside) is the side the
-/// triangles' normals (counter-clockwise) point to. Edges used by one triangle only are free edges (lip, rim).
-struct Shell {
+/// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate, bed. The triangles'
+/// front is the inside. Edges used by one triangle only are free edges (lip, rim).
+struct Shell : geometry::TriangleMesh {
   std::string name;
   std::string link;
-  std::vector<Vec3> vertices;  ///< in the link frame [m]
-  std::vector<std::array<int, 3>> triangles;
   double half_thickness = 0.015;  ///< [m]
   // What of a soil's tool friction (its tangent) and adhesion this surface has; 0 = smooth, no shear at all.
   double friction_share = 1, adhesion_share = 1;

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "geometry/topology.h"
 #include "scene_io/fields.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_model.h"
@@ -287,26 +288,19 @@ void read_triangles(Element& element, const std::vector<double>& vertices, const
 /// The solver needs areas, and one side that is the inside: two triangles run along a shared edge in opposite
 /// directions.
 void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
-  const auto named = [](const std::array<int, 3>& t) {
+  const auto named = [&](std::size_t n) {
+    const std::array<int, 3>& t = shell.triangles[n];
     return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
   };
-  std::map<std::pair<int, int>, std::size_t> used;
-  for (std::size_t n = 0; n < shell.triangles.size(); ++n) {
-    const std::array<int, 3>& t = shell.triangles[n];
-    const auto corner = [&](std::size_t i) { return shell.vertices[static_cast<std::size_t>(t[i])]; };
-    if (!((corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 1e-10))
-      faults.error(element, named(t), "triangle " + std::to_string(n) + " has no area",
+  for (std::size_t n = 0; n < shell.triangles.size(); ++n)
+    if (!(shell.area_vector(n).norm() > 1e-10))
+      faults.error(element, named(n), "triangle " + std::to_string(n) + " has no area",
                    "remove it or mend its corners");
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [at, is_new] = used.insert({{t[i], t[(i + 1) % 3]}, n});
-      if (is_new) continue;
-      faults.error(element, named(t),
-                   "triangles " + std::to_string(at->second) + " and " + std::to_string(n) +
-                       " are wound against each other along their edge",
-                   "wind the whole shell alike: counter-clockwise as seen from the inside");
-      return;
-    }
-  }
+  if (const auto clash = geometry::find_winding_clash(shell))
+    faults.error(element, named(clash->second),
+                 "triangles " + std::to_string(clash->first) + " and " + std::to_string(clash->second) +
+                     " are wound against each other along their edge",
+                 "wind the whole shell alike: counter-clockwise as seen from the inside");
 }
 
 scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
@@ -333,7 +327,7 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
   if (inline_given) read_triangles(element, vertices, corners, shell, faults);
   std::string path;
   if (Element* child = fields.child("mesh"); child && resolve_mesh(*child, path, faults))
-    read_obj(path, *child, shell, faults);
+    read_shell_mesh(path, *child, shell, faults);
   for (const auto& triangle : shell.triangles) {
     const int count = static_cast<int>(shell.vertices.size());
     const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
