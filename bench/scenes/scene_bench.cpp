@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench.h"
+#include "control/step_kinds.h"
 #include "core/stopwatch.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
@@ -18,7 +19,7 @@ using namespace navvy;
 
 /// Runs the scene from its start for `seconds`; the median and spread are of one run, there is one.
 void measure_scene(device::Device& device, const std::string& file, double seconds) {
-  session::Session session(scene_io::load_world(file), device);
+  session::Session session(scene_io::load_world(file, control::step_kinds()), device);
   const Stopwatch watch;
   while (!session.done() && session.world().time() < seconds) session.step();
   device.finish();

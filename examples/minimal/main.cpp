@@ -4,6 +4,7 @@
 #include <exception>
 #include <string>
 
+#include "control/step_kinds.h"
 #include "device/device.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
@@ -11,7 +12,8 @@
 int main(int argc, char** argv) {
   try {
     navvy::device::Device device;
-    navvy::sim::World world(navvy::scene_io::load_world(argc > 1 ? argv[1] : SCENE), device);
+    navvy::sim::World world(navvy::scene_io::load_world(argc > 1 ? argv[1] : SCENE, navvy::control::step_kinds()),
+                            device);
     const std::string machine = world.description().machines.at(0).name;
     const int boom_speed = world.input(machine + "/boom_joint/velocity");
     const navvy::sim::JointHandle boom = world.machine(machine).joint("boom_joint");

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
+#include "control/step_kinds.h"
 #include "core/math.h"
 #include "device/device.h"
 #include "scene_io/loader.h"
@@ -26,7 +27,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // One pass over all files: a user fixes every fault in one go.
     std::optional<scene::World> world;
     // Machine and soil files are checked by themselves and give no world.
-    std::vector<Fault> faults = scene_io::check(file, &world, overrides);
+    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides);
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
       for (Fault& fault : session::check_programs(*world)) faults.push_back(std::move(fault));

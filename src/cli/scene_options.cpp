@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/validators.h"
+#include "control/step_kinds.h"
 #include "core/error.h"
 
 namespace navvy::cli {
@@ -105,7 +106,7 @@ scene::World SceneOptions::load(std::string* resolved) const {
   }
   // With a path the loader's own message is the better one.
   if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
-  return scene_io::load_world(path, overrides(), resolved);
+  return scene_io::load_world(path, control::step_kinds(), overrides(), resolved);
 }
 
 }  // namespace navvy::cli

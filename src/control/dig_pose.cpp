@@ -6,11 +6,13 @@
 namespace navvy::control {
 
 SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
+  // Swing turns about S's z axis, which leans with the machine: all is worked out in S, not in W.
   const Vec3 p = X_WS.inverse() * p_W;
   SwingPoint out;
   out.swing = std::atan2(p.y(), p.x());
   out.reach = std::hypot(p.x(), p.y());
   out.height = p.z();
+  // What is level in W is pitched in S by so much.
   const Vec3 outward = X_WS.linear() * Vec3(std::cos(out.swing), std::sin(out.swing), 0);
   out.pitch = std::asin(outward.z());
   return out;
@@ -19,10 +21,12 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
 bool dump_pose(const Arm& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
                double& possible) {
   constexpr double kLeast = 0.3, kStep = 0.05;
-  // Opened, the soil leaves about below the pin.
+  // Opened, the soil leaves about below the pin, which therefore comes over the dump point.
+  // From the wish down, in steps that no heap shows.
   for (double c = clearance; c >= std::min(kLeast, clearance) - 1e-9; c -= kStep) {
     const double pin = ground + c - arm.bucket_length() * std::sin(kOpen);
     const SwingPoint p = swing_point(X_WS, Vec3(dump_at.x(), dump_at.y(), pin));
+    // Level now, with the pin where it will be when the bucket opens: only the bucket joint moves then.
     const double angle = p.level(kCarry);
     possible = c;
     if (arm.inverse(

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/drive/drive_line.h"
+
 namespace navvy::control {
 namespace {
 
@@ -18,15 +20,17 @@ PlanePose plane_pose(const Pose& X_WB) {
   return {X_WB.translation().head<2>(), std::atan2(X_WB.linear()(1, 0), X_WB.linear()(0, 0))};
 }
 
-Pursuit Pursuit::of(const scene::DriveTo& step, const scene::Drive& drive, const PlanePose& start) {
+Pursuit Pursuit::of(const DriveGoal& goal, const scene::Drive& drive, const PlanePose& start) {
   Pursuit pursuit;
-  pursuit.target = step.target;
-  pursuit.speed = step.speed;
-  pursuit.wheelbase = drive.wheelbase;
-  const Vec2 way = pursuit.sense() * (step.target - start.p);
-  pursuit.heading = step.has_heading ? step.heading : way.norm() < 0.05 ? start.yaw : std::atan2(way.y(), way.x());
+  pursuit.target = goal.target;
+  pursuit.speed = goal.speed;
+  const scene::AckermannDrive bicycle = vehicle::equivalent_bicycle(drive);
+  pursuit.wheelbase = bicycle.wheelbase;
+  const Vec2 way = pursuit.sense() * (goal.target - start.p);
+  pursuit.heading = goal.has_heading ? goal.heading : way.norm() < 0.05 ? start.yaw : std::atan2(way.y(), way.x());
   // max_steer is the inner wheel's: the circle's centre is half a track nearer to it than to the bicycle.
-  pursuit.most_steer = std::atan(drive.wheelbase / (drive.wheelbase / std::tan(drive.max_steer) + 0.5 * drive.track));
+  pursuit.most_steer =
+      std::atan(bicycle.wheelbase / (bicycle.wheelbase / std::tan(bicycle.max_steer) + 0.5 * bicycle.track));
   return pursuit;
 }
 
@@ -45,11 +49,13 @@ double Pursuit::steer(const PlanePose& at) const {
 }
 
 double Pursuit::speed_limit(const PlanePose& at) const {
+  // v^2 = 2 a s; creeping to the end, where the root would never arrive.
   return std::max(kCreep, std::sqrt(2 * kDriveAcceleration * std::max(0.0, left(at) - kStopShort)));
 }
 
 PlanePose Pursuit::end_from(PlanePose at, double steer_rate) const {
   constexpr double kStep = 0.02;  // [s]
+  // The same law as in the run on a bicycle whose steering turns as fast as the machine's.
   double v = 0, turned = 0;
   const double patience = 60 + 4 * (target - at.p).norm() / std::max(0.05, std::abs(speed));
   for (double time = 0; left(at) > kStopShort && time < patience; time += kStep) {

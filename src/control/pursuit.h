@@ -4,7 +4,6 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "scene/program.h"
 
 namespace navvy::control {
 
@@ -14,7 +13,15 @@ struct PlanePose {
   double yaw = 0;         ///< [rad]
 };
 
-/// One drive_to as a law from the machine's pose to steering and speed [Coulter 1992, CMU-RI-TR-92-01].
+/// A pose to drive to.
+struct DriveGoal {
+  Vec2 target = Vec2::Zero();  ///< [m] in W
+  bool has_heading = false;    ///< false: along the straight line from the start
+  double heading = 0;          ///< [rad]
+  double speed = 1.0;          ///< [m/s]; negative: backwards
+};
+
+/// The drive to one goal as a law from the machine's pose to steering and speed [Coulter 1992, CMU-RI-TR-92-01].
 ///
 /// The machine follows the line through the target along `heading`, so it arrives facing that way when the way is long
 /// enough. Backwards the same law looks back along the line.
@@ -25,8 +32,8 @@ struct Pursuit {
   double wheelbase = 2.8;
   double most_steer = 0.5;  ///< bicycle angle [rad]
 
-  /// The step as seen from `start`; without a heading the straight line from start to target is followed.
-  static Pursuit of(const scene::DriveTo& step, const scene::Drive& drive, const PlanePose& start);
+  /// The goal as seen from `start`; without a heading the straight line from start to target is followed.
+  static Pursuit of(const DriveGoal& goal, const scene::Drive& drive, const PlanePose& start);
 
   double sense() const { return speed < 0 ? -1 : 1; }
   /// Way to go along the line [m]; negative beyond the target.

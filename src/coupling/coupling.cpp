@@ -28,7 +28,7 @@ Coupling::Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::
       kinematic_(kinematic),
       solver_(solver),
       ground_(ground),
-      view_(ground),
+      view_(ground, ground.setup().soils),
       ruts_(ground) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];

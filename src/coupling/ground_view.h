@@ -2,21 +2,37 @@
 // The heightfield as machines feel it.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "heightfield/terrain.h"
-#include "vehicle/engine.h"
+#include "scene/soil.h"
+#include "terramechanics/ground_query.h"
 
 namespace navvy::coupling {
 
-/// Answers the engine's questions from the terrain it is given: the live ground means the columns of this very step,
-/// without loose soil. Costs a bilinear lookup.
-class GroundView final : public vehicle::GroundQuery {
+/// Answers what wheels and bodies ask from the terrain it is given: the live ground means the columns of this very
+/// step, without loose soil.
+///
+/// Height and normal are bilinear between column centres, soil and density state are those at the surface of the column
+/// that holds the place; outside the site the nearest column answers. A call costs a lookup, no allocation. Terrain and
+/// soils must outlive the view.
+class GroundView final : public terramechanics::GroundQuery {
  public:
-  explicit GroundView(const heightfield::Terrain& terrain) : terrain_(terrain) {}
+  /// `soils` are those that the terrain's soil indices count.
+  GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils)
+      : terrain_(terrain), soils_(soils) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
   Vec3 normal(double x, double y) const override { return terrain_.normal(x, y); }
+  terramechanics::SoilState soil(double x, double y) const override {
+    const Vec2i c = terrain_.column_at(x, y);
+    const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1), iy = std::clamp(c.y(), 0, terrain_.ny() - 1);
+    return {&soils_[terrain_.surface_soil(ix, iy)], terrain_.specific_volume(ix, iy)};
+  }
 
  private:
   const heightfield::Terrain& terrain_;
+  const std::vector<scene::Soil>& soils_;
 };
 
 }  // namespace navvy::coupling

@@ -11,16 +11,18 @@
 #include "core/state_io.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
+#include "terramechanics/tyre_patch.h"
 #include "vehicle/engine.h"
 
 namespace navvy::coupling {
 
-/// Presses ruts by Bekker's law p = (kc/b + kphi) z^n [Bekker 1969] [Wong 2008, eq. 2.46].
+/// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
 /// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises.
 class Ruts {
  public:
+  /// The ground must outlive it.
   explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
 
   /// Presses the contact patch of one wheel that carries `wheel.force_W`; tyres of a twin pair each carry half. No
@@ -28,11 +30,6 @@ class Ruts {
   /// hits with presses deeper than its load would.
   void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
              double most = std::numeric_limits<double>::infinity());
-
-  /// Sinkage [m] of a plate of width b [m] under pressure p [Pa].
-  static double sinkage(const scene::Soil& soil, double pressure, double width);
-  /// The pressure [Pa] that it bears when it has sunk by z [m].
-  static double bearing(const scene::Soil& soil, double z, double width);
 
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
@@ -43,6 +40,10 @@ class Ruts {
     double pressure = 0;  ///< largest borne [Pa]
     double height = 0;    ///< surface it left behind [m]
   };
+  /// One tyre's patch, its middle `left` [m] of the wheel's centre; `soil` is the one under the wheel.
+  void press_patch(const terramechanics::TyrePatch& patch, const scene::Soil& soil, const Pose& X_WWheel, double left,
+                   double most);
+  /// One column under `pressure` [Pa] of a plate of `width` [m], by its own soil.
   void press_column(int ix, int iy, double pressure, double width, double most);
 
   heightfield::Ground& ground_;

@@ -40,8 +40,8 @@ class Renderer {
 
   /// Draws `frame` as `camera` sees it; `depth`, when given, gets the depth picture of the same size.
   /// The ground's changed rectangles are trusted when its revision is the successor of the last one drawn; otherwise
-  /// the heights are compared. @throws InputError for a mesh file that cannot be read, Error for an impossible picture
-  /// size.
+  /// the heights are compared. @throws FileError or InputError naming a mesh file that cannot be read, Error for an
+  /// impossible picture size.
   Image render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth = nullptr);
 
   /// Of the picture drawn last; zeros before the first.

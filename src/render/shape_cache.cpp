@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shape_cache.h"
 
-#include <tiny_obj_loader.h>
-
 #include <Inventor/nodes/SoCoordinate3.h>
 #include <Inventor/nodes/SoIndexedFaceSet.h>
 #include <Inventor/nodes/SoMaterial.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShapeHints.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
 #include "core/error.h"
+#include "geometry/obj/read_obj.h"
 #include "render/solid.h"
 
 namespace navvy::render {
@@ -96,44 +96,32 @@ Body sphere(float radius, const Look& look) {
   return b;
 }
 
-Body read_obj(const std::string& file, const Vec3f& scale, const Look& plain) {
-  tinyobj::ObjReaderConfig config;
-  // Faces of more corners need not be flat.
-  config.triangulate = true;
-  tinyobj::ObjReader reader;
-  if (!reader.ParseFromFile(file, config) || reader.GetAttrib().vertices.empty())
-    throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", file,
-                           "a mesh must be a readable Wavefront OBJ file" +
-                               (reader.Error().empty() ? std::string() : ": " + reader.Error()),
-                           "check the path in the visual and that the file has vertices"});
+/// Numbers of the points and faces of `mesh` as Coin wants them, part by part.
+Body mesh_body(const geometry::TriangleMesh& mesh, const Vec3f& scale, const Look& plain) {
   Body b;
-  const std::vector<tinyobj::real_t>& v = reader.GetAttrib().vertices;
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
-    b.points.push_back(Vec3(v[i], v[i + 1], v[i + 2]).cast<float>().cwiseProduct(scale));
+  for (const Vec3& v : mesh.vertices) b.points.push_back(v.cast<float>().cwiseProduct(scale));
   // Part 0 has the visual's own colour, part k+1 the file's material k.
   b.parts.push_back({plain, {}});
-  for (const tinyobj::material_t& m : reader.GetMaterials()) {
-    const Vec3f kd(Vec3(m.diffuse[0], m.diffuse[1], m.diffuse[2]).cast<float>());
-    const Vec3f ks(Vec3(m.specular[0], m.specular[1], m.specular[2]).cast<float>());
-    // The file's exponent goes to 128, Coin's to 1.
+  for (const geometry::MeshMaterial& m : mesh.materials) {
+    // OpenGL's exponents end at 128.
     const auto shine = static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
-    b.parts.push_back({{{kd.x(), kd.y(), kd.z(), static_cast<float>(m.dissolve)}, ks, shine}, {}});
+    b.parts.push_back({{{m.diffuse[0], m.diffuse[1], m.diffuse[2], m.opacity}, Vec3f(m.specular.data()), shine}, {}});
   }
-  const auto points = static_cast<std::int32_t>(b.points.size());
-  for (const tinyobj::shape_t& shape : reader.GetShapes())
-    for (std::size_t f = 0; f < shape.mesh.num_face_vertices.size(); ++f) {
-      const std::size_t part = static_cast<std::size_t>(std::max(-1, shape.mesh.material_ids[f]) + 1);
-      for (std::size_t k = 0; k < 3; ++k) {
-        // One too large would be read beyond the points.
-        const int index = shape.mesh.indices[3 * f + k].vertex_index;
-        if (index < 0 || index >= points)
-          throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh face", std::to_string(index + 1),
-                                 "a face must use the file's own vertices", "export the mesh again"});
-        b.parts[part].indices.push_back(index);
-      }
-      b.parts[part].indices.push_back(-1);
-    }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int material = mesh.material_of.empty() ? -1 : mesh.material_of[t];
+    auto& indices = b.parts[static_cast<std::size_t>(material + 1)].indices;
+    indices.insert(indices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    indices.push_back(-1);
+  }
   return b;
+}
+
+Body read_body(const std::string& file, const Vec3f& scale, const Look& plain) {
+  const geometry::TriangleMesh mesh = geometry::read_obj(file);
+  if (mesh.vertices.empty())
+    throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", "", "a mesh to draw must have vertices",
+                           "export the mesh again"});
+  return mesh_body(mesh, scale, plain);
 }
 
 Body make_body(const scene::Visual& visual) {
@@ -152,7 +140,7 @@ Body make_body(const scene::Visual& visual) {
     case scene::Geometry::Kind::kMesh:
       break;
   }
-  return read_obj(g.mesh_file, g.scale.cast<float>(), look);
+  return read_body(g.mesh_file, g.scale.cast<float>(), look);
 }
 
 SoNode* make_node(const Body& body, const std::vector<bool>& solid) {

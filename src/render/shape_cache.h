@@ -34,7 +34,7 @@ class ShapeCache {
   ShapeCache(const ShapeCache&) = delete;
   ShapeCache& operator=(const ShapeCache&) = delete;
 
-  /// @throws InputError naming the mesh file that cannot be read.
+  /// @throws FileError for a mesh file that cannot be read, InputError for one that holds no mesh.
   const Shape& get(const scene::Visual& visual);
   /// Barrel (radius 1) or rod along +x from 0 to 1. Of unit radius and length, to be stretched between two pins; both
   /// are made at their first use.

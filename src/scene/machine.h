@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/math.h"
+#include "geometry/triangle_mesh.h"
+#include "scene/drive.h"
 
 namespace navvy::scene {
 
@@ -117,25 +119,12 @@ struct Wheel {
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
-/// What drives and steers a machine on wheels: Ackermann steering and a brake [docs/machines.md, drive].
-struct Drive {
-  double max_speed = 2.5;                ///< [m/s]
-  double tractive_force = 100e3;         ///< all driven wheels together [N]
-  double power = 90e3;                   ///< [W]
-  double max_steer = radians(35);        ///< inner wheel [rad]
-  double wheelbase = 2.8, track = 1.94;  ///< [m]; track between king pins
-  double steer_rate = radians(30);       ///< [rad/s]
-  double brake_force = 150e3;            ///< [N]
-};
-
-/// A thin shell of triangles that touches soil: a bucket, blade, plate, bed. The front (inside) is the side the
-/// triangles' normals (counter-clockwise) point to. Edges used by one triangle only are free edges (lip, rim). It has
-/// two sides and a thickness and may be open: what it holds is the soil on its front [docs/tools.md, shells].
-struct Shell {
+/// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate, bed. The triangles'
+/// front is the inside. Edges used by one triangle only are free edges (lip, rim). It has two sides and a thickness and
+/// may be open: what it holds is the soil on its front [docs/tools.md, shells].
+struct Shell : geometry::TriangleMesh {
   std::string name;
   std::string link;
-  std::vector<Vec3> vertices;  ///< in the link frame [m]
-  std::vector<std::array<int, 3>> triangles;
   double half_thickness = 0.015;  ///< [m]
   // What of a soil's tool friction (its tangent) and adhesion this surface has; 0 = smooth, no shear at all.
   double friction_share = 1, adhesion_share = 1;
@@ -161,6 +150,14 @@ struct Bed {
   double capacity = 3.0;  ///< struck [m3]
 };
 
+/// The joints of an excavator's arm by their roles: names of joints, empty where the machine has none.
+struct Arm {
+  std::string swing;   ///< upper structure about the chassis
+  std::string boom;    ///< boom about the upper structure
+  std::string stick;   ///< stick about the boom
+  std::string bucket;  ///< bucket about the stick
+};
+
 /// A machine as data, as one SDF file describes it; where it stands and what it does is in MachineInWorld. Indices
 /// refer to the lists here and hold as long as nothing is inserted.
 struct Machine {
@@ -175,12 +172,12 @@ struct Machine {
   bool has_pump = false;  ///< false: every cylinder has its own flow
   Pump pump;
   std::vector<Wheel> wheels;
-  bool has_drive = false;
+  bool has_drive = false;  ///< false: wheels turn freely, or as their joints are commanded
   Drive drive;
   std::vector<Shell> shells;
   std::vector<Bucket> buckets;
   std::vector<Bed> beds;
-  std::string swing_joint, boom_joint, stick_joint, bucket_joint;  ///< roles of an excavator's arm; empty: none
+  Arm arm;
 
   /// Index by name, -1 when there is none. The search is linear: names are resolved once, at the start.
   int link_index(const std::string& name_of_link) const;

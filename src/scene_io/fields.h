@@ -4,22 +4,18 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/math.h"
+#include "scene/field_source.h"
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
 
-/// Closed range of a value as written in the file (before conversion).
-struct Range {
-  double min = -std::numeric_limits<double>::max();
-  double max = std::numeric_limits<double>::max();
-};
-inline constexpr double kDegree = kPi / 180.0;
+using scene::kDegree;
+using scene::Range;
 
 /// Reads the children of one element by their names and units, one call a child, in any order of the file. A child that
 /// is absent leaves its target as it is, so defaults stand in the structs alone. Faults go to a list and never stop the

@@ -14,15 +14,15 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::World load(std::unique_ptr<Document> document, const Overrides& overrides, std::string* resolved,
-                  Faults& faults) {
+scene::World load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
+                  std::string* resolved, Faults& faults) {
   scene::World world;
   // Without a document there is nothing to read, and finish() throws what opening it has found.
   if (document) {
     check_resolved(*document, faults);
     // Overrides go into the document first, so that one set of rules checks the file's values and the command line's.
     apply_overrides(*document, overrides, faults);
-    world = read_world(*document, faults);
+    world = read_world(*document, kinds, faults);
   }
   faults.finish();
   // Only now: what has a fault cannot be written out.
@@ -32,15 +32,16 @@ scene::World load(std::unique_ptr<Document> document, const Overrides& overrides
 
 }  // namespace
 
-scene::World load_world(const std::string& file, const Overrides& overrides, std::string* resolved) {
+scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides,
+                        std::string* resolved) {
   Faults faults;
-  return load(Document::open(file, faults), overrides, resolved, faults);
+  return load(Document::open(file, faults), kinds, overrides, resolved, faults);
 }
 
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides,
-                                    std::string* resolved) {
+scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+                                    const Overrides& overrides, std::string* resolved) {
   Faults faults;
-  return load(Document::parse(text, name, faults), overrides, resolved, faults);
+  return load(Document::parse(text, name, faults), kinds, overrides, resolved, faults);
 }
 
 // Machines are checked alone as they are in a world, so a fault in one is found without a scene.
@@ -73,7 +74,8 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world, const Overrides& overrides) {
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::World>* world,
+                         const Overrides& overrides) {
   Faults faults;
   if (world != nullptr) world->reset();
   const auto document = Document::open(file, faults);
@@ -88,7 +90,7 @@ std::vector<Fault> check(const std::string& file, std::optional<scene::World>* w
   } else {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
-    scene::World read = read_world(*document, faults);
+    scene::World read = read_world(*document, kinds, faults);
     // Warnings do not keep a scene from being used.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }

@@ -12,6 +12,7 @@
 #include "core/math.h"
 #include "scene/machine.h"
 #include "scene/soil.h"
+#include "scene/step_kind.h"
 #include "scene/world.h"
 
 namespace navvy::scene_io {
@@ -34,13 +35,15 @@ struct Overrides {
 /// Splits "KEY=VALUE". @throws InputError when there is no '='.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
 
-/// Reads a world with everything it includes. `resolved`, when given, receives the scene as a text that stands for
-/// itself: overrides and included files written out, see resolved.h. Reading that text gives the same world again.
+/// Reads a world with everything it includes. `kinds` are the program steps that are known, as a rule
+/// control::step_kinds(); any other step is an error. `resolved`, when given, receives the scene as a text that stands
+/// for itself: overrides and included files written out, see resolved.h. Reading that text gives the same world again.
 /// @throws InputError with all faults (errors and warnings), also when the file cannot be read.
-scene::World load_world(const std::string& file, const Overrides& overrides = {}, std::string* resolved = nullptr);
+scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides = {},
+                        std::string* resolved = nullptr);
 /// The same from memory; `name` stands for the file in messages, relative paths count from its directory.
-scene::World load_world_from_string(const std::string& text, const std::string& name, const Overrides& overrides = {},
-                                    std::string* resolved = nullptr);
+scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+                                    const Overrides& overrides = {}, std::string* resolved = nullptr);
 
 /// Reads a machine (an SDF file with one model). @throws InputError
 scene::Machine load_machine(const std::string& file);
@@ -51,8 +54,8 @@ std::vector<scene::Soil> load_soils(const std::string& directory);
 /// All faults of a world, machine or soil file; empty when it is in order. `world` receives the scene when the file is
 /// one without errors, else it is left empty. Throws nothing but std::bad_alloc.
 /// `overrides` change a scene's values before they are read.
-std::vector<Fault> check(const std::string& file, std::optional<scene::World>* world = nullptr,
-                         const Overrides& overrides = {});
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
+                         std::optional<scene::World>* world = nullptr, const Overrides& overrides = {});
 
 /// Where shipped data (vehicles/, terrain/, scenarios/) is looked for, first match wins: $NAVVY_DATA_DIR, the
 /// installation, the source tree.

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "geometry/topology.h"
 #include "scene_io/fields.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_model.h"
@@ -214,18 +215,64 @@ scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
   return wheel;
 }
 
-void read_drive(Element& element, scene::Drive& drive, Faults& faults) {
-  Fields(element, faults)
-      .number("max_speed_m_per_s", drive.max_speed, {0.01, 50})
-      .number("tractive_force_n", drive.tractive_force, {0.1, 1e7})
-      .number("power_w", drive.power, {0.1, 1e7})
+Fields& read_powertrain(Fields& fields, scene::Powertrain& powertrain) {
+  return fields.attribute("type")
+      .number("max_speed_m_per_s", powertrain.max_speed, {0.01, 50})
+      .number("tractive_force_n", powertrain.tractive_force, {0.1, 1e7})
+      .number("power_w", powertrain.power, {0.1, 1e7})
+      .number("brake_force_n", powertrain.brake_force, {0, 1e7});
+}
+
+void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_powertrain(fields, drive)
       .number("max_steer_deg", drive.max_steer, {0, 80}, kDegree)
       .number("wheelbase_m", drive.wheelbase, {0.01, 50})
       .number("track_m", drive.track, {0.01, 50})
       .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree)
-      .number("brake_force_n", drive.brake_force, {0, 1e7})
       .finish();
 }
+
+void read_kind(Element& element, scene::DifferentialDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_powertrain(fields, drive).number("track_m", drive.track, {0.01, 50}).required("track_m").finish();
+}
+
+/// The drive of the kind that `type` names, Ackermann without one.
+scene::Drive read_drive(Element& element, Faults& faults) {
+  const std::string type = attribute(element, "type");
+  // Every kind of the variant by its name, so that a new one is offered here as soon as it has a read_kind.
+  const std::vector<scene::Drive> kinds = {scene::AckermannDrive(), scene::DifferentialDrive()};
+  std::vector<std::string> names;
+  for (scene::Drive drive : kinds) {
+    names.push_back(scene::drive_name(drive));
+    if (type != names.back() && !(type.empty() && names.size() == 1)) continue;
+    std::visit([&](auto& kind) { read_kind(element, kind, faults); }, drive);
+    return drive;
+  }
+  faults.error(element, type, "no drive of this type", suggestion(type, names));
+  return {};
+}
+
+/// What a kind of drive asks of the wheels; the wheels' joints and links are known.
+void check_wheels(const Element& element, const scene::DifferentialDrive&, const scene::Machine& machine,
+                  Faults& faults) {
+  bool left = false, right = false;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    if (!wheel.steer_joint.empty())
+      faults.error(element, wheel.steer_joint, "a differential drive turns no wheels",
+                   "take <steer_joint> out of the wheel; a caster swivels by itself");
+    const int joint = machine.joint_index(wheel.joint);
+    if (joint < 0 || !wheel.driven) continue;
+    const int link = machine.joints[static_cast<std::size_t>(joint)].child;
+    (machine.links[static_cast<std::size_t>(link)].X_ML.translation().y() > 0 ? left : right) = true;
+  }
+  if (!left || !right)
+    faults.error(element, "",
+                 "a differential drive needs a driven wheel on the left and one on the right (y > 0, y < 0)",
+                 "set <driven>true</driven> in wheels of both sides");
+}
+void check_wheels(const Element&, const scene::AckermannDrive&, const scene::Machine&, Faults&) {}
 
 void read_triangles(Element& element, const std::vector<double>& vertices, const std::vector<double>& corners,
                     scene::Shell& shell, Faults& faults) {
@@ -241,26 +288,19 @@ void read_triangles(Element& element, const std::vector<double>& vertices, const
 /// The solver needs areas, and one side that is the inside: two triangles run along a shared edge in opposite
 /// directions.
 void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
-  const auto named = [](const std::array<int, 3>& t) {
+  const auto named = [&](std::size_t n) {
+    const std::array<int, 3>& t = shell.triangles[n];
     return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
   };
-  std::map<std::pair<int, int>, std::size_t> used;
-  for (std::size_t n = 0; n < shell.triangles.size(); ++n) {
-    const std::array<int, 3>& t = shell.triangles[n];
-    const auto corner = [&](std::size_t i) { return shell.vertices[static_cast<std::size_t>(t[i])]; };
-    if (!((corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() > 1e-10))
-      faults.error(element, named(t), "triangle " + std::to_string(n) + " has no area",
+  for (std::size_t n = 0; n < shell.triangles.size(); ++n)
+    if (!(shell.area_vector(n).norm() > 1e-10))
+      faults.error(element, named(n), "triangle " + std::to_string(n) + " has no area",
                    "remove it or mend its corners");
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [at, is_new] = used.insert({{t[i], t[(i + 1) % 3]}, n});
-      if (is_new) continue;
-      faults.error(element, named(t),
-                   "triangles " + std::to_string(at->second) + " and " + std::to_string(n) +
-                       " are wound against each other along their edge",
-                   "wind the whole shell alike: counter-clockwise as seen from the inside");
-      return;
-    }
-  }
+  if (const auto clash = geometry::find_winding_clash(shell))
+    faults.error(element, named(clash->second),
+                 "triangles " + std::to_string(clash->first) + " and " + std::to_string(clash->second) +
+                     " are wound against each other along their edge",
+                 "wind the whole shell alike: counter-clockwise as seen from the inside");
 }
 
 scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
@@ -287,7 +327,7 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
   if (inline_given) read_triangles(element, vertices, corners, shell, faults);
   std::string path;
   if (Element* child = fields.child("mesh"); child && resolve_mesh(*child, path, faults))
-    read_obj(path, *child, shell, faults);
+    read_shell_mesh(path, *child, shell, faults);
   for (const auto& triangle : shell.triangles) {
     const int count = static_cast<int>(shell.vertices.size());
     const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
@@ -364,10 +404,10 @@ void check_bed(Element& element, const scene::Machine& machine, std::size_t inde
 
 void read_arm(Element& element, const Names& names, scene::Machine& machine, Faults& faults) {
   Fields(element, faults)
-      .text("swing_joint", machine.swing_joint)
-      .text("boom_joint", machine.boom_joint)
-      .text("stick_joint", machine.stick_joint)
-      .text("bucket_joint", machine.bucket_joint)
+      .text("swing_joint", machine.arm.swing)
+      .text("boom_joint", machine.arm.boom)
+      .text("stick_joint", machine.arm.stick)
+      .text("bucket_joint", machine.arm.bucket)
       .finish();
   for (const char* role : {"swing_joint", "boom_joint", "stick_joint", "bucket_joint"})
     require_name(element, role, "joint", names.joints, faults);
@@ -426,6 +466,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   const bool has_joints = !machine.links.empty();
   machine.kinematic = kinematic;
   std::vector<Element*> beds;
+  const Element* drive = nullptr;
 
   for (Element* e = model.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
@@ -449,12 +490,15 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     }
     if (kind == "navvy:drive") {
       machine.has_drive = true;
-      read_drive(*e, machine.drive, faults);
+      machine.drive = read_drive(*e, faults);
+      drive = e;
       if (!model.FirstChildElement("navvy:wheel"))
         faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>");
     }
   }
   for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
+  if (drive != nullptr && has_joints && !machine.wheels.empty())
+    std::visit([&](const auto& kind) { check_wheels(*drive, kind, machine, faults); }, machine.drive);
   return machine;
 }
 

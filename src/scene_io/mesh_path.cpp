@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/mesh_path.h"
 
-#include <tiny_obj_loader.h>
-
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "geometry/obj/read_obj.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
@@ -86,31 +84,15 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   return true;
 }
 
-bool read_obj(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults) {
-  tinyobj::ObjReader reader;
-  tinyobj::ObjReaderConfig config;
-  config.triangulate = true;
-  std::error_code ignored;
-  // 64 MB bound what a broken file can cost; a shell of that size could not be simulated anyway.
-  if (fs::file_size(path, ignored) > (64u << 20) || !reader.ParseFromFile(path, config)) {
-    faults.error(at, path, "cannot be read as an OBJ file of at most 64 MB", reader.Error());
+bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults) {
+  try {
+    static_cast<geometry::TriangleMesh&>(shell) = geometry::read_obj(path);
+    return true;
+  } catch (const Error& error) {
+    // The scene names the mesh, the mesh's own file and line say what is wrong in it.
+    faults.error(at, path, error.what(), "mend the mesh or name another");
     return false;
   }
-  const auto& v = reader.GetAttrib().vertices;
-  // Indices may be wrong as well, but they are checked with the shell, for all sources alike.
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
-    shell.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
-    if (!shell.vertices.back().allFinite()) {
-      faults.error(at, path, "vertex " + std::to_string(i / 3 + 1) + " of the OBJ file must hold finite numbers");
-      return false;
-    }
-  }
-  for (const auto& shape : reader.GetShapes()) {
-    const auto& indices = shape.mesh.indices;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-      shell.triangles.push_back({indices[i].vertex_index, indices[i + 1].vertex_index, indices[i + 2].vertex_index});
-  }
-  return true;
 }
 
 }  // namespace navvy::scene_io

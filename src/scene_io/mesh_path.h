@@ -17,7 +17,8 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 /// The model file named by an <include>'s `uri`: a file, a directory with model.sdf, or model://NAME.
 bool resolve_model(const Element& uri, std::string& path, Faults& faults);
 
-/// Triangles of an OBJ file [m]; faces with more corners are split. `at` is blamed for faults.
-bool read_obj(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults);
+/// Gives `shell` the triangles of an OBJ file [m]. Reports a fault at `at`, with the OBJ file's own line, and answers
+/// false when it cannot be read.
+bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults);
 
 }  // namespace navvy::scene_io

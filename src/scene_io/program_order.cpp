@@ -1,35 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/program_order.h"
 
+#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace navvy::scene_io {
 
 namespace {
 
-/// The `wait_for` elements of one machine, in the order of its WaitFor steps.
-std::vector<Element*> waits_of(Element& machine) {
-  std::vector<Element*> waits;
-  if (Element* program = machine.FirstChildElement("navvy:program"))
-    for (Element* e = program->FirstChildElement("wait_for"); e; e = e->NextSiblingElement("wait_for"))
-      waits.push_back(e);
-  return waits;
+using scene::Waiting;
+
+/// The element of every step of a program; children that were no step have been reported and are passed over.
+std::vector<Element*> elements_of(Element& machine, const scene::Program& steps) {
+  std::vector<Element*> out;
+  Element* program = machine.FirstChildElement("navvy:program");
+  for (Element* e = program ? program->FirstChildElement() : nullptr; e; e = e->NextSiblingElement())
+    if (out.size() < steps.steps.size() && steps.steps[out.size()]->element() == std::string(e->Name()))
+      out.push_back(e);
+  return out;
 }
 
 int step_count(const scene::MachineInWorld& machine) { return static_cast<int>(machine.program.steps.size()); }
 
 /// Steps of `wait`'s machine that have to be done before it goes on.
-int needed(const scene::WaitFor& wait, const scene::MachineInWorld& other) {
+int needed(const Waiting& wait, const scene::MachineInWorld& other) {
   return wait.steps > 0 ? wait.steps : step_count(other);
 }
 
-bool check_wait(const Element& at, const scene::WaitFor& wait, std::size_t waiting, const scene::World& world,
+bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, const scene::World& world,
                 Faults& faults) {
   std::vector<std::string> names;
   for (std::size_t m = 0; m < world.machines.size(); ++m)
     if (m != waiting) names.push_back(world.machines[m].name);
+  // The name first, then whether it can be waited for, then how long.
   const int index = world.machine_index(wait.machine);
   if (index < 0) {
     faults.error(at, wait.machine, "no machine of this name in the world", suggestion(wait.machine, names));
@@ -49,13 +53,14 @@ bool check_wait(const Element& at, const scene::WaitFor& wait, std::size_t waiti
 
 /// Lets every program run as far as waiting allows; where each stands then.
 std::vector<int> run_dry(const scene::World& world) {
+  // Order does not matter: a program only ever gets farther, so all orders end at the same place.
   std::vector<int> done(world.machines.size(), 0);
   for (bool moved = true; moved;) {
     moved = false;
     for (std::size_t m = 0; m < world.machines.size(); ++m) {
       const auto& steps = world.machines[m].program.steps;
       if (done[m] >= step_count(world.machines[m])) continue;
-      if (const auto* wait = std::get_if<scene::WaitFor>(&steps[static_cast<std::size_t>(done[m])])) {
+      if (const std::optional<Waiting> wait = steps[static_cast<std::size_t>(done[m])]->waits_for()) {
         const auto other = static_cast<std::size_t>(world.machine_index(wait->machine));
         if (done[other] < needed(*wait, world.machines[other])) continue;
       }
@@ -69,28 +74,29 @@ std::vector<int> run_dry(const scene::World& world) {
 }  // namespace
 
 void check_program_order(Element& world_element, const scene::World& world, Faults& faults) {
-  std::vector<std::vector<Element*>> waits;
+  std::vector<std::vector<Element*>> elements;
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement())
-    if (std::string(e->Name()) == "include" || std::string(e->Name()) == "model") waits.push_back(waits_of(*e));
-  bool sound = waits.size() == world.machines.size();
+    if (std::string(e->Name()) == "include" || std::string(e->Name()) == "model") {
+      const bool placed = elements.size() < world.machines.size();
+      elements.push_back(elements_of(*e, placed ? world.machines[elements.size()].program : scene::Program{}));
+    }
+  bool sound = elements.size() == world.machines.size();
   for (std::size_t m = 0; m < world.machines.size() && sound; ++m) {
-    std::size_t next = 0;
-    for (const scene::ProgramStep& step : world.machines[m].program.steps)
-      if (const auto* wait = std::get_if<scene::WaitFor>(&step)) {
-        const Element& at = *waits[m][next++];
-        sound = !wait->machine.empty() && check_wait(at, *wait, m, world, faults) && sound;
-      }
+    const auto& steps = world.machines[m].program.steps;
+    for (std::size_t s = 0; s < steps.size(); ++s)
+      if (const std::optional<Waiting> wait = steps[s]->waits_for())
+        sound = !wait->machine.empty() && check_wait(*elements[m][s], *wait, m, world, faults) && sound;
   }
+  // With a name or a number wrong there is nothing to run.
   if (!sound) return;
+  // A program that is stuck stands at a step that waits: everything else it has run through.
   const std::vector<int> done = run_dry(world);
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
-    std::size_t before = 0;
-    for (int s = 0; s < done[m]; ++s)
-      before += std::holds_alternative<scene::WaitFor>(world.machines[m].program.steps[static_cast<std::size_t>(s)]);
-    if (done[m] < step_count(world.machines[m]))
-      faults.error(*waits[m][before], child_text(*waits[m][before], "machine"),
-                   "the machines wait for each other: none goes on before its longest_s has run out",
-                   "let one of them go first");
+    if (done[m] >= step_count(world.machines[m])) continue;
+    const auto step = static_cast<std::size_t>(done[m]);
+    faults.error(*elements[m][step], world.machines[m].program.steps[step]->waits_for()->machine,
+                 "the machines wait for each other: none goes on before its longest_s has run out",
+                 "let one of them go first");
   }
 }
 

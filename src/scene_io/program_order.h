@@ -7,7 +7,7 @@
 
 namespace navvy::scene_io {
 
-/// Reports every `wait_for` that names no other machine with a program, asks for more steps than that has, or is part
+/// Reports every waiting step that names no other machine with a program, asks for more steps than that has, or is part
 /// of a circle of machines waiting for each other. `world` was read from `world_element`.
 void check_program_order(Element& world_element, const scene::World& world, Faults& faults);
 

@@ -140,8 +140,15 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::W
         "what is heaped may fall off");
 }
 
+/// What has been settled before the machines are read.
+struct Known {
+  const scene::StepKinds& kinds;
+  bool ground = false;     ///< the site was read without errors
+  bool sdf_sound = false;  ///< and so was the SDF of the file
+};
+
 // What <include> and an inline <model> share: place, joints, program.
-void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, bool ground_known,
+void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, const Known& known,
                    Faults& faults) {
   if (Element* pose = element.FirstChildElement("pose")) {
     // A pose that is too short is reported by check_sdf; it is not read a second time here.
@@ -152,7 +159,7 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
     const Vec2 place = instance.X_WM.translation().head<2>();
     const Vec2 low = world.ground.origin, high = low + world.ground.size;
     // The site's edges count as on it. Without a sound ground there is no site to be off.
-    if (ground_known && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
+    if (known.ground && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
       faults.error(*pose, text_of(*pose), "the machine must stand on the site",
                    "move it, or enlarge size_m of the ground");
   }
@@ -164,10 +171,10 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
   if (Element* e = element.FirstChildElement("navvy:load")) read_load(*e, instance, world, faults);
   if (Element* e = element.FirstChildElement("navvy:program"))
     // Read against machine and ground, so that what neither allows is found before the run.
-    instance.program = read_program(*e, &instance.machine, ground_known ? &world.ground : nullptr, faults);
+    instance.program = read_program(*e, known.kinds, &instance.machine, known.ground ? &world.ground : nullptr, faults);
 }
 
-scene::MachineInWorld read_include(Element& element, const scene::World& world, bool ground_known, Faults& faults) {
+scene::MachineInWorld read_include(Element& element, const scene::World& world, const Known& known, Faults& faults) {
   scene::MachineInWorld instance;
   Element* uri = element.FirstChildElement("uri");
   std::string path;
@@ -180,7 +187,7 @@ scene::MachineInWorld read_include(Element& element, const scene::World& world, 
   instance.name = element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
   const std::string is_static = child_text(element, "static");
   if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
-  read_instance(element, instance, world, ground_known, faults);
+  read_instance(element, instance, world, known, faults);
   return instance;
 }
 
@@ -208,18 +215,18 @@ void check_grid(const Element& world_element, const scene::World& world, Faults&
     faults.error(at, "", "the site must be at most 65536 cells wide", "larger cell_m or smaller size_m");
 }
 
-void read_machines(Element& world_element, scene::World& world, bool ground_known, bool sdf_sound, Faults& faults) {
+void read_machines(Element& world_element, scene::World& world, const Known& known, Faults& faults) {
   // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
     if (kind != "include" && kind != "model") continue;
     scene::MachineInWorld instance;
     if (kind == "include") {
-      instance = read_include(*e, world, ground_known, faults);
+      instance = read_include(*e, world, known, faults);
     } else {
-      instance.machine = read_machine(*e, sdf_sound, faults);
+      instance.machine = read_machine(*e, known.sdf_sound, faults);
       instance.name = instance.machine.name;
-      read_instance(*e, instance, world, ground_known, faults);
+      read_instance(*e, instance, world, known, faults);
     }
     if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
       faults.error(*e, instance.name, "there is already a machine of this name", "give this one a <name>");
@@ -250,7 +257,7 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   return read_machine(*model, faults.error_count() == before, faults);
 }
 
-scene::World read_world(Document& document, Faults& faults) {
+scene::World read_world(Document& document, const scene::StepKinds& kinds, Faults& faults) {
   scene::World world;
   world.file = document.file();
   Element& root = *document.root();
@@ -289,7 +296,7 @@ scene::World read_world(Document& document, Faults& faults) {
                  "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
   }
   const bool ground_known = ground && faults.error_count() == before_ground;
-  read_machines(*element, world, ground_known, sdf_sound, faults);
+  read_machines(*element, world, {kinds, ground_known, sdf_sound}, faults);
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);

@@ -168,28 +168,6 @@ std::string attribute(const Element& element, const char* name) {
 
 bool is_extension(const Element& element) { return std::strncmp(element.Name(), "navvy:", 6) == 0; }
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
-  if (candidates.empty()) return "remove it";
-  // Long words come from broken files; their distance is of no use and would be slow.
-  const std::string head = word.substr(0, 64);
-  const std::string* best = nullptr;
-  // Half of the word may be wrong, and two letters of a short one; beyond that a suggestion would be a guess.
-  std::size_t least = std::max<std::size_t>(2, head.size() / 2) + 1;
-  for (const std::string& candidate : candidates) {
-    std::size_t distance = edit_distance(head, candidate);
-    // A forgotten unit ("cohesion" for "cohesion_pa") is the likeliest slip.
-    if (!head.empty() && candidate.rfind(head, 0) == 0) distance = 0;
-    if (distance < least) {
-      least = distance;
-      best = &candidate;
-    }
-  }
-  if (best) return "did you mean '" + *best + "'?";
-  std::string all = "known here: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) all += (i ? ", " : "") + candidates[i];
-  return all;
-}
-
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> words;

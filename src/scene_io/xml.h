@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/edit_distance.h"
 #include "core/error.h"
 
 namespace navvy::scene_io {
@@ -66,10 +67,6 @@ std::string child_text(const Element& element, const char* name);
 std::string attribute(const Element& element, const char* name);
 /// An element of Navvy's own, in the namespace `navvy:`; the rest is SDF.
 bool is_extension(const Element& element);
-
-/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near. A word that a
-/// candidate begins with is nearest of all: the likeliest slip is a forgotten unit.
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 /// Whitespace-separated words.
 std::vector<std::string> words_of(const std::string& text);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <utility>
-#include <variant>
 
-#include "control/operator.h"
+#include "control/reach.h"
+#include "control/step.h"
 #include "heightfield/site.h"
 #include "sim/placing.h"
 
@@ -43,33 +44,34 @@ class BedCheck {
   void look(std::size_t digger) {
     const scene::MachineInWorld& placed = world_.machines[digger];
     for (std::size_t i = 0; i < placed.program.steps.size(); ++i)
-      if (const auto* dig = std::get_if<scene::Dig>(&placed.program.steps[i]))
+      if (const std::optional<control::DumpPoint> dump = control::step_of(placed.program.steps[i]).dump_point())
         for (std::size_t other = 0; other < world_.machines.size(); ++other)
-          if (other != digger) look(placed, i, *dig, other);
+          if (other != digger) look(placed, i, *dump, other);
   }
 
  private:
-  void look(const scene::MachineInWorld& digger, std::size_t step, const scene::Dig& dig, std::size_t other) {
+  void look(const scene::MachineInWorld& digger, std::size_t step, const control::DumpPoint& dump, std::size_t other) {
     const scene::MachineInWorld& truck = world_.machines[other];
     // Dump heights count from the ground under the dump point.
-    const double ground = surface_.height(dig.dump_at.x(), dig.dump_at.y());
+    const double ground = surface_.height(dump.at.x(), dump.at.y());
     double rim = 0;  // highest over the ground at the dump point, of all stations
     // Each place where the truck's program makes it stand, as any of them may be where it is loaded.
     for (const scene::Bed& bed : truck.machine.beds) {
       const Eigen::AlignedBox3d box = bed_box(truck.machine, bed);
       for (const Pose& X_WB : control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
-        Vec3 p_B = X_WB.inverse() * Vec3(dig.dump_at.x(), dig.dump_at.y(), X_WB.translation().z());
+        Vec3 p_B = X_WB.inverse() * Vec3(dump.at.x(), dump.at.y(), X_WB.translation().z());
         p_B.z() = box.center().z();  // in plan
         // Only beds that stand under the dump point, seen from above.
         if (box.contains(p_B)) rim = std::max(rim, X_WB.translation().z() + box.max().z() - ground);
       }
     }
-    if (rim <= 0 || rim + kUnderTip <= dig.dump_height) return;
+    if (rim <= 0 || rim + kUnderTip <= dump.height) return;
     // Programs read from a file know the line of every step; those built in code do not.
     const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
     faults.push_back({Fault::Severity::kWarning, world_.file, line,
-                      digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/dig/dump_height",
-                      metres(dig.dump_height), "the bed of '" + truck.name + "' is " + metres(rim) + " high there",
+                      digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/" +
+                          digger.program.steps[step]->element() + "/dump_height",
+                      metres(dump.height), "the bed of '" + truck.name + "' is " + metres(rim) + " high there",
                       "dump from " + metres(rim + kUnderTip) + " or higher, or the bucket strikes the bed"});
   }
   static std::string metres(double value) {

@@ -30,9 +30,9 @@ std::size_t ArrayChannel::count() const {
 }
 
 std::string ArrayChannel::type_text() const {
-  std::string out = name_of(type);
-  for (std::size_t i = 0; i < shape.size(); ++i) out += (i == 0 ? "[" : ",") + std::to_string(shape[i]);
-  return out + "]";
+  std::string out;
+  for (const int length : shape) out += (out.empty() ? "" : ",") + std::to_string(length);
+  return std::string(name_of(type)) + "[" + out + "]";
 }
 
 /// Elements are never converted behind a reader's back: a float scan read as double would be another scan.
@@ -65,14 +65,19 @@ ArrayView ArrayOutputs::view(int array) const {
   return out;
 }
 
+void ArrayOutputs::require_elements(const ArrayChannel& channel) {
+  if (channel.count() > 0) return;
+  // A slip: such an array would look published and show nothing.
+  throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, channel.type_text(),
+                         "an array needs a shape with elements", "give it lengths > 0"});
+}
+
 int ArrayOutputs::add(ArrayChannel channel) {
   // Refused when it is declared, which is before the first step.
-  const auto refuse = [&](const std::string& value, const std::string& rule, const std::string& remedy) {
-    throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, value, rule, remedy});
-  };
-  // An array without elements is a slip: it would look published and show nothing.
-  if (channel.count() == 0) refuse(channel.type_text(), "an array needs a shape with elements", "give it lengths > 0");
-  if (find(channel.name) >= 0) refuse(channel.name, "there is already an array of this name", "name it otherwise");
+  require_elements(channel);
+  if (find(channel.name) >= 0)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, channel.name,
+                           "there is already an array of this name", "name it otherwise"});
   Value value;
   // Zeros until the first value; the storage is never moved again, so readers may keep its address.
   value.bytes.resize(channel.count() * size_of(channel.type));

@@ -101,6 +101,8 @@ class ArrayOutputs {
   ArrayView view(int array) const;
   ArrayView view(const std::string& name) const { return view(index(name)); }
 
+  /// @throws InputError for a shape without elements.
+  static void require_elements(const ArrayChannel& channel);
   /// A new array of zeros; returns its index. @throws InputError for a shape without elements or a name in use.
   int add(ArrayChannel channel);
   /// Storage of the next value, stamped `time` [s], of the frame at `X_WF`: the caller fills all of it now.

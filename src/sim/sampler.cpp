@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sampler.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,7 +17,10 @@ constexpr double kHair = 1e-9;  // time = steps x dt is rounded: a period counts
 
 // Scalars and arrays share one name space, so that a client may look a name up without knowing which of them it is.
 void Publisher::require_new(const std::string& name) const {
-  if (outputs_.find(name) < 0 && arrays_.find(name) < 0) return;
+  const auto called = [&](const auto& channel) { return channel.name == name; };
+  const bool declared = std::any_of(new_numbers_.begin(), new_numbers_.end(), called) ||
+                        std::any_of(new_arrays_.begin(), new_arrays_.end(), called);
+  if (!declared && outputs_.find(name) < 0 && arrays_.find(name) < 0) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "output", name, "there is already an output of this name",
                          "put the sampler's own name before it"});
 }
@@ -33,7 +37,7 @@ int Publisher::declare(Channel channel) {
   require_new(channel.name);
   // The output reads through a pointer: each number has an address that a growing list does not move.
   numbers_.push_back(std::make_unique<double>(0.0));
-  outputs_.add(std::move(channel), [value = numbers_.back().get()] { return *value; });
+  new_numbers_.push_back(std::move(channel));
   return static_cast<int>(numbers_.size()) - 1;
 }
 
@@ -41,7 +45,19 @@ int Publisher::declare(ArrayChannel channel) {
   require_new(channel.name);
   // The rate is the sampler's, whatever the channel said.
   channel.rate = rate_;
-  return arrays_.add(std::move(channel));
+  ArrayOutputs::require_elements(channel);
+  new_arrays_.push_back(std::move(channel));
+  return static_cast<int>(arrays_.channels().size() + new_arrays_.size()) - 1;
+}
+
+void Publisher::commit() {
+  // The first of the new numbers is the first that no output reads yet.
+  std::size_t next = numbers_.size() - new_numbers_.size();
+  for (Channel& channel : new_numbers_)
+    outputs_.add(std::move(channel), [value = numbers_[next++].get()] { return *value; });
+  for (ArrayChannel& channel : new_arrays_) arrays_.add(std::move(channel));
+  new_numbers_.clear();
+  new_arrays_.clear();
 }
 
 // For hash and snapshot; arrays are saved with all others.
@@ -70,6 +86,7 @@ SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, Arr
     throw InputError(Fault{Fault::Severity::kError, "", 0, name_, std::to_string(rate_),
                            "samples per second must be a number not below 0", "0 samples after every step"});
   sampler_->declare(publisher_);
+  publisher_.commit();
 }
 
 bool SamplerSlot::due(double before, double time) const {

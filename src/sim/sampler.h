@@ -43,6 +43,8 @@ class Publisher {
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
+  /// Makes what was declared known to the world, all of it or nothing: a declaration that throws leaves no trace.
+  void commit();
   /// Time of the sample that is being taken [s]; set by the world.
   void stamp(double time) { time_ = time; }
   /// All numbers in the order of their declaration, for hash and snapshot; `restore` takes as many. @throws
@@ -58,6 +60,8 @@ class Publisher {
   ArrayOutputs& arrays_;
   double rate_;
   double time_ = 0;
+  std::vector<Channel> new_numbers_;  ///< declared, not yet known to the world
+  std::vector<ArrayChannel> new_arrays_;
   std::vector<std::unique_ptr<double>> numbers_;  ///< each at an address of its own that the output reads
 };
 

@@ -64,7 +64,9 @@ void add_pump(const MachineHandle& machine, const std::string& prefix, Outputs& 
               [machine] { return machine.pump().pressure; });
 }
 
-void add_drive(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs) {
+/// `about` tells what steering means for this kind of drive.
+void add_drive(World& world, const MachineHandle& machine, const scene::Drive& about, const std::string& prefix,
+               Inputs& inputs) {
   // One value of the command changes, the others stay what the engine has: it keeps them through a snapshot.
   const auto change = [&world, machine](auto&& what) {
     vehicle::DriveInput command = machine.drive();
@@ -78,7 +80,7 @@ void add_drive(World& world, const MachineHandle& machine, const std::string& pr
       command.brake = false;
     });
   });
-  inputs.add({prefix + "drive/steer", "rad", "bicycle angle, positive to the left", machine.index()},
+  inputs.add({prefix + "drive/steer", scene::steer_unit(about), scene::steer_meaning(about), machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
   inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases", machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
@@ -156,7 +158,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     add_joints(world, machine, prefix, inputs, outputs);
     // A kinematic machine moves as told and draws no oil.
     if (built.has_pump && !built.kinematic) add_pump(machine, prefix, outputs);
-    if (built.has_drive) add_drive(world, machine, prefix, inputs);
+    if (built.has_drive) add_drive(world, machine, built.drive, prefix, inputs);
     add_pose(machine.link(0), prefix, outputs);
     add_wheels(machine, prefix, outputs);
   }

@@ -10,22 +10,13 @@
 #include "core/math.h"
 #include "core/state_io.h"
 #include "scene/machine.h"
+#include "terramechanics/ground_query.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
 
 /// What is under a wheel or body, answered by whoever owns the ground (coupling: the heightfield; tests: a plane).
-class GroundQuery {
- public:
-  virtual ~GroundQuery() = default;
-  virtual double height(double x, double y) const = 0;  ///< [m]
-  virtual Vec3 normal(double x, double y) const = 0;
-  /// Friction coefficient tyre-ground there [-]; negative: use the tyre's own.
-  virtual double friction(double x, double y) const {
-    (void)x, (void)y;
-    return -1;
-  }
-};
+using terramechanics::GroundQuery;
 
 /// Machines of one world, stepped together.
 ///
@@ -88,11 +79,13 @@ class Engine {
     return Vec3::Zero();
   }
 
+  /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have been added alike.
   virtual void hash(StateHash& hash) const = 0;
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 };
 
+/// Dynamics under gravity [m/s2, W]; and positions as commanded, without forces. Neither knows the other's machines.
 std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity);
 std::unique_ptr<Engine> make_kinematic_engine();
 

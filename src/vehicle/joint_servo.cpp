@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kGain = 20;         // [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
 constexpr double kValveTime = 0.15;  // [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
+// Of a bound: the solver stops within its residual, not at the last bit.
 constexpr double kSaturated = 0.999;
 constexpr double kHolds = 0.02;       // of full flow: less only keeps a joint in its place
 constexpr double kLeastShare = 0.01;  // of the oil asked for
@@ -18,11 +19,14 @@ constexpr double kLeastShare = 0.01;  // of the oil asked for
 double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const {
   double wanted = input_.target;
   if (input_.mode == JointMode::kPosition) {
+    // A target beyond a stop is the stop: the servo brakes for it as for any other place.
     const double target = joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
     const double error = target - q, speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
+    // Deceleration it may count on: what the closing valve gives, and half of what its effort does to the load.
     double brake = 0.4 * speed_limit / kValveTime;
     const double effort = std::min(limits.effort_positive, limits.effort_negative);
     if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
+    // Far away the speed from which it still stops, near by proportional to the error, and stable in a long step.
     const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error), std::sqrt(2 * brake * std::abs(error)));
     wanted = std::copysign(speed, error);
   }
@@ -36,7 +40,9 @@ double JointServo::open(const scene::Joint& joint, const JointLimits& limits, do
   // Against a load it cannot move, the valve opens from what really flows; of that it got a share.
   const double from = saturated_ ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive) : velocity_;
   const double fastest = std::max(limits.speed_positive, limits.speed_negative), slew = dt / kValveTime * fastest;
+  // The spool moves by its own time, whatever is asked.
   velocity_ = std::clamp(wanted_, from - slew, from + slew);
+  // Less is holding: no oil to speak of, no load for the pump to see.
   flows_ = std::abs(velocity_) > std::max(1.5 * slew, kHolds * fastest);
   return velocity_;
 }
@@ -55,6 +61,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
     return out;
   }
   share_ = std::max(share, kLeastShare);
+  // Short of oil all functions slow down by one share; the valve stays as open as it is.
   const double flowing = share_ * velocity_;
   out.velocity = flowing;
   if (input_.mode == JointMode::kVelocity) {
@@ -66,6 +73,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   } else {
     holding_ = false;
   }
+  // The row may use all the effort there is to reach that velocity.
   out.effort_low = -limits.effort_negative;
   out.effort_high = limits.effort_positive;
   return out;
@@ -74,6 +82,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
 void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
                         double dt) {
   (void)q;
+  // At a bound the load has its way: the valve then follows what really flows.
   saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
   // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached that it got oil
   // for.

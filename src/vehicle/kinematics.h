@@ -53,13 +53,14 @@ class CylinderMap {
   int base_link() const { return base_link_; }
   CylinderGeometry geometry(double q) const;
   CylinderLimits limits(double q) const;
+  /// Of a geometry already worked out for the same q.
+  CylinderLimits limits(const CylinderGeometry& geometry) const;
 
  private:
   friend CylinderGeometry cylinder_geometry(const scene::Machine&, const scene::Cylinder&, double);
   friend CylinderLimits cylinder_limits(const scene::Machine&, const scene::Cylinder&, double);
   struct Unchecked {};
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder, Unchecked);
-  CylinderLimits limits_from(const CylinderGeometry& geometry) const;
   Pose rod_in_base(double q) const;
   /// Coupler pin of the rocker for the bucket's coupler pin c; false when the bars do not reach.
   bool close_linkage(const Vec3& c, Vec3& pin) const;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a machine is told and what it answers, as plain values. No engine is named here: clients of a world include this
-// header and no other of the vehicle room.
+// header (and with it drive_input.h) and no other of the vehicle room.
 #pragma once
 
 #include "core/math.h"
+#include "vehicle/drive/drive_input.h"
 
 namespace navvy::vehicle {
 
+/// How a joint is commanded: not at all (it swings freely), to a place, at a rate, or by an effort.
 enum class JointMode { kFree, kPosition, kVelocity, kEffort };
 
 /// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
@@ -16,14 +18,7 @@ struct JointInput {
   double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
 };
 
-/// Command of a drive train: rear-wheel (or as the wheels say) drive, Ackermann steering. The brake also locks an
-/// oscillating axle; without it the axle swings freely.
-struct DriveInput {
-  double speed = 0;   ///< forward [m/s]
-  double steer = 0;   ///< bicycle angle at the middle of the front axle, positive to the left [rad]
-  bool brake = true;  ///< hold the place
-};
-
+/// A joint as it is after the last step; of a servo without a cylinder the hydraulic part is 0.
 struct JointState {
   double position = 0, velocity = 0, effort = 0;  ///< effort as applied by the servo in the last step
   double effort_limit = 0, velocity_limit = 0;    ///< at this position
@@ -38,12 +33,14 @@ struct PumpState {
   double pressure = 0;  ///< of the heaviest load it moves, smoothed [Pa]
 };
 
+/// Pose and velocity of a link's own frame (scene::Link), axes of W.
 struct LinkState {
   Pose X_WL = Pose::Identity();
   Vec3 v_WL = Vec3::Zero();  ///< of L's origin [m/s]
   Vec3 w_WL = Vec3::Zero();  ///< [rad/s]
 };
 
+/// A wheel after the last step, its tyre's force included. Engines without forces leave force, slip and sinkage 0.
 struct WheelState {
   Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre
   Vec3 v_W = Vec3::Zero();           ///< of the centre [m/s]

@@ -85,7 +85,7 @@ TEST(Arm, ShellHangsBelowTheTipOnlyWhenTheBucketIsCurled) {
 
 TEST(Arm, NamesTheRoleThatIsMissing) {
   scene::Machine machine = testing::ew180_like();
-  machine.stick_joint.clear();
+  machine.arm.stick.clear();
   try {
     const Arm arm(machine);
     FAIL() << "a machine without a stick was accepted";

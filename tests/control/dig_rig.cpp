@@ -32,8 +32,8 @@ double tip_angle(const Pose& X_WB) {
 
 }  // namespace
 
-scene::Dig trench() {
-  scene::Dig dig;
+Dig trench() {
+  Dig dig;
   dig.from = Vec2(4.85, 0);
   dig.to = Vec2(1.65, 0);
   dig.depth = 0.8;
@@ -237,7 +237,7 @@ std::uint64_t DigRig::digest() const {
   return hash.digest();
 }
 
-TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig) {
+TrenchMeasure measure(const heightfield::Ground& ground, const Dig& dig) {
   TrenchMeasure out;
   const Vec2 along = (dig.to - dig.from).normalized(), across(-along.y(), along.x());
   const double length = (dig.to - dig.from).norm(), cell = ground.cell(), area = cell * cell;

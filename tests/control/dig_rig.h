@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "control/activities/dig/dig.h"
 #include "control/operator.h"
 #include "vehicle/engine.h"
 
 namespace navvy::control::testing {
 
 /// The trench of scenarios/trench.sdf: 7.6 m to 4.4 m ahead of the swing axis of a machine at (-4, 0).
-scene::Dig trench();
+Dig trench();
 
 /// Flat ground of loam, 24 x 20 m about the origin, 4 m deep.
 heightfield::Ground flat_ground(double cell = 0.1);
@@ -76,6 +77,6 @@ struct TrenchMeasure {
   double center_offset = 0;  ///< [m]
   double removed = 0;        ///< [m3]
 };
-TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig);
+TrenchMeasure measure(const heightfield::Ground& ground, const Dig& dig);
 
 }  // namespace navvy::control::testing

@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "control/activities/dump.h"
+#include "control/activities/swing.h"
+#include "control/activities/trajectory.h"
+#include "control/activities/wait.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "core/log.h"
@@ -51,7 +55,7 @@ void expect_good(const TrenchMeasure& measured) {
 
 TEST(Dig, MakesTheTrenchOfTheShippedScene) {
   Lines log;
-  DigRig rig(ew180_like(), program({trench(), scene::Swing{0}}), make_pose(-4, 0, 0));
+  DigRig rig(ew180_like(), program({trench(), Swing{0}}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(400)) << rig.op.phase() << "\n" << log.text();
   const TrenchMeasure measured = measure(rig.ground, trench());
   report(rig, measured);
@@ -76,7 +80,7 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
   const double yaw = radians(25);
   const Pose X_WM = make_pose(-5, -3, 0, 0, 0, yaw);
   const auto at = [&](double x, double y) -> Vec2 { return (X_WM * Vec3(x, y, 0)).head<2>(); };
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.from = at(1.25 + 4.6, 0.1);
   dig.to = at(1.25 + 7.6, 0.1);
   dig.dump_at = at(1.25 + 1.5, -5.8);
@@ -119,7 +123,7 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
 }
 
 TEST(Dig, StopsAtItsLargestNumberOfCycles) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.max_cycles = 2;
   DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(200));
@@ -127,7 +131,7 @@ TEST(Dig, StopsAtItsLargestNumberOfCycles) {
 }
 
 TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.max_cycles = 2;
   const scene::Program steps = program({dig});
   DigRig whole(ew180_like(), steps, make_pose(-4, 0, 0));
@@ -155,12 +159,11 @@ TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
 }
 
 TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
-  scene::Trajectory path;
+  Trajectory path;
   path.joints = {"boom_joint", "bucket_joint"};
   path.times = {0, 1, 3};
   path.positions = {{0.7, -1.3}, {0.6, -1.0}, {0.9, -1.6}};
-  DigRig rig(ew180_like(), program({scene::Swing{radians(50)}, scene::Dump{0.5}, scene::Wait{1.5}, path}),
-             make_pose(0, 0, 0));
+  DigRig rig(ew180_like(), program({Swing{radians(50)}, Dump{0.5}, Wait{1.5}, path}), make_pose(0, 0, 0));
   const auto joint = [&](int j) { return rig.engine->joint(0, j).position; };
   const double bucket = joint(3);
   while (rig.op.phase() != "dump") rig.step();
@@ -185,7 +188,7 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
 }
 
 TEST(Program, RefusesATrajectoryOfAnUnknownJoint) {
-  scene::Trajectory path;
+  Trajectory path;
   path.joints = {"nose"};
   path.times = {0};
   path.positions = {{0}};

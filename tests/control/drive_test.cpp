@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/activities/drive_to.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
 #include "control/pursuit.h"
@@ -40,7 +41,7 @@ struct Arrival {
   Bicycle bicycle;
 };
 
-Arrival drive(const scene::DriveTo& goal, const PlanePose& start) {
+Arrival drive(const DriveTo& goal, const PlanePose& start) {
   scene::Program program;
   program.steps = {goal};
   Operator op(ew180_like(), program);
@@ -61,8 +62,8 @@ Arrival drive(const scene::DriveTo& goal, const PlanePose& start) {
   return arrival;
 }
 
-scene::DriveTo to(double x, double y, double heading, double speed = 1.2) {
-  scene::DriveTo goal;
+DriveTo to(double x, double y, double heading, double speed = 1.2) {
+  DriveTo goal;
   goal.target = Vec2(x, y);
   goal.has_heading = true;
   goal.heading = heading;
@@ -106,7 +107,7 @@ TEST(Drive, ArrivesBesideAndTurned) {
 }
 
 TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
-  scene::DriveTo goal;
+  DriveTo goal;
   goal.target = Vec2(10, 4);
   const Arrival a = drive(goal, {Vec2(0, 0), 0});
   EXPECT_TRUE(a.done);
@@ -114,11 +115,11 @@ TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
 }
 
 TEST(Pursuit, ForetellsWhereTheMachineEnds) {
-  const scene::Drive about = ew180_like().drive;
+  const auto about = std::get<scene::AckermannDrive>(ew180_like().drive);
   const PlanePose start{Vec2(0, 0), 0};
   // Two metres beside within four ahead is impossible at a least radius of 5 m, and told so.
   for (const auto& [x, reachable] : {std::pair{12.0, true}, std::pair{3.0, false}}) {
-    const scene::DriveTo goal = to(x, 2, 0);
+    const DriveTo goal = to(x, 2, 0);
     const PlanePose end = Pursuit::of(goal, about, start).end_from(start, about.steer_rate);
     EXPECT_EQ((end.p - goal.target).norm() < goal.tolerance, reachable) << x;
     EXPECT_NEAR((end.p - drive(goal, start).bicycle.at.p).norm(), 0, 0.08);  // the bicycle of this test has a lag

@@ -57,10 +57,10 @@ scene::Machine ew180_like() {
   machine.joints = {swing, pitch("boom_joint", 1, -0.85, 1.05, 0.45, radians(43)),
                     pitch("arm_joint", 2, -2.75, -0.6, 0.75, radians(-126)),
                     pitch("bucket_joint", 3, -2.6, 0.4, 1.2, radians(-75))};
-  machine.swing_joint = "swing_joint";
-  machine.boom_joint = "boom_joint";
-  machine.stick_joint = "arm_joint";
-  machine.bucket_joint = "bucket_joint";
+  machine.arm.swing = "swing_joint";
+  machine.arm.boom = "boom_joint";
+  machine.arm.stick = "arm_joint";
+  machine.arm.bucket = "bucket_joint";
   machine.shells = {bucket_shell()};
   scene::Bucket bucket;
   bucket.link = "bucket";

@@ -2,6 +2,8 @@
 // What the check before the run says: which target, what it needs, what there is.
 #include <gtest/gtest.h>
 
+#include "control/activities/drive_to.h"
+#include "control/activities/swing.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 
@@ -30,7 +32,7 @@ class Reach : public ::testing::Test {
 TEST_F(Reach, FindsNothingWrongWithTheShippedTrench) { EXPECT_EQ(told(trench()), ""); }
 
 TEST_F(Reach, NamesFileLineStepAndBothDistancesOfAFarEndTooFar) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.from.x() = 7.5;
   const std::string text = told(dig);
   expect_in("dig.sdf:42", text);
@@ -40,13 +42,13 @@ TEST_F(Reach, NamesFileLineStepAndBothDistancesOfAFarEndTooFar) {
 }
 
 TEST_F(Reach, TellsOfATrenchTooDeep) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.depth = 6.5;
   expect_in("dig/far end", told(dig));
 }
 
 TEST_F(Reach, TellsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.from.y() = dig.to.y() = 1;
   const std::string text = told(dig);
   expect_in("1.00 m beside the swing axis", text);
@@ -55,13 +57,13 @@ TEST_F(Reach, TellsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
 }
 
 TEST_F(Reach, TellsOfAnEndUnderTheMachine) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.to.x() = -0.5;
   expect_in("must stay 3.00 m clear", told(dig));
 }
 
 TEST_F(Reach, TellsOfADumpTooHighAndTooFar) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.dump_height = 6;
   const std::string high = told(dig);
   expect_in("dig/dump_height", high);
@@ -75,7 +77,7 @@ TEST_F(Reach, TellsOfADumpTooHighAndTooFar) {
 }
 
 TEST_F(Reach, TellsOfATrenchWiderThanTheBucket) {
-  scene::Dig dig = trench();
+  Dig dig = trench();
   dig.width = 1.6;
   expect_in("the bucket cuts 1.05 m", told(dig));
 }
@@ -84,13 +86,13 @@ TEST_F(Reach, KnowsTheLimitsOfTheSwing) {
   machine.joints[0].has_limits = true;
   machine.joints[0].lower = radians(-40);
   machine.joints[0].upper = radians(40);
-  expect_in("turns from -40.00 deg to 40.00 deg", told(scene::Swing{radians(70)}));
+  expect_in("turns from -40.00 deg to 40.00 deg", told(Swing{radians(70)}));
   expect_in("dig/dump_at", told(trench()));
-  EXPECT_EQ(told(scene::Swing{radians(30)}), "");
+  EXPECT_EQ(told(Swing{radians(30)}), "");
 }
 
 TEST_F(Reach, LooksFromWhereTheDriveBeforeTheDigEnds) {
-  scene::DriveTo drive;
+  DriveTo drive;
   drive.target = Vec2(-4, 0);
   drive.has_heading = true;
   scene::Program program;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "control/activities/tip.h"
+#include "control/activities/wait_for.h"
 #include "control/operator.h"
 #include "core/error.h"
 
@@ -58,7 +60,7 @@ Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
 scene::Program program(std::vector<scene::ProgramStep> steps) { return {std::move(steps), {}}; }
 
 TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
-  Operator op(truck(), program({scene::Tip{1.2, 2.0}}));
+  Operator op(truck(), program({Tip{1.2, 2.0}}));
   const Trial tip = run(op, 0.1, 10);
   EXPECT_TRUE(op.done());
   EXPECT_NEAR(tip.angle, 1.2, radians(1));
@@ -68,7 +70,7 @@ TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
 }
 
 TEST(Truck, GivesUpOnABedThatSticks) {
-  Operator op(truck(), program({scene::Tip{1.2, 0}}));
+  Operator op(truck(), program({Tip{1.2, 0}}));
   const Trial tip = run(op, 0.1, 0.5);
   EXPECT_TRUE(op.done());
   EXPECT_LT(tip.ended, 120);
@@ -77,7 +79,7 @@ TEST(Truck, GivesUpOnABedThatSticks) {
 
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   for (const int steps : {2, 0}) {
-    Operator op(truck(), program({scene::WaitFor{"digger", steps, 100}}));
+    Operator op(truck(), program({WaitFor{"digger", steps, 100}}));
     std::map<std::string, Progress> programs{{"digger", {1, 4}}};
     Observation seen;
     seen.joints.resize(1);
@@ -95,7 +97,7 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
 }
 
 TEST(Truck, DoesNotWaitForEver) {
-  Operator op(truck(), program({scene::WaitFor{"digger", 0, 3}}));
+  Operator op(truck(), program({WaitFor{"digger", 0, 3}}));
   std::map<std::string, Progress> programs{{"digger", {0, 1}}};
   Observation seen;
   seen.programs = &programs;
@@ -105,7 +107,7 @@ TEST(Truck, DoesNotWaitForEver) {
 TEST(Truck, ATipNeedsABed) {
   scene::Machine machine = truck();
   machine.beds.clear();
-  EXPECT_THROW(Operator(machine, program({scene::Tip{1, 0}})), InputError);
+  EXPECT_THROW(Operator(machine, program({Tip{1, 0}})), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "control/step_kinds.h"
 #include "device/device.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
@@ -13,13 +14,13 @@ namespace navvy::coupling {
 namespace {
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
-  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", {});
+  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
   scene.ground.depth = 0.4;
   scene.machines.at(0).program = {};
   device::Device device;
   sim::World world(scene, device);
   const scene::Machine& machine = world.description().machines.at(0).machine;
-  const int boom = machine.joint_index(machine.boom_joint), bucket = machine.link_index(machine.buckets.at(0).link);
+  const int boom = machine.joint_index(machine.arm.boom), bucket = machine.link_index(machine.buckets.at(0).link);
   world.command(world.machine(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
   double lowest = 1, most = 0;
   while (world.time() < 6) {

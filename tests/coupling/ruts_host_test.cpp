@@ -40,14 +40,6 @@ double deepest(const heightfield::Ground& ground) {
   return -least;
 }
 
-TEST(Ruts, SinkageInvertsBekkersLaw) {
-  const scene::Soil soil;
-  const double width = 0.28, z = 0.05;
-  const double p = (soil.bekker_kc / width + soil.bekker_kphi) * std::pow(z, soil.bekker_n);
-  EXPECT_NEAR(Ruts::sinkage(soil, p, width), z, 1e-12);  // closed form, rounding only
-  EXPECT_EQ(Ruts::sinkage(soil, 0, width), 0);
-}
-
 TEST(Ruts, PressSinksTheTreadAndKeepsTheMass) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "folder.h"
@@ -36,8 +37,8 @@ TEST(RunFolder, OfFormat1TellsWhatMadeIt) {
 }
 
 TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
-  EXPECT_TRUE(scene_io::check(kKept + "/scene.sdf").empty());
-  const scene::World world = scene_io::load_world(kKept + "/scene.sdf");
+  EXPECT_TRUE(scene_io::check(kKept + "/scene.sdf", control::step_kinds()).empty());
+  const scene::World world = scene_io::load_world(kKept + "/scene.sdf", control::step_kinds());
   EXPECT_EQ(world.name, "bucket_path");
   EXPECT_EQ(world.seed, 5u);                 // --seed 5
   EXPECT_EQ(world.recording.duration, 0.1);  // --duration 0.1
@@ -47,7 +48,7 @@ TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
   EXPECT_EQ(world.soils[0].cohesion, 8000);  // --set soil.cohesion_pa=8000
   ASSERT_EQ(world.machines.size(), 1u);
   EXPECT_EQ(world.machines[0].name, "bucket");
-  EXPECT_EQ(world.machines[0].machine.joints.size(), 4u);
+  EXPECT_EQ(world.machines[0].machine.joints.size(), 3u);
   EXPECT_EQ(world.machines[0].program.steps.size(), 1u);
 }
 

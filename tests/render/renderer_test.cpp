@@ -278,7 +278,7 @@ TEST_F(RendererTest, RefusesImpossibleInput) {
   scene::Visual visual = red_visual(scene::Geometry::Kind::kMesh);
   visual.geometry.mesh_file = "/nonexistent/mesh.obj";
   frame_.shapes = {{&visual, Pose::Identity()}};
-  EXPECT_THROW(renderer.render(frame_, camera_), InputError);
+  EXPECT_THROW(renderer.render(frame_, camera_), FileError);
   frame_.shapes.clear();
   frame_.ground.change.pop_back();
   EXPECT_THROW(renderer.render(frame_, camera_), Error);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "control/step_kinds.h"
 #include "core/file.h"
 #include "scene_io/loader.h"
 
@@ -38,7 +39,7 @@ TEST(BrokenFiles, EachIsRefusedWithFileLineElementValueAndRule) {
   EXPECT_GE(files.size(), 40u);
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());
-    const std::vector<Fault> faults = check(file.string());
+    const std::vector<Fault> faults = check(file.string(), control::step_kinds());
     const bool refused =
         std::any_of(faults.begin(), faults.end(), [](const Fault& f) { return f.severity == Fault::Severity::kError; });
     EXPECT_TRUE(refused);
@@ -60,7 +61,7 @@ TEST(BrokenFiles, EachNamesAtLeastOneExpectedFragment) {
 
 TEST(BrokenFiles, AnErrorOfAnElementAlwaysKnowsItsLine) {
   for (const auto& file : broken_files())
-    for (const Fault& fault : check(file.string()))
+    for (const Fault& fault : check(file.string(), control::step_kinds()))
       if (!fault.element.empty()) {
         EXPECT_GT(fault.line, 0) << fault.text();
       }
@@ -68,19 +69,19 @@ TEST(BrokenFiles, AnErrorOfAnElementAlwaysKnowsItsLine) {
 
 TEST(BrokenFiles, LoadingThrowsAllFaultsAtOnce) {
   try {
-    load_world((kBroken / "many.sdf").string());
+    load_world((kBroken / "many.sdf").string(), control::step_kinds());
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), check((kBroken / "many.sdf").string()).size());
+    EXPECT_EQ(error.faults().size(), check((kBroken / "many.sdf").string(), control::step_kinds()).size());
     EXPECT_GE(error.faults().size(), 5u);
   }
 }
 
 TEST(BrokenFiles, AMissingFileAndADirectoryAreNamed) {
-  EXPECT_THROW(load_world("no/such/scene.sdf"), InputError);
+  EXPECT_THROW(load_world("no/such/scene.sdf", control::step_kinds()), InputError);
   EXPECT_THROW(load_machine("no/such/model.sdf"), InputError);
   EXPECT_THROW(load_soils("no/such/directory"), InputError);
-  const auto faults = check(kBroken.string());
+  const auto faults = check(kBroken.string(), control::step_kinds());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults[0].text().find("directory"), std::string::npos);
 }

@@ -5,6 +5,10 @@
 
 #include <filesystem>
 
+#include "control/activities/dig/dig.h"
+#include "control/activities/trajectory.h"
+#include "control/activities/wait.h"
+#include "control/step_kinds.h"
 #include "core/file.h"
 #include "core/log.h"
 #include "folder.h"
@@ -51,7 +55,7 @@ const char* kBody = R"(<navvy:soil ref="loam"><cohesion_pa>7000</cohesion_pa></n
 <navvy:seed>42</navvy:seed>)";
 
 scene::World load(const std::string& body, const Overrides& overrides = {}) {
-  return load_world_from_string(world_text(body), kScene, overrides);
+  return load_world_from_string(world_text(body), kScene, control::step_kinds(), overrides);
 }
 
 std::string failure(const std::string& body, const Overrides& overrides = {}) {
@@ -113,8 +117,8 @@ TEST(Loader, ReadsMachinesWithPoseJointsAndProgram) {
   ASSERT_GE(curl, 0);
   EXPECT_DOUBLE_EQ(first.machine.joints[static_cast<std::size_t>(curl)].initial, radians(-30));
   ASSERT_EQ(first.program.steps.size(), 2u);
-  EXPECT_EQ(std::get<scene::Wait>(first.program.steps[0]).duration, 2);
-  const auto& path = std::get<scene::Trajectory>(first.program.steps[1]);
+  EXPECT_EQ(first.program.steps[0].as<control::Wait>()->duration, 2);
+  const auto& path = *first.program.steps[1].as<control::Trajectory>();
   ASSERT_EQ(path.positions.size(), 2u);
   EXPECT_DOUBLE_EQ(path.positions[1][0], radians(90));
   EXPECT_EQ(path.positions[1][1], 2);
@@ -189,12 +193,38 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
 </model>)";
   const scene::World world = load(digger);
   const auto& machine = world.machines.at(0);
-  EXPECT_EQ(std::get<scene::Dig>(machine.program.steps.at(0)).width, 0.6);
+  EXPECT_EQ(machine.program.steps.at(0).as<control::Dig>()->width, 0.6);
   EXPECT_EQ(machine.machine.buckets.at(0).opening, Vec3(0, 0, -1));
   const scene::Cylinder& cylinder = machine.machine.cylinders.at(0);
   EXPECT_TRUE(cylinder.has_linkage);
   EXPECT_EQ(cylinder.coupler, 0.6);
   EXPECT_EQ(cylinder.count, 2);
+}
+
+/// A two-wheeled robot with this drive element.
+scene::Machine robot_with(const std::string& drive) {
+  const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="r">
+<navvy:engine>kinematic</navvy:engine><link name="a"/><link name="l"><pose>0 0.2 0.1 0 0 0</pose></link>
+<link name="r"><pose>0 -0.2 0.1 0 0 0</pose></link>
+<joint name="left" type="continuous"><parent>a</parent><child>l</child><axis><xyz>0 1 0</xyz></axis></joint>
+<joint name="right" type="continuous"><parent>a</parent><child>r</child><axis><xyz>0 1 0</xyz></axis></joint>
+<navvy:wheel name="l"><joint>left</joint><driven>true</driven><radius_m>0.1</radius_m></navvy:wheel>
+<navvy:wheel name="r"><joint>right</joint><driven>true</driven><radius_m>0.1</radius_m></navvy:wheel>
+)" + drive + "</model>");
+  return world.machines.at(0).machine;
+}
+
+TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
+  const scene::Machine car = robot_with("<navvy:drive><max_steer_deg>20</max_steer_deg></navvy:drive>");
+  EXPECT_EQ(std::get<scene::AckermannDrive>(car.drive).max_steer, radians(20));
+  EXPECT_TRUE(std::holds_alternative<scene::AckermannDrive>(robot_with("<navvy:drive type='ackermann'/>").drive));
+  const scene::Machine robot = robot_with(
+      "<navvy:drive "
+      "type='differential'><track_m>0.4</track_m><max_speed_m_per_s>1.2</max_speed_m_per_s></navvy:drive>");
+  ASSERT_TRUE(robot.has_drive);
+  EXPECT_EQ(std::get<scene::DifferentialDrive>(robot.drive).track, 0.4);
+  EXPECT_EQ(scene::powertrain(robot.drive).max_speed, 1.2);
+  EXPECT_STREQ(scene::steer_unit(robot.drive), "rad/s");
 }
 
 /// A shell with this geometry on a link of its own.
@@ -256,7 +286,7 @@ TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
   // 1e-12: rounding of the rotation by 180 degrees.
   EXPECT_LT((turned.machines[1].X_WM.linear() * Vec3::UnitX() + Vec3::UnitX()).norm(), 1e-12);
   const scene::World longer = load(kBody, set("machine[first].program.wait.duration_s=9"));
-  EXPECT_EQ(std::get<scene::Wait>(longer.machines[0].program.steps[0]).duration, 9);
+  EXPECT_EQ(longer.machines[0].program.steps[0].as<control::Wait>()->duration, 9);
 }
 
 TEST(Overrides, SeedDurationRenderTerrainAndSize) {

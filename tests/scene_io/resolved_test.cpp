@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene written out as one text reads as the same scene.
 #include "scene_io/resolved.h"
+#include "control/step_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -84,8 +85,8 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
     if (entry.path().extension() != ".sdf") continue;
     SCOPED_TRACE(entry.path());
     std::string text, again;
-    const scene::World world = load_world(entry.path().string(), {}, &text);
-    const scene::World resolved = load_world_from_string(text, kElsewhere, {}, &again);
+    const scene::World world = load_world(entry.path().string(), control::step_kinds(), {}, &text);
+    const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
     expect_equal(world, resolved);
     EXPECT_EQ(text, again) << "written out once more it is the same text";
     EXPECT_EQ(text.find("<include>"), std::string::npos);
@@ -104,8 +105,8 @@ TEST(Resolved, TextHoldsEveryOverride) {
   overrides.render = false;
   overrides.size = Vec2(26, 22);
   std::string text;
-  const scene::World world = load_world(kShipped + "/trench.sdf", overrides, &text);
-  const scene::World resolved = load_world_from_string(text, kElsewhere);
+  const scene::World world = load_world(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds());
   expect_equal(world, resolved);
   EXPECT_EQ(resolved.seed, 77u);
   EXPECT_EQ(resolved.recording.duration, 12.5);
@@ -121,8 +122,8 @@ TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
   Overrides overrides;
   overrides.terrain = std::filesystem::relative(folder / "map.asc").string();
   std::string text;
-  const scene::World world = load_world(kShipped + "/trench.sdf", overrides, &text);
-  const scene::World resolved = load_world_from_string(text, kElsewhere);
+  const scene::World world = load_world(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds());
   EXPECT_TRUE(std::filesystem::equivalent(world.ground.file, resolved.ground.file));
   EXPECT_TRUE(std::filesystem::path(resolved.ground.file).is_absolute());
 }
@@ -135,12 +136,12 @@ TEST(Resolved, AFileThatChangedSinceIsTold) {
   load_world_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground>
       <include><uri>mine</uri><navvy:on_ground>false</navvy:on_ground></include></world></sdf>)",
-                         folder / "scene.sdf", {}, &text);
+                         folder / "scene.sdf", control::step_kinds(), {}, &text);
   write_file_atomically(folder / "resolved.sdf", text);
-  EXPECT_TRUE(check(folder / "resolved.sdf").empty());
+  EXPECT_TRUE(check(folder / "resolved.sdf", control::step_kinds()).empty());
   const std::vector<char> mesh = read_file(folder / "mine/meshes/bucket.obj");
   write_file_atomically(folder / "mine/meshes/bucket.obj", std::string(mesh.begin(), mesh.end()) + "# more\n");
-  const std::vector<Fault> faults = check(folder / "resolved.sdf");
+  const std::vector<Fault> faults = check(folder / "resolved.sdf", control::step_kinds());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].severity, Fault::Severity::kWarning);
   EXPECT_NE(faults[0].text().find("bucket.obj"), std::string::npos) << faults[0].text();
@@ -150,7 +151,7 @@ TEST(Resolved, AFormatOfALaterVersionIsRefused) {
   const std::string text = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground><navvy:resolved format="2"/></world></sdf>)";
   try {
-    load_world_from_string(text, kElsewhere);
+    load_world_from_string(text, kElsewhere, control::step_kinds());
     FAIL() << "a later format was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("reads format 1"), std::string::npos) << error.what();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "control/step_kinds.h"
 #include "core/file.h"
 #include "scene_io/loader.h"
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 const fs::path kRoot = NAVVY_SOURCE_DIR;
 
 void expect_clean(const fs::path& file) {
-  for (const Fault& fault : check(file.string())) ADD_FAILURE() << fault.text();
+  for (const Fault& fault : check(file.string(), control::step_kinds())) ADD_FAILURE() << fault.text();
 }
 
 TEST(ShippedFiles, EveryScenarioLoads) {

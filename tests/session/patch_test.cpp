@@ -2,6 +2,7 @@
 // Layers and a patch of a third soil in one scene, dug through by one scoop: every soil keeps books of its own.
 #include <gtest/gtest.h>
 
+#include "control/step_kinds.h"
 #include "core/file.h"
 #include "device/device.h"
 #include "record/summary.h"
@@ -31,7 +32,7 @@ scene::World patched_scene() {
              <patch><min_m>-0.6 0</min_m><max_m>1.2 2</max_m><layer><soil>sand_dry</soil></layer></patch>)");
   scene_io::Overrides overrides;
   overrides.render = false;
-  return scene_io::load_world_from_string(text, path, overrides);
+  return scene_io::load_world_from_string(text, path, control::step_kinds(), overrides);
 }
 
 TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from soil.
 #include "session/session.h"
+#include "control/activities/dig/dig.h"
+#include "control/step_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +24,7 @@ scene::World load(const std::string& name, const std::vector<std::string>& setti
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 /// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.
@@ -133,7 +135,7 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
   const Vec3 place = world.machine(0).link(0).pose().translation();
-  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.boom_joint);
+  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
   const double angle = world.machine(0).joint(boom).position();
   StateWriter writer;
   session->save(writer);
@@ -256,7 +258,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
   run_to(*session, 0.5);
   for (int m = 0; m < 2; ++m) {
     double load = 0;
-    for (int w = 0; w < 4; ++w) load += session->world().wheel(m, w).force_W.z();
+    for (int w = 0; w < 4; ++w) load += session->world().machine(m).wheel(w).state().force_W.z();
     // 18 t standing still; the springs still ring a little.
     EXPECT_NEAR(load, 18000 * kGravity, 0.15 * 18000 * kGravity) << "machine " << m;
   }
@@ -265,7 +267,11 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
 TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
   scene::World description = load("trench.sdf");
   for (scene::ProgramStep& step : description.machines[0].program.steps)
-    if (auto* dig = std::get_if<scene::Dig>(&step)) dig->from.x() += 4;
+    if (const auto* dig = step.as<control::Dig>()) {
+      control::Dig far = *dig;
+      far.from.x() += 4;
+      step = far;
+    }
   try {
     make(description);
     FAIL() << "a trench 12 m away was accepted";

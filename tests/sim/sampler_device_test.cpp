@@ -120,6 +120,26 @@ TEST_F(SamplerTest, NamesAreUniqueAndAWrongOneGetsTheNearest) {
   EXPECT_THROW(world->arrays().view(7), InputError);
 }
 
+/// Declares a new number, then a name that is taken.
+class Clumsy final : public Sampler {
+ public:
+  std::string name() const override { return "clumsy"; }
+  double rate() const override { return 1; }
+  void declare(Publisher& out) override {
+    out.declare(Channel{"clumsy/number", "1", ""});
+    out.declare(Channel{"time", "s", ""});
+  }
+  void sample(const World&, Publisher&) override {}
+};
+
+TEST_F(SamplerTest, OneThatIsRefusedLeavesNoTrace) {
+  const auto world = rolling(false);
+  const std::string hash = world->state_hash(), list = channel_list(*world);
+  EXPECT_THROW(world->add(std::make_unique<Clumsy>()), InputError);
+  EXPECT_EQ(channel_list(*world), list);
+  EXPECT_EQ(world->state_hash(), hash);
+}
+
 TEST_F(SamplerTest, StandsInTheListOfChannels) {
   const auto world = rolling();
   const std::string list = channel_list(*world);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "control/step_kinds.h"
 #include "scene_io/loader.h"
 
 namespace navvy::sim::testing {
@@ -13,7 +14,7 @@ inline scene::World load(const std::string& name, const std::vector<std::string>
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, overrides);
+  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 }  // namespace navvy::sim::testing

@@ -21,18 +21,20 @@ const std::map<std::string, Names>& arrows() {
   static const std::map<std::string, Names> table = {
       {"core", {}},
       {"device", {"core"}},
-      {"scene", {"core"}},
+      {"geometry", {"core"}},
+      {"scene", {"geometry"}},
       {"scene_io", {"scene"}},
       {"heightfield", {"device", "scene"}},
       {"soil", {"heightfield", "device", "scene"}},
-      {"lab", {"soil"}},
+      {"terramechanics", {"scene"}},
+      {"lab", {"soil", "terramechanics"}},
       {"bench", {"lab", "soil"}},
-      {"vehicle", {"scene"}},
+      {"vehicle", {"scene", "terramechanics"}},
       {"control", {"vehicle", "heightfield"}},
-      {"coupling", {"soil", "vehicle", "heightfield"}},
+      {"coupling", {"soil", "vehicle", "heightfield", "terramechanics"}},
       {"sim", {"coupling", "scene"}},
       {"session", {"sim", "control"}},
-      {"render", {"scene"}},
+      {"render", {"scene", "geometry"}},
       {"sensor", {"sim", "geometry"}},
       {"planner", {"sim", "heightfield", "control"}},
       {"record", {"session", "planner", "sensor", "render"}},
@@ -79,7 +81,7 @@ const std::vector<Library>& libraries() {
       {"tinyxml2", {"tinyxml2.h"}, {"src/scene_io"}},
       {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"src/heightfield/gdal"}},
       {"Coin, OpenGL, OSMesa", {"Inventor/", "GL/", "EGL/"}, {"src/render"}},
-      {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/render", "src/vehicle", "src/scene_io"}},
+      {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/geometry/obj"}},
       {"libpng", {"png.h"}, {"src/render", "src/record"}},
       {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
@@ -161,7 +163,6 @@ const Names& inner() {
 const std::map<std::string, std::string>& insiders() {
   static const std::map<std::string, std::string> table = {
       {"src/cli/lab_command.cpp", "runs the laboratory, whose rigs are built of the solver itself"},
-      {"src/cli/bench_command.cpp", "measures the solver itself"},
   };
   return table;
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <variant>
 
+#include "control/activities/drive_to.h"
 #include "sim/world_parts.h"
 #include "soil/rig.h"
 #include "validation/report.h"
@@ -22,7 +22,7 @@ constexpr const char* kSource = "conservation of momentum [docs/validation.md, W
 scene::World standing_at_the_trench() {
   scene::World world = load_scene("trench.sdf", {"machine.x_m=-4"});
   scene::Program& program = world.machines.at(0).program;
-  const auto drives = [](const scene::ProgramStep& step) { return std::holds_alternative<scene::DriveTo>(step); };
+  const auto drives = [](const scene::ProgramStep& step) { return step.as<control::DriveTo>() != nullptr; };
   program.steps.erase(std::remove_if(program.steps.begin(), program.steps.end(), drives), program.steps.end());
   program.lines.clear();
   return world;

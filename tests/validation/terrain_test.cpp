@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "control/step_kinds.h"
 #include "record/summary.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
@@ -44,7 +45,8 @@ TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
   overrides.at = spot.at;
   overrides.at_is_local = true;
   overrides.set.push_back(scene_io::parse_setting("machine.program.dig.to_m=3.25 0"));
-  const scene::World description = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", overrides);
+  const scene::World description =
+      scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds(), overrides);
   session::Session session(description, shared_device());
   const heightfield::Ground& ground = session.world().ground();
   double fastest = 0, deepest = 0;

@@ -20,7 +20,7 @@ struct OnLine {
 
 /// Frame of the dig's line.
 struct Line {
-  explicit Line(const scene::Dig& dig)
+  explicit Line(const control::Dig& dig)
       : from(dig.from), along((dig.to - dig.from).normalized()), length((dig.to - dig.from).norm()) {}
   OnLine at(const Vec2& p) const { return {(p - from).dot(along), (p - from).dot(Vec2(-along.y(), along.x()))}; }
 
@@ -54,13 +54,13 @@ struct Slice {
 
 }  // namespace
 
-scene::Dig dig_step(const scene::World& world) {
+control::Dig dig_step(const scene::World& world) {
   for (const scene::ProgramStep& step : world.machines.at(0).program.steps)
-    if (const auto* dig = std::get_if<scene::Dig>(&step)) return *dig;
+    if (const auto* dig = step.as<control::Dig>()) return *dig;
   throw SimulationError("the scene digs nothing");
 }
 
-TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig) {
+TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig) {
   TrenchMeasure out;
   const Line line(dig);
   const double length = line.length, cell = ground.cell(), area = cell * cell;
@@ -120,7 +120,7 @@ double spoil_radius(double loose_volume, double repose, double width) {
   return std::cbrt(3 * loose_volume / (kPi * std::tan(repose))) + 0.5 * width;
 }
 
-double change_elsewhere(const heightfield::Ground& ground, const scene::Dig& dig, double spoil_radius,
+double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
                         const WheelTracks& tracks) {
   const Line line(dig);
   double most = 0;

@@ -4,15 +4,15 @@
 
 #include <vector>
 
+#include "control/activities/dig/dig.h"
 #include "heightfield/ground.h"
-#include "scene/program.h"
 #include "scene/world.h"
 #include "sim/world.h"
 
 namespace navvy::validation {
 
 /// The dig step of the only machine.
-scene::Dig dig_step(const scene::World& world);
+control::Dig dig_step(const scene::World& world);
 
 /// Terrain end minus start inside and outside the design.
 struct TrenchMeasure {
@@ -23,7 +23,7 @@ struct TrenchMeasure {
   double center_offset = 0;  ///< largest over the length of |centre of removed area - design line| [m]
 };
 
-TrenchMeasure measure(const heightfield::Ground& ground, const scene::Dig& dig);
+TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig);
 
 /// Columns that a machine's tyres passed over, and those one cell beside them.
 class WheelTracks {
@@ -43,7 +43,7 @@ class WheelTracks {
 double spoil_radius(double loose_volume, double repose, double width);
 
 /// Largest |change of height| [m] away from the trench (and half a metre around it), the spoil and the tracks.
-double change_elsewhere(const heightfield::Ground& ground, const scene::Dig& dig, double spoil_radius,
+double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
                         const WheelTracks& tracks);
 
 }  // namespace navvy::validation

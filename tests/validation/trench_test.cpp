@@ -24,7 +24,7 @@ double mean_cycle_time(const std::vector<session::Cycle>& cycles) {
 
 TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   const scene::World description = load_scene("trench.sdf");
-  const scene::Dig dig = dig_step(description);
+  const control::Dig dig = dig_step(description);
   session::Session session(description, shared_device());
   WheelTracks tracks(session.world().ground());
   double fastest_rise = 0;

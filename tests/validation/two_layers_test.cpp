@@ -31,7 +31,7 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
   const sim::World& world = session.world();
   const scene::World& description = world.description();
   while (!session.done()) session.step();
-  const scene::Dig dig = dig_step(description);
+  const control::Dig dig = dig_step(description);
   const TrenchMeasure trench = measure(world.ground(), dig);
   const record::Earthwork earth = record::measure_earthwork(world);
   const sim::MassLedger ledger = world.mass_ledger();

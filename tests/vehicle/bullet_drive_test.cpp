@@ -46,7 +46,7 @@ TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
     const scene::Machine m = ew180();
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(m, Pose::Identity());
-    engine->set_drive(0, {1.2, std::atan(m.drive.wheelbase / radius), false});
+    engine->set_drive(0, {1.2, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
     const auto ground = flat();
     run(*engine, ground, 4, kStep);
     Vec3 p[3];
@@ -95,8 +95,8 @@ TEST(BulletDrive, StopsAndHoldsOnASlopeWithoutCreep) {
 
 TEST(BulletDrive, SlidesDownWhereFrictionCannotHold) {
   auto engine = make_bullet_engine(kDown);
-  engine->add_machine(cart(), make_pose(0, 0, 0, 0, -radians(20)));
-  const auto ground = testing::slope(radians(20), 0.3);
+  engine->add_machine(testing::with_grip(cart(), 0.3), make_pose(0, 0, 0, 0, -radians(20)));
+  const auto ground = testing::slope(radians(20));
   run(*engine, ground, 1, kStep);
   const double v0 = engine->link(0, 0).v_WL.norm();
   run(*engine, ground, 1, kStep);
@@ -106,12 +106,12 @@ TEST(BulletDrive, SlidesDownWhereFrictionCannotHold) {
 }
 
 TEST(BulletDrive, PushAtTheEdgeSlidesTheMachineOnMu03) {
-  const scene::Machine m = ew180();
+  const scene::Machine m = testing::with_grip(ew180(), 0.3);
   const double hold = 0.3 * 18000 * kGravity;
   for (const double share : {0.9, 1.1}) {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(m, Pose::Identity());
-    const auto ground = flat(0.3);
+    const auto ground = flat();
     run(*engine, ground, 2, kStep);
     const auto push = [&](double part) {
       engine->add_force(0, 0, Vec3(-part * share * hold, 0, 0), engine->link(0, 0).X_WL * Vec3(3.5, 0, 0.5));

@@ -48,8 +48,8 @@ struct OverRock {
 
 TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
   OverRock dig(true);
-  const int boom = dig.joint(dig.machine.boom_joint);
-  dig.turn(dig.machine.boom_joint, -0.3);
+  const int boom = dig.joint(dig.machine.arm.boom);
+  dig.turn(dig.machine.arm.boom, -0.3);
   double lowest = 1e9, bounce = 0;
   bool touched = false;
   run(*dig.engine, flat(), 5, kStep, [&](double) {
@@ -92,7 +92,7 @@ TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
 TEST(BulletRock, AMachineLiftsItselfOnItsBucket) {
   OverRock dig(false);
   run(*dig.engine, flat(), 1, kStep);
-  dig.turn(dig.machine.boom_joint, -0.3);
+  dig.turn(dig.machine.arm.boom, -0.3);
   double lowest = 1e9, fastest = 0;
   run(*dig.engine, flat(), 6, kStep, [&](double) {
     lowest = std::min(lowest, dig.lowest());
@@ -115,9 +115,9 @@ TEST(BulletRock, AMachineLiftsItselfOnItsBucket) {
 
 TEST(BulletRock, SteelSlidesOnItWithFriction) {
   OverRock dig(true);
-  dig.turn(dig.machine.boom_joint, -0.3);
+  dig.turn(dig.machine.arm.boom, -0.3);
   run(*dig.engine, flat(), 4, kStep);
-  dig.turn(dig.machine.stick_joint, -0.1);
+  dig.turn(dig.machine.arm.stick, -0.1);
   run(*dig.engine, flat(), 1, kStep);
   const double before = dig.engine->link(0, dig.bucket).X_WL.translation().x();
   double along = 0, up = 0, lowest = 1e9;
@@ -134,8 +134,8 @@ TEST(BulletRock, SteelSlidesOnItWithFriction) {
 TEST(BulletRock, AResumedRunPressesTheSame) {
   OverRock dig(false), again(false);
   for (OverRock* rig : {&dig, &again}) {
-    rig->turn(rig->machine.boom_joint, -0.3);
-    rig->turn(rig->machine.stick_joint, -0.1);
+    rig->turn(rig->machine.arm.boom, -0.3);
+    rig->turn(rig->machine.arm.stick, -0.1);
   }
   run(*dig.engine, flat(), 5, kStep);
   ASSERT_GT(dig.rock_force().z(), 1e3);

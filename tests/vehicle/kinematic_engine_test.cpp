@@ -39,7 +39,7 @@ TEST(KinematicEngine, DrivesTheExactArc) {
   const scene::Machine m = cart();
   engine->add_machine(m, Pose::Identity());
   const double radius = 7;
-  engine->set_drive(0, {1.0, std::atan(m.drive.wheelbase / radius), false});
+  engine->set_drive(0, {1.0, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
   const auto ground = testing::slope(radians(5));
   run(*engine, ground, radius * kPi / 2, kStep);
   const Pose X = engine->link(0, 0).X_WL;

@@ -34,9 +34,11 @@ scene::Machine cart() {
   m.name = "cart";
   m.links.push_back(box_link("chassis", Pose::Identity(), 1600, Vec3(1.4, 0, 0.8), Vec3(3, 1.5, 0.5)));
   m.has_drive = true;
-  m.drive.tractive_force = 15e3;
-  m.drive.power = 30e3;
-  m.drive.brake_force = 25e3;
+  scene::AckermannDrive drive;
+  drive.tractive_force = 15e3;
+  drive.power = 30e3;
+  drive.brake_force = 25e3;
+  m.drive = drive;
   const auto add = [&](const Pose& X, double mass, const std::string& name, int parent, const Vec3& axis) {
     m.links.push_back(box_link(name, X, mass, Vec3::Zero(), Vec3(0.8, 0.3, 0.8)));
     m.joints.push_back(revolute(name + "_joint", parent, static_cast<int>(m.links.size()) - 1, axis));
@@ -97,26 +99,47 @@ scene::Machine ew180(double boom, double stick, double bucket, double swing) {
   const auto set = [&](const std::string& name, double q) {
     m.joints.at(static_cast<std::size_t>(m.joint_index(name))).initial = q;
   };
-  set(m.boom_joint, boom);
-  set(m.stick_joint, stick);
-  set(m.bucket_joint, bucket);
-  set(m.swing_joint, swing);
+  set(m.arm.boom, boom);
+  set(m.arm.stick, stick);
+  set(m.arm.bucket, bucket);
+  set(m.arm.swing, swing);
   return m;
 }
 
-Vec3 FunctionGround::normal(double x, double y) const {
-  constexpr double kHalf = 0.05;
-  const double dx = (height_(x + kHalf, y) - height_(x - kHalf, y)) / (2 * kHalf);
-  const double dy = (height_(x, y + kHalf) - height_(x, y - kHalf)) / (2 * kHalf);
-  return Vec3(-dx, -dy, 1).normalized();
+scene::Machine with_grip(scene::Machine machine, double friction) {
+  for (scene::Wheel& wheel : machine.wheels) wheel.friction = friction;
+  return machine;
 }
 
-FunctionGround flat(double friction) {
-  return FunctionGround([](double, double) { return 0.0; }, friction);
-}
-
-FunctionGround slope(double angle, double friction) {
-  return FunctionGround([t = std::tan(angle)](double x, double) { return t * x; }, friction);
+scene::Machine robot(double caster) {
+  scene::Machine m;
+  m.name = "robot";
+  m.links.push_back(box_link("chassis", Pose::Identity(), 40, Vec3(-0.08, 0, 0.16), Vec3(0.5, 0.3, 0.12)));
+  m.has_drive = true;
+  scene::DifferentialDrive drive;
+  drive.max_speed = 1.5;
+  drive.tractive_force = 120;
+  drive.power = 100;
+  drive.brake_force = 150;
+  drive.track = 0.4;
+  m.drive = drive;
+  const auto add = [&](const std::string& name, const Vec3& p, double radius, bool driven) {
+    m.links.push_back(box_link(name, make_pose(p.x(), p.y(), p.z()), 2, Vec3::Zero(), Vec3(radius, 0.05, radius)));
+    m.joints.push_back(revolute(name + "_joint", 0, static_cast<int>(m.links.size()) - 1, Vec3::UnitY()));
+    scene::Wheel wheel;
+    wheel.joint = m.joints.back().name;
+    wheel.driven = driven;
+    wheel.radius = radius;
+    wheel.width = 0.04;
+    wheel.stiffness = 4e4;
+    wheel.damping = 400;
+    wheel.friction = driven ? 0.9 : caster;
+    m.wheels.push_back(wheel);
+  };
+  add("left", Vec3(0, 0.2, 0.1), 0.1, true);
+  add("right", Vec3(0, -0.2, 0.1), 0.1, true);
+  add("ball", Vec3(-0.3, 0, 0.05), 0.05, false);
+  return m;
 }
 
 void run(Engine& engine, const GroundQuery& ground, double duration, double dt,

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "scene/machine.h"
+#include "terramechanics/grounds.h"
 #include "vehicle/engine.h"
 
 namespace navvy::vehicle::testing {
@@ -15,6 +16,10 @@ scene::Joint revolute(const std::string& name, int parent, int child, const Vec3
 
 /// Cart of 2000 kg with four wheels, wheelbase 2.8 m, track 1.94 m, rear drive, front steering.
 scene::Machine cart();
+/// Robot of 46 kg with two driven wheels of 0.1 m on a track of 0.4 m and a ball behind them that slips with `caster`.
+scene::Machine robot(double caster = 0);
+/// The machine on tyres that grip with `friction` [-].
+scene::Machine with_grip(scene::Machine machine, double friction);
 /// Fixed base, boom 5 m / 1200 kg and stick 3 m / 600 kg on pitch joints (axis -y), no cylinders.
 scene::Machine arm();
 /// A single box of 1 m edges and 1000 kg that collides.
@@ -25,22 +30,9 @@ scene::Machine ew180(double boom = 0.75, double stick = -2.2, double bucket = -1
 /// The shipped dumper.
 scene::Machine dumper();
 
-/// Ground as a function of x and y; the normal by differences over 0.1 m.
-class FunctionGround final : public GroundQuery {
- public:
-  explicit FunctionGround(std::function<double(double, double)> height, double friction = -1)
-      : height_(std::move(height)), friction_(friction) {}
-  double height(double x, double y) const override { return height_(x, y); }
-  Vec3 normal(double x, double y) const override;
-  double friction(double, double) const override { return friction_; }
-
- private:
-  std::function<double(double, double)> height_;
-  double friction_;
-};
-FunctionGround flat(double friction = -1);
-/// Plane that rises along x.
-FunctionGround slope(double angle, double friction = -1);
+using terramechanics::flat;
+using terramechanics::FunctionGround;
+using terramechanics::slope;
 
 /// Steps an engine for a time; calls `each` after every step.
 void run(Engine& engine, const GroundQuery& ground, double duration, double dt,

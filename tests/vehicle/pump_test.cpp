@@ -133,7 +133,7 @@ struct Digger {
 
 TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
   Digger digger(0.9, -1.0, 0.2);
-  for (const std::string& name : {digger.machine.boom_joint, digger.machine.stick_joint, digger.machine.bucket_joint})
+  for (const std::string& name : {digger.machine.arm.boom, digger.machine.arm.stick, digger.machine.arm.bucket})
     digger.turn(name, -3);
   double most = 0;
   run(*digger.engine, flat(), 1, kStep, [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
@@ -146,8 +146,8 @@ TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
 
 TEST(BulletPump, LiftsWithItsPower) {
   Digger digger(0.1, -0.9, -1.5);
-  const int boom = digger.joint(digger.machine.boom_joint), link = digger.machine.link_index("bucket");
-  digger.turn(digger.machine.boom_joint, 3);
+  const int boom = digger.joint(digger.machine.arm.boom), link = digger.machine.link_index("bucket");
+  digger.turn(digger.machine.arm.boom, 3);
   double time = 0, sum = 0, least = 1e9, most = 0;
   run(*digger.engine, flat(), 1.6, kStep, [&](double t) {
     digger.engine->add_force(0, link, 2000 * kDown, digger.engine->link(0, link).X_WL.translation());
@@ -168,11 +168,11 @@ TEST(BulletPump, LiftsWithItsPower) {
 
 TEST(BulletPump, AFunctionAtItsStopLeavesItsOilToTheOthers) {
   Digger digger(radians(59), -1.2, 0.3);
-  const int bucket = digger.joint(digger.machine.bucket_joint);
-  digger.turn(digger.machine.boom_joint, 3);
+  const int bucket = digger.joint(digger.machine.arm.bucket);
+  digger.turn(digger.machine.arm.boom, 3);
   run(*digger.engine, flat(), 1, kStep);
-  EXPECT_TRUE(digger.engine->joint(0, digger.joint(digger.machine.boom_joint)).stalled);
-  digger.turn(digger.machine.bucket_joint, -3);
+  EXPECT_TRUE(digger.engine->joint(0, digger.joint(digger.machine.arm.boom)).stalled);
+  digger.turn(digger.machine.arm.bucket, -3);
   double least = 1e9;
   run(*digger.engine, flat(), 0.8, kStep, [&](double t) {
     const JointState state = digger.engine->joint(0, bucket);

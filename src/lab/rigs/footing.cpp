@@ -17,6 +17,7 @@
 #include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
+#include "terramechanics/plate.h"
 
 namespace navvy::lab {
 namespace {
@@ -185,9 +186,7 @@ Report run_plate(const Setup& setup) {
     report.note("exponent n of p = k z^n", line.b, "", "fit over 10 .. 100 % of the sinkage");
     report.note("k of p = k z^n", std::exp(line.a) / 1000, "kPa/m^n");
   }
-  const scene::Soil& s = setup.soil;
-  // p = (kc / b + kphi) z^n
-  const double law = (s.bekker_kc / b + s.bekker_kphi) * std::pow(deep, s.bekker_n);
+  const double law = terramechanics::plate_pressure(setup.soil, deep, b);
   report.add("pressure at full sinkage", pressure.values.back() / 1000, "kPa", law / 1000, kNone, kNone,
              "[Bekker 1969], with the soil's own parameters");
   report.note("particles through the plate", static_cast<double>(site.solver().stats().shell_crossings), "");

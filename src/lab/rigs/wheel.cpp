@@ -13,11 +13,16 @@
 #include "lab/rigs/rig_list.h"
 #include "lab/shapes.h"
 #include "lab/soils.h"
-#include "lab/theory/wheel_formula.h"
 #include "lab/tool_driver.h"
+#include "terramechanics/rigid_wheel.h"
 
 namespace navvy::lab {
 namespace {
+
+using terramechanics::rigid_wheel;
+using terramechanics::rim_speed;
+using terramechanics::WheelCase;
+using terramechanics::WheelForce;
 
 constexpr double kLoading = 0.3;   // seconds in which the load comes on, at standstill, and half as many to start
 constexpr double kDashpot = 0.05;  // sinking speed at which the carriage's damper bears a tenth of the load [m/s]

@@ -132,46 +132,15 @@ void ShellGeometry::cut_pieces(double longest) {
 void ShellGeometry::build_hull() {
   // The mouth opens to where the faces look on the whole; a heap may stand a quarter of the shell's size over it.
   Vec3 mouth = Vec3::Zero();
-  Vec3 low = shell_.vertices[0], high = low;
   for (const Triangle& t : triangles_) mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
-  for (const Vec3& v : shell_.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  const double heap = mouth.norm() > 1e-9 ? 0.25 * (high - low).norm() : 0;
+  const geometry::Box box = geometry::bounds(shell_);
+  const double heap = mouth.norm() > 1e-9 ? 0.25 * (box.high - box.low).norm() : 0;
   std::vector<Vec3> points;
   for (const Triangle& t : triangles_) points.insert(points.end(), t.corner.begin(), t.corner.end());
   if (heap > 0)
     for (const auto& rim : rims_)
       for (const Vec3& p : rim) points.push_back(p + heap * mouth.normalized());
-  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-
-  // Every triple whose plane has all points on one side is a face of the hull; merged when equal.
-  const double tiny = 1e-7 * (high - low).norm();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size(); ++j)
-      for (std::size_t k = j + 1; k < points.size(); ++k) {
-        Vec3 n = (points[j] - points[i]).cross(points[k] - points[i]);
-        if (n.norm() < tiny * tiny) continue;
-        n.normalize();
-        double least = 0, most = 0;
-        for (const Vec3& p : points) {
-          const double d = n.dot(p - points[i]);
-          least = std::min(least, d);
-          most = std::max(most, d);
-          if (least < -tiny && most > tiny) break;
-        }
-        if (least < -tiny && most > tiny) continue;
-        if (most > tiny) n = -n;
-        const double offset = n.dot(points[i]);
-        const bool known = std::any_of(hull_.begin(), hull_.end(), [&](const Plane& plane) {
-          return (plane.normal - n).norm() < 1e-6 && std::abs(plane.offset - offset) < tiny * 10;
-        });
-        if (!known) hull_.push_back({n, offset});
-      }
+  hull_ = geometry::convex_hull(points).planes;
   hull_points_ = std::move(points);
 }
 
@@ -219,7 +188,7 @@ bool ShellGeometry::holds(const Vec3& p) const {
 }
 
 bool ShellGeometry::holds(const Vec3& p, int& closest) const {
-  for (const Plane& plane : hull_)
+  for (const geometry::Plane& plane : hull_)
     if (plane.normal.dot(p) > plane.offset) return false;
   return distance(p, closest) > 0;
 }

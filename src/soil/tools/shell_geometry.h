@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "geometry/hull.h"
 #include "scene/machine.h"
 
 namespace navvy::soil {
@@ -57,11 +58,7 @@ class ShellGeometry {
   std::vector<Triangle> triangles_;
   std::vector<std::array<Vec3, 2>> rims_;
   std::vector<Piece> pieces_;
-  struct Plane {
-    Vec3 normal;
-    double offset;
-  };
-  std::vector<Plane> hull_;
+  std::vector<geometry::Plane> hull_;
   std::vector<Vec3> hull_points_;
 };
 

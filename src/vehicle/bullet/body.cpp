@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "vehicle/bullet/convert.h"
+#include "vehicle/bullet/refuse.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::vehicle {
@@ -14,18 +14,11 @@ namespace {
 
 using JointType = scene::Joint::Type;
 
-[[noreturn]] void refuse(const std::string& element, const std::string& value, const std::string& rule) {
-  Fault fault;
-  fault.element = element;
-  fault.value = value;
-  fault.rule = rule;
-  throw InputError(fault);
-}
-
 /// Frame at the centre of mass along the principal axes; `moments` gets the principal moments.
 Pose principal_frame(const scene::Link& link, Vec3& moments) {
   Pose X = Pose::Identity();
   X.translation() = link.p_LCom;
+  // Most links are given along their principal axes: no turn, and no rounding from an eigen solver.
   if (link.inertia.isDiagonal(1e-12)) {
     moments = link.inertia.diagonal();
     return X;
@@ -33,6 +26,7 @@ Pose principal_frame(const scene::Link& link, Vec3& moments) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(link.inertia);
   moments = solver.eigenvalues();
   Mat3 R = solver.eigenvectors();
+  // Eigenvectors have a free sign; a frame must be right-handed.
   if (R.determinant() < 0) R.col(0) = -R.col(0);
   X.linear() = R;
   return X;
@@ -53,6 +47,7 @@ void leave_to_physics(btMultiBody& body) {
 
 TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
   if (machine.links.empty()) refuse("machine[" + machine.name + "]", "", "needs at least one link");
+  // Bullet's base is link 0 in its own inertial frame; the model's placement is carried over to it.
   build(machine);
   const Pose X_WI = X_WM * machine.links[0].X_ML * X_LI_[0];
   body_->setBasePos(to_bt(Vec3(X_WI.translation())));
@@ -62,12 +57,14 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
 
 void TreeBody::build(const scene::Machine& machine) {
   const std::size_t links = machine.links.size();
+  // -2: not in the tree yet, -1: Bullet's base.
   bullet_of_link_.assign(links, -2);
   bullet_of_joint_.assign(machine.joints.size(), -1);
   bullet_of_link_[0] = -1;
   X_LI_.resize(links);
   mass_.resize(links);
   inertia_.resize(links);
+  // A fixed joint of the base to the world means the same as the flag.
   bool fixed = machine.fixed_base;
   std::vector<Vec3> moments(links);
   for (std::size_t i = 0; i < links; ++i) {
@@ -106,14 +103,17 @@ void TreeBody::build(const scene::Machine& machine) {
     link_of_bullet_[k] = machine.joints[index(order[k])].child;
     add_joint(machine, order[k], static_cast<int>(k));
   }
+  // From here on Bullet's arrays of positions and velocities have their size.
   body_->finalizeMultiDof();
   leave_to_physics(*body_);
+  // For inertias about a joint: who hangs on it. Parents come before children, so one walk inward a link does.
   outward_.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     for (int up = static_cast<int>(k); up >= 0; up = body_->getParent(up))
       outward_[index(up)].push_back(link_of_bullet_[k]);
   frames_.resize(links);
   for (std::size_t i = 0; i < links; ++i)
+    // A fixed base is part of the world: it has no momentum and no drive has to move it.
     if (!fixed || i > 0) total_mass_ += mass_[i];
 }
 
@@ -121,15 +121,18 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   const scene::Joint& joint = machine.joints[index(j)];
   const std::size_t child = index(joint.child), parent = index(joint.parent);
   const Pose X_PI = X_LI_[parent].inverse();
+  // All Bullet wants is told from inertial frame to inertial frame, at joint position 0.
   const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];  // child's frame in the parent's
   const Vec3 pivot_c = X_LI_[child].inverse() * Vec3(joint.X_LcJ.translation());
   const Vec3 axis_c = X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
   pivot_I_[index(k)] = pivot_c;
   const Vec3 pivot_p = X_IpIc * pivot_c;
+  // Bullet turns from parent to child, a pose here places the child in its parent: the inverse.
   const btQuaternion turn = to_bt(Mat3(X_IpIc.linear())).inverse();
   const int up = bullet_of_link_[parent];
   Vec3 moments;
   principal_frame(machine.links[child], moments);
+  // e: parent's centre to pivot, in the parent; d: pivot to the child's centre, in the child.
   const btVector3 inertia = to_bt(moments), e = to_bt(pivot_p), d = to_bt(Vec3(-pivot_c));
   const double mass = mass_[child];
   switch (joint.type) {
@@ -148,6 +151,7 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   }
 }
 
+// Fixed and ball joints have no single position: they answer 0.
 double TreeBody::position(int joint) const {
   const int k = bullet_of_joint_[index(joint)];
   return k >= 0 && body_->getLink(k).m_dofCount == 1 ? body_->getJointPos(k) : 0;
@@ -166,6 +170,7 @@ void TreeBody::set_position(int joint, double q) {
 }
 
 void TreeBody::update_kinematics() const {
+  // Outward from the base, each link from its parent: Bullet keeps joint coordinates, not poses in W.
   if (kinematics_valid_) return;
   Frame& base = frames_[0];
   base.X_WI.linear() = to_eigen(btMatrix3x3(body_->getWorldToBaseRot().inverse()));
@@ -176,6 +181,7 @@ void TreeBody::update_kinematics() const {
     const int up = body_->getParent(k);
     const Frame& p = frames_[up < 0 ? 0 : index(link_of_bullet_[index(up)])];
     Frame& c = frames_[index(link_of_bullet_[index(k)])];
+    // Rotation child in parent, and the way from the parent's centre to the child's, in the child.
     const Mat3 R_pc = to_eigen(btMatrix3x3(body_->getParentToLocalRot(k).inverse()));
     const Mat3 R = p.X_WI.linear() * R_pc;
     const Vec3 r = R * to_eigen(body_->getRVector(k));
@@ -183,6 +189,7 @@ void TreeBody::update_kinematics() const {
     c.X_WI.translation() = p.X_WI.translation() + r;
     c.w_W = p.w_W;
     c.v_W = p.v_W + p.w_W.cross(r);
+    // Each freedom adds its spatial axis: top is angular, bottom the velocity of the child's centre by it.
     const btMultibodyLink& link = body_->getLink(k);
     for (int d = 0; d < link.m_dofCount; ++d) {
       const double qd = body_->getJointVelMultiDof(k)[d];
@@ -205,6 +212,7 @@ LinkState TreeBody::link(int link) const {
   update_kinematics();
   const Frame& frame = frames_[index(link)];
   LinkState state;
+  // Back from the inertial frame to the frame of the model; the velocity goes along as of one rigid body.
   state.X_WL = frame.X_WI * X_LI_[index(link)].inverse();
   state.w_WL = frame.w_W;
   state.v_WL = frame.v_W + frame.w_W.cross(state.X_WL.translation() - frame.X_WI.translation());
@@ -218,6 +226,7 @@ Vec3 TreeBody::center(int link) const {
 
 Vec3 TreeBody::momentum() const {
   update_kinematics();
+  // Linear only: spin of wheels and swing carry none.
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (i > 0 || !body_->hasFixedBase()) sum += mass_[i] * frames_[i].v_W;
@@ -230,6 +239,7 @@ Vec3 TreeBody::joint_origin(int joint) const {
   return frames_[index(link_of_bullet_[index(k)])].X_WI * pivot_I_[index(k)];
 }
 
+// Bullet keeps a revolute axis as angular, a prismatic one as linear part of the spatial axis.
 Vec3 TreeBody::joint_axis(int joint) const {
   update_kinematics();
   const int k = bullet_of_joint_[index(joint)];
@@ -251,6 +261,7 @@ double TreeBody::outward_inertia(int joint) const {
       continue;
     }
     const Frame& frame = frames_[index(link)];
+    // Steiner: own inertia about the axis, and mass by the centre's distance from it.
     const Mat3 R = frame.X_WI.linear() * X_LI_[index(link)].linear().transpose();
     const Vec3 axis_L = R.transpose() * axis;
     sum += axis_L.dot(inertia_[index(link)] * axis_L) +
@@ -260,6 +271,7 @@ double TreeBody::outward_inertia(int joint) const {
 }
 
 void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W) {
+  // Bullet takes forces at centres of mass; the lever becomes a moment.
   const Vec3 moment = m_W + (p_W - center(link)).cross(f_W);
   const int k = bullet_of_link_[index(link)];
   if (k < 0) {
@@ -273,7 +285,9 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
 
 void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const {
   update_kinematics();
+  // Only freedoms between the base and this link move its points: the others do no work.
   std::fill_n(work, 6 + body_->getNumDofs(), 0.0);
+  // The base turns about its own centre.
   const Vec3 base = L_W + (p_W - frames_[0].X_WI.translation()).cross(J_W);
   for (int a = 0; a < 3; ++a) {
     work[a] = base[a];
@@ -290,6 +304,7 @@ void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Ve
 }
 
 void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
+  // Articulated response: the impulse's work on every freedom, divided by the tree's mass matrix without forming it.
   update_factors();
   const std::size_t size = 6 + index(body_->getNumDofs());
   std::vector<double> work(size);
@@ -307,6 +322,7 @@ void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const V
 
 Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
   const Frame& frame = frames_[index(link)];
+  // Sums what each freedom between base and link gives its origin, by the present pose.
   const Vec3 origin = (frame.X_WI * X_LI_[index(link)].inverse()).translation();
   const Vec3 w0(velocity[0], velocity[1], velocity[2]), v0(velocity[3], velocity[4], velocity[5]);
   Vec3 w = w0, v = v0 + w0.cross(origin - frames_[0].X_WI.translation());
@@ -327,6 +343,7 @@ Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
 
 Mat6 TreeBody::inverse_mass(int link) const {
   update_kinematics();
+  // Column c is the twist by a unit impulse: about x, y, z, then along them, at the link's origin.
   const Vec3 origin = this->link(link).X_WL.translation();
   Mat6 result;
   std::vector<double> delta;
@@ -339,6 +356,7 @@ Mat6 TreeBody::inverse_mass(int link) const {
 }
 
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
+  // Gravity is a force here, so that it and all others go through one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
   for (int k = 0; k < body_->getNumLinks(); ++k) body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
   body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
@@ -347,6 +365,7 @@ void TreeBody::step_velocities(const Vec3& gravity, double dt) {
 }
 
 void TreeBody::step_positions(double dt) {
+  // What the solver found is added to the velocities, and those move the positions: semi-implicit Euler.
   body_->processDeltaVeeMultiDof2();
   body_->stepPositionsMultiDof(dt);
   body_->clearConstraintForces();
@@ -354,6 +373,7 @@ void TreeBody::step_positions(double dt) {
   moved();
 }
 
+// Collision objects do not follow by themselves; contacts are sought where this puts them.
 void TreeBody::place_colliders() {
   btAlignedObjectArray<btQuaternion> turns;
   btAlignedObjectArray<btVector3> places;
@@ -361,6 +381,7 @@ void TreeBody::place_colliders() {
 }
 
 void TreeBody::hash(StateHash& hash) const {
+  // Joint coordinates and generalised velocities say all; poses in W follow from them.
   const btVector3 p = body_->getBasePos();
   const btQuaternion q = body_->getWorldToBaseRot();
   for (int a = 0; a < 3; ++a) hash.value(p[a]);
@@ -394,6 +415,7 @@ void TreeBody::load(StateReader& reader) {
   }
   for (int a = 0; a < 3; ++a) w[a] = reader.value<double>();
   for (int a = 0; a < 3; ++a) v[a] = reader.value<double>();
+  // Omega and velocity are in W, as getVelocityVector has them: angular first.
   body_->setBaseOmega(w);
   body_->setBaseVel(v);
   for (int k = 0; k < body_->getNumLinks(); ++k) {
@@ -401,6 +423,7 @@ void TreeBody::load(StateReader& reader) {
     for (int d = 0; d < body_->getLink(k).m_dofCount; ++d) rate[d] = reader.value<double>();
     body_->setJointVelMultiDof(k, rate);
   }
+  // A snapshot lies between two steps: nothing is left of the last one's forces.
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();
   moved();

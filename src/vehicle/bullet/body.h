@@ -25,6 +25,7 @@ class TreeBody {
   TreeBody(const TreeBody&) = delete;
   TreeBody& operator=(const TreeBody&) = delete;
 
+  /// For constraints, colliders and the solver; whoever moves it says so by moved().
   btMultiBody& multibody() { return *body_; }
   /// Bullet's link of a joint; -1: none (a joint of the base to the world).
   int bullet_of_joint(int joint) const { return bullet_of_joint_[index(joint)]; }
@@ -32,13 +33,18 @@ class TreeBody {
   /// Pose of Bullet's frame of a link in the link.
   const Pose& inertial_frame(int link) const { return X_LI_[index(link)]; }
 
+  /// Of a joint with one freedom [rad|m], [rad/s|m/s]; 0 of others.
   double position(int joint) const;
   double velocity(int joint) const;
+  /// Puts a joint to q; velocities stay.
   void set_position(int joint, double q);
 
+  /// Pose and velocity of a link's own frame, as the model has it.
   LinkState link(int link) const;
   Vec3 center(int link) const;  ///< of mass, in W [m]
+                                /// [kg]
   double mass(int link) const { return mass_[index(link)]; }
+  /// Of all that moves [kg]: without a fixed base.
   double total_mass() const { return total_mass_; }
   bool fixed_base() const { return body_->hasFixedBase(); }
   /// Of all moving parts [N s].
@@ -63,9 +69,12 @@ class TreeBody {
   void step_velocities(const Vec3& gravity, double dt);
   /// The solver's velocity changes, then positions.
   void step_positions(double dt);
+  /// Positions changed from outside: what was worked out from them is void.
   void moved() { kinematics_valid_ = factors_valid_ = false; }
+  /// Collision objects to the poses of now.
   void place_colliders();
 
+  /// Base pose, joint positions, velocities: all the tree's state between two steps.
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
@@ -76,8 +85,10 @@ class TreeBody {
     Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();  // of the centre of mass
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  /// Links outward from the base, in the order of the joints.
   void build(const scene::Machine& machine);
   void add_joint(const scene::Machine& machine, int joint, int bullet);
+  /// Poses and velocities of all links, and the articulated inertias, each once after a change.
   void update_kinematics() const;
   void update_factors() const;
   /// Generalised velocity change by an impulse.
@@ -86,13 +97,16 @@ class TreeBody {
   Vec6 twist_of(int link, const std::vector<double>& velocity) const;
 
   std::unique_ptr<btMultiBody> body_;
+  // Both ways between the machine's indices and Bullet's; Bullet's base is -1.
   std::vector<int> bullet_of_joint_, bullet_of_link_, link_of_bullet_, joint_of_bullet_;
+  // By link: inertial frame in the link, mass [kg], inertia about the centre in the link's axes [kg m2].
   std::vector<Pose> X_LI_;
   std::vector<double> mass_;
   std::vector<Mat3> inertia_;
   std::vector<std::vector<int>> outward_;  // links outward of each Bullet link, itself included
   std::vector<Vec3> pivot_I_;              // joint origin in the child's Bullet frame
   double total_mass_ = 0;
+  // Worked out when asked for; Bullet wants scratch memory of its own.
   mutable bool kinematics_valid_ = false, factors_valid_ = false;
   mutable std::vector<Frame> frames_;  // by link
   mutable btAlignedObjectArray<btScalar> scratch_r_;

@@ -18,9 +18,11 @@
 namespace navvy::vehicle {
 namespace {
 
+// Machines meet the ground and each other; the ground meets nobody else.
 constexpr int kGroundGroup = 1, kMachineGroup = 2;
 constexpr int kIterations = 60;     // tuned: BulletServo.HoldTorqueIsTheAnalyticOne
 constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
+// The broad phase is a plain list of this size: a few dozen shapes are never worth a tree.
 constexpr int kMostShapes = 4096;
 constexpr std::uint32_t kVersion = 2;
 
@@ -34,6 +36,7 @@ class BulletEngine final : public Engine {
     // Until a patch is given, the ground for bodies is empty space far below.
     patch_ = GroundPatch(2, 2, 1.0, Vec2(-0.5, -0.5), std::vector<float>(4, -1e6f));
     ground_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+    // Bullet multiplies friction of both bodies: the machine's counts alone.
     ground_.setFriction(1);
     ground_.setRestitution(0);
     place_ground();
@@ -46,6 +49,7 @@ class BulletEngine final : public Engine {
   }
 
   ~BulletEngine() override {
+    // The world keeps bare pointers: they leave it before their owners go.
     for (const auto& machine : machines_)
       for (const auto& collider : machine->colliders())
         if (collider) world_.removeCollisionObject(collider.get());
@@ -56,6 +60,7 @@ class BulletEngine final : public Engine {
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
     for (const auto& collider : machines_.back()->colliders())
       if (collider) world_.addCollisionObject(collider.get(), kMachineGroup, kGroundGroup | kMachineGroup);
+    // The order in which rows are given to the solver is part of the result: joints, then rock, machine by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
     for (const auto& rock : machines_.back()->rock()) {
@@ -78,11 +83,13 @@ class BulletEngine final : public Engine {
 
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    // Forces and rows first, then contacts at the poses of the step's start, one solve for all, then positions.
     for (auto& machine : machines_) machine->begin_step(gravity_, ground, dt);
     world_.performDiscreteCollisionDetection();
     solve(dt);
     for (auto& machine : machines_) {
       machine->end_step(contact_impulse(*machine), dt);
+      // A broken run stops here, where step and machine are known, before its numbers spread.
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
         throw SimulationError("vehicle: machine '" + machine->scene().name + "' has no finite place any more");
@@ -95,6 +102,7 @@ class BulletEngine final : public Engine {
         height.size() != static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny))
       throw SimulationError(
           "vehicle: the ground patch needs nx * ny heights, nx and ny at least 2, spacing above zero");
+    // A new shape each time: Bullet's heightfield keeps bounds that it never shrinks.
     patch_ = GroundPatch(nx, ny, spacing, corner, height);
     place_ground();
     world_.updateSingleAabb(&ground_);
@@ -144,6 +152,7 @@ class BulletEngine final : public Engine {
   }
 
   void solve(double dt) {
+    // One group for the whole world: no islands, so nobody's result depends on who is near.
     info_.m_timeStep = dt;
     for (auto& machine : machines_) machine->tree().multibody().setCompanionId(-1);
     btAlignedObjectArray<btCollisionObject*>& objects = world_.getCollisionObjectArray();
@@ -158,6 +167,7 @@ class BulletEngine final : public Engine {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
       const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
+      // Bullet's normal points towards its body 0; the sign follows from which of the two is the ground.
       const bool first = manifold->getBody1() == &ground_;
       if (!first && manifold->getBody0() != &ground_) continue;
       const auto* body = btMultiBodyLinkCollider::upcast(first ? manifold->getBody0() : manifold->getBody1());
@@ -175,6 +185,7 @@ class BulletEngine final : public Engine {
 
   /// Drops every pair and manifold, so that the next step starts from the state alone.
   void forget_contacts() {
+    // Without a memory of contacts there is no warm start, and none is wanted: see the top.
     btOverlappingPairCache* cache = broadphase_.getOverlappingPairCache();
     while (cache->getNumOverlappingPairs() > 0) {
       btBroadphasePair& pair = cache->getOverlappingPairArray()[cache->getNumOverlappingPairs() - 1];
@@ -183,6 +194,7 @@ class BulletEngine final : public Engine {
   }
 
   Vec3 gravity_;
+  // In the order in which each needs the one before it.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btSimpleBroadphase broadphase_;

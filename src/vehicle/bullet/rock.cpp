@@ -29,6 +29,7 @@ RockContact::RockContact(TreeBody& tree, int link, std::vector<Vec3> corners)
 
 void RockContact::aim(int row, const Vec3& p_W, const Vec3& along) {
   along_[static_cast<std::size_t>(row)] = along;
+  // The work of a unit impulse at the point is the Jacobian of its velocity along it.
   tree_.virtual_work(link_, along, Vec3::Zero(), p_W, jacobianA(row));
 }
 
@@ -38,6 +39,7 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
   const LinkState state = tree_.link(link_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const int row = kRows * static_cast<int>(i);
+    // A row that is not made must not be read as the last step's.
     for (int r = 0; r < kRows; ++r) internalSetAppliedImpulse(row + r, 0);
     for (int r = 0; r < kRows; ++r) along_[static_cast<std::size_t>(row + r)].setZero();
     const Vec3 p = state.X_WL * corners_[i];
@@ -48,10 +50,13 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
       normal_[i] = 0;
       continue;
     }
+    // It may come down by the gap and no more; an overlap is pressed out slowly, or it would be a spring.
     const double up = gap > 0 ? -gap / dt : std::min(-kPressOut * gap / dt, kSlowly);
     aim(row, p, Vec3::UnitZ());
     add_row(row, up, 0, 1e12, rows, data, info);
+    // No normal impulse yet, so no friction: one step without it is not felt.
     if (!(normal_[i] > 0)) continue;
+    // Along the sliding and across it, so that the box of bounds is close to Coulomb's circle.
     const Vec2 slide = v.head<2>();
     const Vec3 ahead = slide.norm() > 1e-6 ? Vec3(slide.x(), slide.y(), 0).normalized() : Vec3::UnitX();
     const double bound = kFriction * normal_[i];
@@ -62,6 +67,7 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
 }
 
 void RockContact::settle() {
+  // In W, by the directions the rows were made with.
   impulse_.setZero();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const int row = kRows * static_cast<int>(i);
@@ -71,6 +77,7 @@ void RockContact::settle() {
 }
 
 void RockContact::hash(StateHash& hash) const {
+  // The corners' normal impulses bound the next step's friction: they are state.
   for (const double n : normal_) hash.value(n);
   for (int a = 0; a < 3; ++a) hash.value(impulse_[a]);
 }

@@ -28,6 +28,7 @@ class RockContact final : public WorldConstraint {
   /// On the shell in the last step [N s].
   const Vec3& impulse() const { return impulse_; }
 
+  /// The corners' normal impulses and the sum: state, as the next step's friction reads them.
   void hash(StateHash& hash) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);

@@ -10,8 +10,11 @@ namespace navvy::vehicle {
 /// its limits at any cost; the impulses are read back after the solver ran.
 class ServoConstraint final : public WorldConstraint {
  public:
+  /// @param link Bullet's link of the joint; lower, upper: its stops [rad|m], looked at when `has_limits`.
   ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper);
 
+  /// For the coming step: velocity to reach [rad/s|m/s], bounds of the motor's impulse [N m s|N s]. Low = high: no
+  /// motor, the joint is free but for its stops.
   void command(double velocity, double low, double high) {
     velocity_ = velocity;
     low_ = low;
@@ -22,6 +25,7 @@ class ServoConstraint final : public WorldConstraint {
   /// Of both limit rows, signed along the joint.
   double limit_impulse() { return getAppliedImpulse(1) - getAppliedImpulse(2); }
 
+  // Called by Bullet: Jacobians once, rows in every step.
   void finalizeMultiDof() override;
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;

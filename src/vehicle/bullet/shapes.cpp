@@ -7,11 +7,10 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 #include "core/error.h"
-#include "core/file.h"
+#include "geometry/obj/read_obj.h"
 #include "vehicle/bullet/convert.h"
 
 namespace navvy::vehicle {
@@ -25,20 +24,13 @@ namespace {
   throw InputError(fault);
 }
 
-/// Convex hull of the vertices of an OBJ file.
+/// Convex hull of the vertices of an OBJ file, whether faces use them or not.
 std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
-  const scene::Geometry& geometry = collision.geometry;
-  const std::vector<char> bytes = read_file(geometry.mesh_file);
-  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+  const scene::Geometry& g = collision.geometry;
   auto hull = std::make_unique<btConvexHullShape>();
-  for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("v ", 0) != 0) continue;
-    std::istringstream words(line.substr(2));
-    Vec3 v;
-    if (!(words >> v.x() >> v.y() >> v.z())) refuse(collision, line, "a vertex needs three numbers");
-    hull->addPoint(to_bt(Vec3(geometry.scale.cwiseProduct(v))), false);
-  }
-  if (hull->getNumPoints() < 4) refuse(collision, geometry.mesh_file, "the mesh needs at least four vertices");
+  for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices)
+    hull->addPoint(to_bt(Vec3(g.scale.cwiseProduct(v))), false);
+  if (hull->getNumPoints() < 4) refuse(collision, g.mesh_file, "the mesh needs at least four vertices");
   hull->optimizeConvexHull();
   hull->recalcLocalAabb();
   return hull;

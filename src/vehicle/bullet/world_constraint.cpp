@@ -19,6 +19,7 @@ void WorldConstraint::finalizeMultiDof() {
 void WorldConstraint::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
                               btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
   btMultiBodySolverConstraint& c = rows.expandNonInitializing();
+  // By these the solver writes the row's impulse back to us.
   c.m_orgConstraint = this;
   c.m_orgDofIndex = row;
   c.m_multiBodyA = m_bodyA;
@@ -27,10 +28,12 @@ void WorldConstraint::add_row(int row, double velocity, double low, double high,
   c.m_solverBodyIdB = data.m_fixedBodyId;
   c.m_linkA = m_linkA;
   c.m_linkB = -1;
+  // Fields of rigid bodies, which this row has none of.
   const btVector3 zero(0, 0, 0);
   c.m_contactNormal1 = c.m_contactNormal2 = zero;
   c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
   c.m_angularComponentA = c.m_angularComponentB = zero;
+  // The Jacobian is given, so normals are zero; no error term: `velocity` already holds what a gap allows.
   fillMultiBodyConstraint(c, data, jacobianA(row), nullptr, zero, zero, zero, zero, 0, info, low, high, true, 1, false,
                           velocity);
   c.m_solverBodyIdB = -1;  // nothing to push there

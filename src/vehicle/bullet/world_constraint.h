@@ -10,6 +10,7 @@ namespace navvy::vehicle {
 /// Rows on one multibody whose other side is the world; the impulses are read back after the solver ran.
 class WorldConstraint : public btMultiBodyConstraint {
  public:
+  // The engine solves all in one group and draws nothing; Bullet's world would ask.
   int getIslandIdA() const override { return -1; }
   int getIslandIdB() const override { return -1; }
   void debugDraw(btIDebugDraw*) override {}
@@ -17,6 +18,7 @@ class WorldConstraint : public btMultiBodyConstraint {
  protected:
   /// @param link Bullet's link, -1: the base
   WorldConstraint(btMultiBody* body, int link, int rows);
+  /// Makes room for one Jacobian row of all freedoms a row; call it once the body has its size.
   void finalizeMultiDof() override;
   /// Adds a row: what jacobianA(row) tells of the body's velocity shall become `velocity` within [low, high] impulse.
   void add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,

@@ -2,10 +2,11 @@
 // Machines moved by their commands alone: joints go where they are told at limited rates, nothing pushes back.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "core/error.h"
-#include "vehicle/drive_train.h"
+#include "vehicle/drive/drive_line.h"
 #include "vehicle/engine.h"
 #include "vehicle/kinematics.h"
 
@@ -21,6 +22,8 @@ struct Body {
   std::vector<JointInput> input;
   std::vector<double> q, qd;
   DriveInput drive;
+  std::unique_ptr<DriveLine> line;  // asked where to roll; nothing here has torques
+  std::vector<DriveWheel> wheels;   // by wheel
   std::vector<LinkState> links;
 };
 
@@ -37,7 +40,10 @@ class KinematicEngine final : public Engine {
     }
     Body body;
     body.machine = machine;
+    // Poses are those of the base link from here on: the model's frame is only where it was put.
     body.X_WB = X_WM * machine.links[0].X_ML;
+    body.line = make_drive_line(machine);
+    body.wheels = drive_wheels(machine);
     body.q.resize(machine.joints.size());
     body.qd.assign(machine.joints.size(), 0);
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
@@ -55,12 +61,14 @@ class KinematicEngine final : public Engine {
   }
   void set_drive(int machine, const DriveInput& input) override { at(machine).drive = input; }
   DriveInput drive(int machine) const override { return at(machine).drive; }
+  // Nothing pushes it: impulses and forces are swallowed.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
     for (Body& body : bodies_) {
+      // Joints first: a drive may then say otherwise of its wheels' joints for the next step.
       move_joints(body, dt);
       if (body.machine.has_drive) move_base(body, ground, dt);
       update_links(body);
@@ -90,6 +98,7 @@ class KinematicEngine final : public Engine {
     if (joint < 0) return state;
     const scene::Joint& spin = body.machine.joints[index(joint)];
     const LinkState& carrier = body.links[index(spin.parent)];
+    // By the carrier, with the spin joint at 0: the wheel's frame does not spin with it.
     state.X_WWheel = carrier.X_WL * joint_pose(body.machine, spin, 0) * spin.X_LcJ;
     state.v_W = carrier.v_WL + carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
     state.spin = body.qd[index(joint)];
@@ -103,6 +112,7 @@ class KinematicEngine final : public Engine {
   double work(int) const override { return 0; }
   Vec3 ground_impulse(int) const override { return Vec3::Zero(); }
 
+  // One walk for the three, so that none forgets what another has.
   void hash(StateHash& hash) const override {
     for (const Body& body : bodies_) visit(const_cast<Body&>(body), [&](auto& v) { hash.value(v); });
   }
@@ -148,10 +158,12 @@ class KinematicEngine final : public Engine {
   static void move_joints(Body& body, double dt) {
     for (std::size_t j = 0; j < body.q.size(); ++j) {
       const scene::Joint& joint = body.machine.joints[j];
+      // Free joints and those under effort stay: there is nothing that could move them.
       double wanted = body.q[j];
       if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
+      // At the joint's largest rate at once: no inertia, no valve.
       const double most = joint.velocity * dt;
       const double next = std::clamp(wanted, body.q[j] - most, body.q[j] + most);
       body.qd[j] = (next - body.q[j]) / dt;
@@ -159,30 +171,29 @@ class KinematicEngine final : public Engine {
     }
   }
 
-  /// Rolls without slip along the bicycle's arc, standing on the ground under its middle.
+  /// Rolls without slip along the drive's arc, standing on the ground under its middle.
   void move_base(Body& body, const GroundQuery& ground, double dt) const {
-    const scene::Drive& drive = body.machine.drive;
-    const double speed = body.drive.brake ? 0 : std::clamp(body.drive.speed, -drive.max_speed, drive.max_speed);
-    const double most = max_bicycle_angle(drive);
-    const double bicycle = std::clamp(body.drive.steer, -most, most);
-    const SteerAngles steer = ackermann(drive, bicycle);
-    const double rate = speed * std::tan(bicycle) / drive.wheelbase;
-    for (const scene::Wheel& wheel : body.machine.wheels) {
+    const Roll roll = body.line->roll(body.drive);
+    const double speed = roll.speed, rate = roll.yaw_rate;
+    for (std::size_t w = 0; w < body.machine.wheels.size(); ++w) {
+      const scene::Wheel& wheel = body.machine.wheels[w];
       const int spin = body.machine.joint_index(wheel.joint), turn = body.machine.joint_index(wheel.steer_joint);
       if (spin >= 0) {
-        body.qd[index(spin)] = speed / wheel.radius;
+        body.qd[index(spin)] = body.line->rolling_spin(roll, body.wheels[w]);
         body.q[index(spin)] += dt * body.qd[index(spin)];
         body.input[index(spin)] = {JointMode::kFree, 0};
       }
       if (turn < 0) continue;
-      const scene::Joint& joint = body.machine.joints[index(turn)];
-      const bool left = body.machine.links[index(joint.child)].X_ML.translation().y() > 0;
-      body.input[index(turn)] = {JointMode::kPosition, left ? steer.left : steer.right};
+      // Steered joints follow at their own rate in the next step; the base is on its arc at once.
+      if (const auto angle = body.line->steer_angle(body.drive, body.wheels[w]))
+        body.input[index(turn)] = {JointMode::kPosition, *angle};
     }
     const double yaw = std::atan2(body.X_WB.linear()(1, 0), body.X_WB.linear()(0, 0));
+    // The midpoint's heading: the arc's chord up to third order in the step.
     const double mean = yaw + 0.5 * rate * dt;
     const Vec3 p = body.X_WB.translation();
     Vec3 next(p.x() + dt * speed * std::cos(mean), p.y() + dt * speed * std::sin(mean), 0);
+    // Upright on the ground under its origin; it does not lean with a slope.
     next.z() = ground.height(next.x(), next.y());
     body.v_W = (next - p) / dt;
     body.w_W = Vec3(0, 0, rate);
@@ -190,6 +201,7 @@ class KinematicEngine final : public Engine {
   }
 
   static void update_links(Body& body) {
+    // Poses of all links first, then velocities outward from the base by each joint's rate.
     const std::vector<Pose> poses = forward_kinematics(body.machine, body.X_WB, body.q);
     body.links.assign(poses.size(), LinkState{});
     std::vector<char> known(poses.size(), 0);
@@ -203,6 +215,7 @@ class KinematicEngine final : public Engine {
         const LinkState& parent = body.links[index(joint.parent)];
         LinkState& child = body.links[index(joint.child)];
         child.X_WL = poses[index(joint.child)];
+        // The joint's axis and origin in W; the pivot moves with the parent.
         const Vec3 axis = (child.X_WL * joint.X_LcJ).linear() * joint.axis.normalized();
         const Vec3 pivot = child.X_WL * Vec3(joint.X_LcJ.translation());
         child.w_WL = parent.w_WL;

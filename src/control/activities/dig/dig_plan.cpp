@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/dig/dig_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::control {
+namespace {
+
+constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
+constexpr double kSample = 0.1;      // along the line [m]
+constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
+constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
+constexpr double kOverload = 0.15;   // a load may be larger than a full bucket by this share of it
+constexpr double kWorth = 0.5;       // a slice's rest below this share of a bucket waits for the next slice
+constexpr double kWorthLast = 0.15;  // that of the last slice stays
+
+}  // namespace
+
+TrenchLine trench_line(const Dig& dig, const Pose& X_WS) {
+  // Which end is far, and where the line lies, is seen in plan from the swing axis, as the arm works in planes through
+  // it.
+  const auto plan = [&](const Vec2& p) {
+    const Vec3 q = X_WS.inverse() * Vec3(p.x(), p.y(), X_WS.translation().z());
+    return Vec2(q.x(), q.y());
+  };
+  const Vec2 a = plan(dig.from), b = plan(dig.to);
+  const bool from_is_far = a.norm() >= b.norm();
+  TrenchLine line;
+  line.far = from_is_far ? dig.from : dig.to;
+  line.near = from_is_far ? dig.to : dig.from;
+  const Vec2 far = from_is_far ? a : b, near = from_is_far ? b : a;
+  const Vec2 u = (far - near).normalized();
+  line.offset = std::abs(near.x() * u.y() - near.y() * u.x());
+  line.far_reach = far.dot(u);
+  line.near_reach = near.dot(u);
+  line.swing = std::atan2(u.y(), u.x());
+  return line;
+}
+
+DigPlan::DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface)
+    : dig_(dig), line_(line), scoop_volume_(scoop_volume) {
+  derive();
+  start_.resize(static_cast<std::size_t>(std::max(2, static_cast<int>(std::lround(length_ / kSample)) + 1)));
+  for (int i = 0; i < samples(); ++i) start_[static_cast<std::size_t>(i)] = height(surface, at(i));
+  // Nothing has been refused yet.
+  deepest_.assign(start_.size(), dig.depth);
+}
+
+void DigPlan::derive() {
+  // All distances along the trench count from its near end outward.
+  length_ = std::max(kSample, (line_.far - line_.near).norm());
+  along_ = (line_.far - line_.near) / length_;
+}
+
+double DigPlan::height(const SurfaceView& surface, double s) const {
+  // Mean of three points across the middle of the cut: crumbs at the walls do not count.
+  const Vec2 across(-along_.y(), along_.x());
+  double sum = 0;
+  for (const double t : {-0.25, 0.0, 0.25}) {
+    const Vec2 p = point(s) + t * dig_.width * across;
+    sum += surface.height(p.x(), p.y());
+  }
+  return sum / 3;
+}
+
+double DigPlan::highest_beside(const SurfaceView& surface, double s) const {
+  const Vec2 across(-along_.y(), along_.x());
+  // From the wall outward, on both sides.
+  double out = start_height(s);
+  for (int i = 0; i * kSample <= kBeside + 1e-9; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const Vec2 p = point(s) + side * (0.5 * dig_.width + i * kSample) * across;
+      out = std::max(out, surface.height(p.x(), p.y()));
+    }
+  return out;
+}
+
+double DigPlan::start_height(double s) const {
+  // Linear between samples, constant beyond the ends.
+  const double t = std::clamp(s / length_ * (samples() - 1), 0.0, samples() - 1.0);
+  const auto i = static_cast<std::size_t>(std::min(samples() - 2, static_cast<int>(t)));
+  return start_[i] + (t - static_cast<double>(i)) * (start_[i + 1] - start_[i]);
+}
+
+double DigPlan::remaining(const SurfaceView& surface, int i, double level) const {
+  // Soil below a refused depth does not count as left.
+  const auto k = static_cast<std::size_t>(i);
+  return height(surface, at(i)) - start_[k] + std::min(level, deepest_[k]);
+}
+
+void DigPlan::refuse(const SurfaceView& surface, double s) {
+  for (int i = 0; i < samples(); ++i) {
+    // Half as far behind the start as ahead of it: the scoop went that way.
+    if (at(i) > s + 0.5 * kRefused || at(i) < s - kRefused) continue;
+    const auto k = static_cast<std::size_t>(i);
+    deepest_[k] = std::min(deepest_[k], start_[k] - height(surface, at(i)));
+  }
+}
+
+double DigPlan::piece_above(const SurfaceView& surface, int i, double level) const {
+  return std::max(0.0, remaining(surface, i, level)) * dig_.width * length_ / (samples() - 1);
+}
+
+double DigPlan::volume_above(const SurfaceView& surface, double level) const {
+  // The first sample has no piece before it.
+  double sum = 0;
+  for (int i = 1; i < samples(); ++i) sum += piece_above(surface, i, level);
+  return sum;
+}
+
+double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
+  // What the slice still holds goes into equal loads: a short last scoop wears the walls as much as a long one.
+  const double rest = volume_above(surface, level);
+  const double load = rest / std::max(1.0, std::ceil(rest / scoop_volume_ - kOverload));
+  double volume = 0;
+  // From the far end on, piece by piece, until the load is full.
+  for (int i = start; i > 0; --i) {
+    volume += piece_above(surface, i, level);
+    if (volume >= load) return at(i);
+  }
+  return 0;
+}
+
+Scoop DigPlan::next(const SurfaceView& surface) const {
+  // Slices of equal depth; the next one is opened only when the one above holds no worthwhile load.
+  const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
+  for (int k = 1; k <= slices; ++k) {
+    const double level = dig_.depth * k / slices;
+    if (volume_above(surface, level) < (k < slices ? kWorth : kWorthLast) * scoop_volume_) continue;
+    for (int i = samples() - 1; i >= 1; --i)
+      // Two neighbours must agree, a single crumb is not worth a cycle.
+      if (remaining(surface, i, level) > kTolerance && remaining(surface, i - 1, level) > kTolerance)
+        return {at(i), fill_end(surface, i, level), level, true};
+  }
+  return {};
+}
+
+void DigPlan::hash(StateHash& hash) const {
+  hash.value(length_);
+  hash.value(scoop_volume_);
+  hash.bytes(deepest_.data(), deepest_.size() * sizeof(double));
+  hash.bytes(start_.data(), start_.size() * sizeof(double));
+}
+
+void DigPlan::save(StateWriter& writer) const {
+  // The order is the one of `load`.
+  for (const Vec2& p : {dig_.from, dig_.to, dig_.dump_at, line_.near, line_.far}) writer.vec3(Vec3(p.x(), p.y(), 0));
+  for (const double v : {dig_.depth, dig_.width, dig_.dump_height, dig_.pass_depth, line_.near_reach, line_.far_reach,
+                         line_.swing, line_.offset, scoop_volume_})
+    writer.value(v);
+  writer.vector(start_);
+  writer.vector(deepest_);
+}
+
+void DigPlan::load(StateReader& reader) {
+  for (Vec2* p : {&dig_.from, &dig_.to, &dig_.dump_at, &line_.near, &line_.far}) *p = reader.vec3().head<2>();
+  for (double* v : {&dig_.depth, &dig_.width, &dig_.dump_height, &dig_.pass_depth, &line_.near_reach, &line_.far_reach,
+                    &line_.swing, &line_.offset, &scoop_volume_})
+    *v = reader.value<double>();
+  start_ = reader.vector<double>();
+  deepest_ = reader.vector<double>();
+  if (!start_.empty()) derive();  // a plan that was never made stays so
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a trench and its spoil can be reached from where the machine stands.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "control/activities/dig/dig.h"
+#include "control/activities/dig/dig_plan.h"
+#include "control/dig_pose.h"
+#include "control/reach.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
+constexpr double kNearest = 3.0;      // end of the trench to the swing axis: clear of wheels and undercarriage [m]
+constexpr double kWiderCut = 0.1;     // than the bucket [m]
+constexpr double kSpoilClear = 0.5;   // dump point to the trench's edge [m]
+constexpr const char* kMoveOrTurn = "move the target or turn the machine";
+
+/// One dig at one place of the machine. Stops at a line beside the swing axis: everything else would be wrong, too.
+class DigReach {
+ public:
+  DigReach(const Dig& dig, ReachCheck& check)
+      : dig_(dig), check_(check), arm_(check.machine), X_WS_(check.X_WB * arm_.X_BS()) {}
+
+  void look() {
+    const TrenchLine line = trench_line(dig_, X_WS_);
+    // A bucket cannot be moved aside within a line: one cut is one bucket wide.
+    if (dig_.width > arm_.bucket().width + kWiderCut)
+      check_.fault("dig/width", metres(dig_.width), "the bucket cuts " + metres(arm_.bucket().width),
+                   "dig a trench one bucket wide, or several side by side");
+    if (line.offset > kMostOffset) {
+      // Where the rear axle had to stand to look along the line from the same distance.
+      const Vec2 u = (line.far - line.near).normalized();
+      const Vec2 axis = line.near - line.near_reach * u;
+      const Vec2 origin = axis - arm_.X_BS().translation().x() * u;
+      check_.fault("dig", metres(line.offset) + " beside the swing axis",
+                   "the trench's line must pass the swing axis within " + metres(kMostOffset),
+                   "stand at " + place_text(origin) + " with heading " +
+                       number_text(degrees(std::atan2(u.y(), u.x())), "deg") +
+                       ", or turn the line towards the machine");
+      return;
+    }
+    if (line.near_reach < kNearest)
+      check_.fault("dig/near end", metres(line.near_reach) + " from the swing axis",
+                   "the trench must stay " + metres(kNearest) + " clear of it",
+                   "end it farther away or stand farther back");
+    check_.require_swing(arm_, "dig/line", line.swing, kMoveOrTurn);
+    for (const auto& [name, p] : {std::pair{"dig/far end", line.far}, std::pair{"dig/near end", line.near}}) {
+      // Over the ground before it goes down, and on the finished floor.
+      require_tip(name, p, check_.surface.height(p.x(), p.y()) + kClear);
+      require_tip(name, p, check_.surface.height(p.x(), p.y()) - dig_.depth);
+    }
+    require_dump();
+    // Distance of the dump point from the line between the ends, not beyond them.
+    const Vec2 along = line.near - line.far;
+    const double share = std::clamp((dig_.dump_at - line.far).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double away = (dig_.dump_at - line.far - share * along).norm();
+    if (away < 0.5 * dig_.width + kSpoilClear)
+      check_.fault("dig/dump_at", metres(away) + " from the trench's line",
+                   "spoil must fall " + metres(kSpoilClear) + " clear of the trench's edge", "dump farther aside");
+  }
+
+ private:
+  /// The tip at W (p, z), digging or plunging.
+  void require_tip(const char* element, const Vec2& p, double z) {
+    // The bucket may turn away from its plunging angle, as it does when it digs.
+    const SwingPoint at = swing_point(X_WS_, Vec3(p.x(), p.y(), z));
+    const auto possible = [&](double reach) {
+      BucketPose pose{reach, at.height, at.level(with_cut(arm_, kPlunge))};
+      ArmAngles q;
+      return arm_.inverse_nearest(pose, q);
+    };
+    if (possible(at.reach)) return;
+    // How far it would have been possible at that height, found by trying: the message shall help to place the machine.
+    double least = 0, most = 0;
+    for (double r = 0.5; r < arm_.longest() + 2; r += 0.02) {
+      if (!possible(r)) continue;
+      if (most == 0) least = r;
+      most = r;
+    }
+    check_.fault(element,
+                 metres(at.reach) + " from the swing axis at height " + metres(z) + " (" + metres(at.height) +
+                     " over the swing ring)",
+                 most > 0 ? "at that height the bucket's tip reaches from " + metres(least) + " to " + metres(most)
+                          : "the tip never gets to that height",
+                 at.reach > most ? "stand nearer, or dig less deep or far" : "stand farther back");
+  }
+
+  void require_dump() {
+    // The ground before the dig: the heap that grows there is the operator's to see.
+    const double ground = check_.surface.height(dig_.dump_at.x(), dig_.dump_at.y());
+    const SwingPoint at = swing_point(X_WS_, Vec3(dig_.dump_at.x(), dig_.dump_at.y(), ground));
+    check_.require_swing(arm_, "dig/dump_at", at.swing, kMoveOrTurn);
+    ArmAngles q;
+    double possible = 0;
+    const bool any = dump_pose(arm_, X_WS_, dig_.dump_at, ground, dig_.dump_height, q, possible);
+    // Half a step of the search for the clearance is no fault.
+    if (any && possible > dig_.dump_height - 0.026) return;
+    if (any) {
+      check_.fault("dig/dump_height", metres(dig_.dump_height),
+                   "with a level bucket " + metres(at.reach) + " from the swing axis the tip opens at most " +
+                       metres(possible) + " over the ground",
+                   "dump lower, nearer or farther; on a map, --at another place");
+      return;
+    }
+    double least = 0, most = 0;
+    // Nowhere at all at this distance: where else in that direction?
+    const Vec2 axis = X_WS_.translation().head<2>(), u = (dig_.dump_at - axis).normalized();
+    for (double r = 1; r < arm_.longest() + 2; r += 0.05) {
+      if (!dump_pose(arm_, X_WS_, axis + r * u, ground, 0.3, q, possible)) continue;
+      if (most == 0) least = r;
+      most = r;
+    }
+    check_.fault(
+        "dig/dump_at", metres(at.reach) + " from the swing axis",
+        most > 0 ? "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction"
+                 : "the ground there is " + metres(at.height) +
+                       " over the swing ring: a level bucket can be opened over it nowhere in that direction",
+        "move the dump point or the machine; on a map, --at another place");
+  }
+
+  const Dig& dig_;
+  ReachCheck& check_;
+  const Arm arm_;
+  const Pose X_WS_;  // frame of the swing axis
+};
+
+}  // namespace
+
+void Dig::check_reach(ReachCheck& check) const { DigReach(*this, check).look(); }
+
+}  // namespace navvy::control

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and when the trench is done.
+#include "control/activities/dig/digging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "control/dig_pose.h"
+#include "core/error.h"
+#include "core/log.h"
+
+namespace navvy::control {
+namespace {
+
+// Of the heaped capacity, when the curl begins; the lip cuts on while it curls, which adds a tenth. Fuller buckets
+// carry more (0.55: loads of 520 kg instead of 400), but drip on the way, and heaps that go up rub the trench's walls.
+// tuned: on the trench, 0.45 / 0.50 lose 0.7 / 0.9 % on the way and over-dig 7.3 / 9.1 %; with half the patience for
+// drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
+constexpr double kFill = 0.45;
+constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
+constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
+constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
+constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
+// What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
+// so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
+// usual rate].
+constexpr double kDrip = 0.001, kStill = 0.8, kDripPatience = 4;
+constexpr double kHeavy = 0.3, kGently = 0.5;
+constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
+constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
+constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
+constexpr double kRest = 2.0;                                      // [s] for loose soil to come to rest before the end
+constexpr int kMostCleanUps = 2;
+constexpr double kCleanEnough = 0.02;   // share of the design volume that may stay on the floor
+constexpr double kHeapRadius = 0.6;     // around the dump point [m]
+constexpr double kArmAfterSwing = 0.4;  // on the way back the arm comes down after this share of the swing
+
+/// Highest ground around a point [m].
+double heap_height(const SurfaceView& surface, const Vec2& p) {
+  double highest = surface.height(p.x(), p.y());
+  for (int i = 0; i < 8; ++i)
+    for (const double r : {0.5 * kHeapRadius, kHeapRadius}) {
+      const double a = i * kPi / 4;
+      highest = std::max(highest, surface.height(p.x() + r * std::cos(a), p.y() + r * std::sin(a)));
+    }
+  return highest;
+}
+
+/// What the operator looks at: the view given, or the resting ground.
+template <class Use>
+auto with_surface(const Observation& seen, Use use) {
+  if (seen.surface) return use(*seen.surface);
+  const GroundSurface resting(*seen.ground);
+  return use(static_cast<const SurfaceView&>(resting));
+}
+
+}  // namespace
+
+void Digging::begin(const Observation& seen) {
+  m.stance.begin(seen.X_WB);
+  const heightfield::Ground& ground = *seen.ground;
+  // One soil stands for the whole trench: the one at its middle says what a full bucket weighs.
+  const Vec2 middle = 0.5 * (dig_.from + dig_.to);
+  const Vec2i cell = ground.column_at(middle.x(), middle.y());
+  const auto& soils = ground.setup().soils;
+  const std::size_t kind = ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
+  const scene::Soil soil = kind < soils.size() ? soils[kind] : scene::Soil{};
+  m.scoop_volume = kFill * arm_.bucket().capacity / soil.swell;
+  m.full_mass = m.scoop_volume * soil.bank_density;
+  plan_ = with_surface(seen, [&](const SurfaceView& surface) {
+    return DigPlan(dig_, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
+  });
+  // Cycles count over the whole program, limits over this dig.
+  m.first_cycle = place_.handover.cycles;
+  go_on(kReturn, seen);
+}
+
+bool Digging::plan_scoop(const Observation& seen) {
+  // Nothing is dug for ever: both limits end the dig whatever the plan still sees.
+  if (place_.handover.cycles - m.first_cycle >= dig_.max_cycles || m.empty_scoops >= kMostEmpty) return false;
+  Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.next(surface); });
+  m.cleaning = 0;
+  // What fell back lies along the whole floor, too thin for a scoop of the plan: it is swept up once or twice.
+  if (!scoop.any && m.clean_ups < kMostCleanUps) {
+    const double rest =
+        with_surface(seen, [&](const SurfaceView& surface) { return plan_.volume_above(surface, dig_.depth); });
+    if (rest > kCleanEnough * plan_.design_volume()) {
+      m.cleaning = 1;
+      scoop = plan_.clean_up();
+    }
+  }
+  if (!scoop.any) return false;
+  m.scoop_start = scoop.start;
+  m.scoop_end = scoop.end;
+  m.scoop_level = scoop.level;
+  return true;
+}
+
+void Digging::go_to_scoop(Phase next, const Observation& seen) {
+  m.s = m.scoop_start;
+  const Vec2 p = plan_.point(m.s);
+  // While it swings back the bucket stays above the trench's edges and what was spilt on them; then it goes down.
+  const double ground = with_surface(seen, [&](const SurfaceView& surface) {
+    return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
+  });
+  const double z = std::max(ground, plan_.start_height(m.s) - m.scoop_level) + kClear;
+  m.held_since = 0;
+  m.move.start(place_, m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge)), seen, {1.0, kArmAfterSwing});
+  enter(next);
+}
+
+void Digging::start_lift(const Observation& seen) {
+  const Vec2 p = plan_.point(m.s);
+  const double ground = with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  // The lowest part of the level bucket clears the ground, not its tip.
+  const double z = std::max(ground, plan_.start_height(m.s)) + kLiftClear + arm_.below_tip(kCarry);
+  const SwingPoint tip = swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), z));
+  BucketPose carry{tip.reach, tip.height, tip.level(kCarry)};
+  ArmAngles q = place_.arm_angles();
+  arm_.inverse_nearest(carry, q);
+  m.move.start(place_, with_arm(place_.handover.q[0], q), seen, {1.2, 0});
+  enter(kLift);
+}
+
+bool Digging::drips(const Observation& seen) {
+  // The clock starts anew with every loss; before the arm has lifted there is nothing to judge.
+  if (m.held_since < m.move.duration() || seen.payload < (1 - kDrip) * m.held) {
+    m.held = seen.payload;
+    m.held_since = phase_time();
+  }
+  return phase_time() < std::min(m.held_since + kStill, m.move.duration() + kDripPatience);
+}
+
+void Digging::start_swing(const Observation& seen) {
+  // The heap grows from cycle to cycle: the bucket opens over what lies there now.
+  const double heap =
+      with_surface(seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
+  const SwingPoint over = swing_point(m.stance.swing_frame(arm_), Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
+  ArmAngles q = place_.arm_angles();
+  double clearance = 0;
+  if (!dump_pose(arm_, m.stance.swing_frame(arm_), dig_.dump_at, heap, dig_.dump_height, q, clearance)) {
+    log_warning("operator: the heap is too high to dump on it, dumping from where the bucket is");
+    q = place_.arm_angles();
+  }
+  // The short way round; with limits the only way.
+  const double swing = arm_.swing_limited()
+                           ? over.swing
+                           : place_.handover.q[0] + std::remainder(over.swing - place_.handover.q[0], 2 * kPi);
+  m.move.start(place_, with_arm(swing, q), seen, {seen.payload > kHeavy * m.full_mass ? kGently : 1.0, 0});
+  enter(kSwing);
+}
+
+void Digging::start_dump(const Observation& seen) {
+  m.move.open_bucket(place_, seen);
+  enter(kDump);
+}
+
+bool Digging::dump(const Observation& seen) {
+  // When the opening is over the shaking has the bucket's joint: the move must not take it back.
+  const bool open = phase_time() > m.move.duration() || move(seen);
+  const bool empty = seen.payload < kEmpty * m.full_mass;
+  shake(seen);
+  // The bucket need not open all the way when it is empty before.
+  if (empty && phase_time() > kEarly * m.move.duration()) return true;
+  return open && (empty || phase_time() > m.move.duration() + kDumpPatience);
+}
+
+void Digging::shake(const Observation& seen) {
+  // Sticky soil: a few strokes of the bucket cylinder, as every operator does.
+  const double since = phase_time() - m.move.duration();
+  if (since <= 0 || seen.payload < kEmpty * m.full_mass) return;
+  const double stroke = kShake * std::sin(kShakeRate * since);
+  place_.handover.q[3] = std::clamp(m.move.target(3) - std::abs(stroke), arm_.lower(2), arm_.upper(2));
+}
+
+void Digging::look_round(const Observation& seen) {
+  // Bucket half closed, out of the way, while what is loose comes to rest.
+  ArmAngles q = place_.arm_angles();
+  q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi), arm_.lower(2), arm_.upper(2));
+  m.move.start(place_, with_arm(place_.handover.q[0], q), seen, {1.0, 0});
+  enter(kLook);
+}
+
+void Digging::go_on(Phase next, const Observation& seen) {
+  if (plan_scoop(seen))
+    go_to_scoop(next, seen);
+  else
+    look_round(seen);
+}
+
+bool Digging::end_cycle(const Observation& seen) {
+  // After a pause, look again: soil may have slid into the trench, or come to rest there.
+  if (!move(seen) || phase_time() < kRest) return false;
+  if (plan_scoop(seen)) {
+    go_to_scoop(kReturn, seen);
+    return false;
+  }
+  if (m.empty_scoops >= kMostEmpty) log_warning("operator: three empty scoops in a row, the dig ends");
+  if (place_.handover.cycles - m.first_cycle >= dig_.max_cycles)
+    log_warning("operator: the dig ends after its largest number of cycles");
+  return true;
+}
+
+// In the order of Phase.
+const char* Digging::phase() const {
+  static const char* const names[] = {"return", "approach", "penetrate", "drag", "curl",
+                                      "lift",   "swing",    "dump",      "look"};
+  return names[phase_index()];
+}
+
+bool Digging::update(const Observation& seen, double dt, Command&) {
+  // In all phases, or the pose would jump when it is used again.
+  m.stance.follow(seen.X_WB, dt);
+  switch (phase_index()) {
+    case kReturn:
+      // What lay loose when the bucket left has come to rest by now.
+      if (move(seen)) go_on(kApproach, seen);
+      break;
+    case kApproach:
+      if (!move(seen)) break;
+      enter(kPenetrate);
+      m.clean_ups += m.cleaning;
+      tell(CycleEvent::kScoopStart);
+      break;
+    case kPenetrate:
+      // Enters the drag itself: by depth, by stall, or by time.
+      penetrate(seen, dt);
+      break;
+    case kDrag:
+      if (drag(seen, dt)) enter(kCurl);
+      break;
+    case kCurl:
+      if (curl(seen, dt)) start_lift(seen);
+      break;
+    case kLift:
+      if (!move(seen) || drips(seen)) break;
+      tell(CycleEvent::kLiftOut);
+      start_swing(seen);
+      break;
+    case kSwing:
+      if (!move(seen)) break;
+      m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
+      // A pass along the whole floor may well bring little; a scoop that does shows soil that cannot be dug.
+      if (m.empty_scoops > 0 && m.cleaning == 0)
+        with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.scoop_start); });
+      tell(CycleEvent::kDumpStart);
+      start_dump(seen);
+      break;
+    case kDump:
+      if (!dump(seen)) break;
+      ++place_.handover.cycles;
+      // Where the next cycle begins, or whether, is seen from here.
+      tell(CycleEvent::kCycleEnd);
+      go_on(kReturn, seen);
+      break;
+    default:  // kLook
+      return end_cycle(seen);
+  }
+  return false;
+}
+
+void Digging::hash(StateHash& hash) const {
+  ActivityWith::hash(hash);
+  plan_.hash(hash);
+}
+
+void Digging::save(StateWriter& writer) const {
+  ActivityWith::save(writer);
+  plan_.save(writer);
+}
+
+void Digging::load(StateReader& reader) {
+  ActivityWith::load(reader);
+  // The phase picks a name out of a table.
+  if (phase_index() < kReturn || phase_index() > kLook)
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "operator/dig", std::to_string(phase_index()),
+                           "no phase of a dig", "the snapshot is damaged"});
+  plan_.load(reader);
+}
+
+}  // namespace navvy::control

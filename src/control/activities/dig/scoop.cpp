@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tip paths of a scoop in the vertical plane of the trench: down, along, curl.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "control/activities/dig/digging.h"
+#include "control/dig_pose.h"
+#include "control/profile.h"
+#include "core/log.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kDownAir = 0.9, kDownSoil = 0.45;  // [m/s]
+constexpr double kDragSpeed = 0.7;                  // [m/s]
+constexpr double kTurnIn = 0.9;                     // of the bucket while dragging [rad/s]
+constexpr double kCurlTime = 2.2;                   // [s]
+// The lip cuts on [m/s] in this first share of the curl, if the bucket has this share of a load; one with less only
+// scrapes. Held by rock it stands still (TipPath::slow). tuned: on the trench, 0.30 and 0.55 m/s keep 470 and 520 kg of
+// 512.
+constexpr double kCurlSpeed = 0.50, kCutOn = 0.6, kFair = 0.5;
+constexpr double kOut = 0.25;      // lowest point over the surface after the curl [m]
+constexpr double kPastEnd = 0.03;  // the shell may pass the far end by this [m]
+constexpr double kMore = 0.5;      // the drag goes on by this beyond its planned end when the bucket is not full [m]
+constexpr double kPenetrateLift = 0.12;  // raised by so much on the way down: go on at that depth [m]
+constexpr double kPhaseLimit = 12;       // [s]
+
+}  // namespace
+
+bool Digging::overdue(double limit) const {
+  if (phase_time() <= limit) return false;
+  log_warning(std::string("operator: ") + phase() + " took more than " + std::to_string(static_cast<int>(limit)) +
+              " s, going on with the cycle");
+  return true;
+}
+
+double Digging::floor_height() const { return plan_.start_height(m.s) - m.scoop_level + arm_.below_tip(m.tip.reached); }
+
+void Digging::follow_tip(const Observation& seen, double dt) {
+  m.tip.follow(place_, m.stance, plan_.point(m.s), seen, dt, phase_index() == kCurl);
+}
+
+void Digging::penetrate(const Observation& seen, double dt) {
+  // Fast through air; the last ten centimetres count as soil already.
+  const bool in_air = m.tip.z > plan_.start_height(m.s) + 0.1;
+  const double goal = floor_height();
+  m.tip.z = std::max(goal, m.tip.z - (in_air ? kDownAir : kDownSoil) * m.tip.slow * dt);
+  follow_tip(seen, dt);
+  // Soil that holds the tip on the way down is dug at the depth it allows.
+  if (m.tip.z <= goal || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) enter(kDrag);
+}
+
+bool Digging::drag(const Observation& seen, double dt) {
+  m.s = std::max(0.0, m.s - kDragSpeed * m.tip.slow * dt);
+  // The bucket turns in to its digging angle as soon as its back stays clear of the far end.
+  const double wish = with_cut(arm_, -kPi + kAttack), turned = std::max(wish, m.tip.angle - kTurnIn * m.tip.slow * dt);
+  const double depth = plan_.start_height(m.s) - m.tip.z - m.tip.lift;
+  if (plan_.length() - m.s + kPastEnd >= arm_.beyond_tip(turned, depth)) m.tip.angle = turned;
+  m.tip.z = std::max(floor_height(), m.tip.z - kDownSoil * m.tip.slow * dt);
+  follow_tip(seen, dt);
+  const bool full = seen.payload >= m.full_mass;
+  const bool planned = m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
+  if (!(full || planned || m.s <= 0 || overdue(kPhaseLimit))) return false;
+  // The curl begins where the arm is, not where it was wished to be.
+  m.curl_angle = m.tip.angle = m.tip.reached;
+  m.curl_z = m.tip.z = m.tip.z + m.tip.lift;
+  m.tip.lift = 0;
+  m.progress = 0;
+  return true;
+}
+
+bool Digging::curl(const Observation& seen, double dt) {
+  // A held bucket still curls, slowly; one that tips the machine waits.
+  const double least = m.stance.footing(seen.X_WB) < 1 ? 0 : 0.1;
+  m.progress = std::min(1.0, m.progress + std::max(least, m.tip.slow) * dt / kCurlTime);
+  if (m.progress < kCutOn && seen.payload > kFair * m.full_mass)
+    m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
+  m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
+  // First the bucket turns, its heel on the slice's floor; then it leaves the ground straight up.
+  const double top = plan_.start_height(m.s) + kOut + arm_.below_tip(m.tip.reached);
+  m.tip.z = mix(std::max(m.curl_z, floor_height()), top, smooth((m.progress - 0.35) / 0.65));
+  follow_tip(seen, dt);
+  return m.progress >= 1 || overdue(kPhaseLimit);
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drive_to step: speed ramp, pursuit, brake.
+#include "control/activities/drive_to.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "control/activity.h"
+#include "control/reach.h"
+#include "core/log.h"
+#include "vehicle/drive/drive_line.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kStandTime = 0.5;    // [s] at rest with the brake on
+constexpr double kStandSpeed = 0.02;  // [m/s]
+
+struct Memory {
+  double speed = 0;     // commanded [m/s], without its sign
+  double heading = 0;   // of the line that is followed [rad]
+  double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
+  double way = 0;       // to the target at the start [m]
+};
+
+class Driving final : public ActivityWith<Memory> {
+ public:
+  Driving(Workplace& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
+  const char* phase() const override { return "drive"; }
+
+  void begin(const Observation& seen) override {
+    const PlanePose at = plane_pose(seen.X_WB);
+    m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
+    // Patience is a matter of the whole way, not of what is left.
+    m.way = (step_.target - at.p).norm();
+  }
+
+ private:
+  bool update(const Observation& seen, double dt, Command& out) override {
+    const PlanePose at = plane_pose(seen.X_WB);
+    Pursuit pursuit = Pursuit::of(step_, place_.machine.drive, at);
+    // Without a heading of its own the line is the one seen at the start, not from here.
+    pursuit.heading = m.heading;
+    const double limit = 30 + 3 * m.way / std::max(0.05, std::abs(step_.speed));
+    const bool late = phase_time() > limit;
+    if (pursuit.left(at) < kStopShort || m.standing > 0 || late) {
+      // Brake, and stand for a moment before the next step; `standing` stays positive once it began.
+      out.drive = vehicle::DriveInput{0, 0, true};
+      m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
+      if (m.standing < kStandTime && phase_time() < limit + 10) return false;
+      const double miss = (step_.target - at.p).norm();
+      if (late) log_warning("operator: drive_to gave up after " + std::to_string(phase_time()) + " s");
+      if (miss > step_.tolerance)
+        log_warning("operator: drive_to ended " + std::to_string(miss) + " m from its target");
+      return true;
+    }
+    // Up along the ramp, down along the curve that stops at the target.
+    m.speed = std::min({std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
+    const double speed = pursuit.sense() * m.speed;
+    // Pursuit steers by a bicycle angle; the drive says what it makes of that.
+    const scene::Drive& drive = place_.machine.drive;
+    out.drive = vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
+    return false;
+  }
+
+  const DriveTo& step_;
+};
+
+}  // namespace
+
+DriveTo DriveTo::read(const scene::StepSource& source) {
+  DriveTo step;
+  scene::FieldSource& fields = source.fields;
+  fields.vec2("target_m", step.target, {-1e6, 1e6})
+      .required("target_m")
+      .number("heading_deg", step.heading, {-360, 360}, scene::kDegree)
+      .number("speed_m_per_s", step.speed, {-20, 20})
+      .number("tolerance_m", step.tolerance, {0.01, 5})
+      .finish();
+  // Without a heading the machine arrives as the way leads it.
+  step.has_heading = fields.has("heading_deg");
+  if (fields.has("speed_m_per_s") && step.speed == 0) fields.error("speed_m_per_s", "0", "the speed must not be zero");
+  source.require(source.machine && source.machine->has_drive, "drive_to needs a machine with <navvy:drive>");
+  source.on_site("target_m", step.target);
+  return step;
+}
+
+std::unique_ptr<Activity> DriveTo::activity(Workplace& place) const { return std::make_unique<Driving>(place, *this); }
+
+void DriveTo::check_reach(ReachCheck& check) const {
+  const PlanePose start = plane_pose(check.X_WB);
+  const scene::Drive& drive = check.machine.drive;
+  // The law of the run on a machine that rolls without slip: what steering alone cannot reach.
+  const PlanePose end = Pursuit::of(*this, drive, start).end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
+  const double miss = (end.p - target).norm();
+  if (miss > tolerance)
+    check.fault("drive_to", place_text(target),
+                "steering as far as it can the machine ends at " + place_text(end.p) + ", " + metres(miss) +
+                    " from the target; allowed are " + metres(tolerance),
+                "give it a longer way to turn in, or approach in two drives");
+}
+
+std::optional<Pose> DriveTo::station(const scene::Machine& machine, const Pose& X_WB,
+                                     const SurfaceView& surface) const {
+  const Vec3 from = X_WB.translation();
+  // The base link keeps its height over the ground; slopes are left to the run.
+  const double rise = from.z() - surface.height(from.x(), from.y());
+  const double yaw = Pursuit::of(*this, machine.drive, plane_pose(X_WB)).heading;
+  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0, yaw);
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/dump.h"
+
+#include "control/arm_move.h"
+
+namespace navvy::control {
+namespace {
+
+enum Phase : std::int64_t { kOpening, kClosing };
+
+struct Memory {
+  ArmMove move;
+  double bucket_before = 0;  // commanded angle of the bucket at the start [rad]
+};
+
+// Open, hold, close; it does not look at what the bucket still holds.
+class Dumping final : public ActivityWith<Memory> {
+ public:
+  Dumping(Workplace& place, const Dump& step) : ActivityWith(place), step_(step) {}
+  const char* phase() const override { return "dump"; }
+
+  void begin(const Observation& seen) override {
+    // It curls back to what was commanded, not to what a load had bent it to.
+    m.bucket_before = place_.handover.q[3];
+    m.move.open_bucket(place_, seen);
+    enter(kOpening);
+  }
+
+ private:
+  bool update(const Observation& seen, double, Command&) override {
+    if (phase_index() == kClosing) return m.move.advance(place_, seen, phase_time(), phase());
+    // Soil leaves whether the bucket is quite open or not: time alone decides here.
+    if (phase_time() <= m.move.duration()) m.move.advance(place_, seen, phase_time(), phase());
+    if (phase_time() <= m.move.duration() + step_.hold) return false;
+    Axes closed = place_.handover.q;
+    closed[3] = m.bucket_before;
+    m.move.start(place_, closed, seen, {});
+    enter(kClosing);
+    return false;
+  }
+
+  const Dump& step_;
+};
+
+}  // namespace
+
+Dump Dump::read(const scene::StepSource& source) {
+  Dump step;
+  source.fields.number("hold_s", step.hold, {0, 600}).finish();
+  source.require(source.machine && !source.machine->arm.bucket.empty(),
+                 "dump needs a machine with <navvy:arm>/bucket_joint");
+  return step;
+}
+
+std::unique_ptr<Activity> Dump::activity(Workplace& place) const { return std::make_unique<Dumping>(place, *this); }
+
+}  // namespace navvy::control

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/tip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "control/activity.h"
+#include "core/error.h"
+#include "core/log.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kArrived = radians(1);   // of the bed from its angle
+constexpr double kTipPatience = 120;      // [s] for the ram to get there
+constexpr double kSlowRate = radians(1);  // [rad/s] slowest bed that is still waited for
+
+struct Memory {
+  double standing = 0;  // [s] since the bed has arrived or was given up; 0 before
+  double way = 0;       // to turn at the start [rad]
+};
+
+class Tipping final : public ActivityWith<Memory> {
+ public:
+  Tipping(Workplace& place, const Tip& step)
+      : ActivityWith(place),
+        step_(step),
+        joint_(static_cast<std::size_t>(place.machine.joint_index(place.machine.beds.at(0).joint))) {}
+  const char* phase() const override { return "tip"; }
+
+  void begin(const Observation& seen) override {
+    // The time allowed grows with the way: a ram is slow, and slower under load.
+    m.way = std::abs(step_.angle - seen.joints[joint_].position);
+    tell(CycleEvent::kTipStart);
+  }
+
+ private:
+  bool update(const Observation& seen, double dt, Command& out) override {
+    const vehicle::JointState& bed = seen.joints[joint_];
+    // Every step anew: an input may have moved the bed in between.
+    out.joints[joint_] = vehicle::JointInput{vehicle::JointMode::kPosition, step_.angle};
+    const bool late = phase_time() > std::min(kTipPatience, 10 + m.way / kSlowRate);
+    if (late && m.standing == 0)
+      log_warning("operator: the bed stopped " + std::to_string(degrees(std::abs(step_.angle - bed.position))) +
+                  " deg short of its angle");
+    // `standing` stays positive once the bed has arrived, or was given up.
+    if (m.standing > 0 || late || std::abs(step_.angle - bed.position) < kArrived) m.standing += dt;
+    if (m.standing == 0 || m.standing < step_.hold) return false;
+    tell(CycleEvent::kTipEnd);
+    return true;
+  }
+
+  const Tip& step_;
+  const std::size_t joint_;
+};
+
+}  // namespace
+
+Tip Tip::read(const scene::StepSource& source) {
+  Tip step;
+  scene::FieldSource& fields = source.fields;
+  const scene::Machine* machine = source.machine;
+  fields.number("angle_deg", step.angle, {-360, 360}, scene::kDegree)
+      .required("angle_deg")
+      .number("hold_s", step.hold, {0, 600})
+      .finish();
+  source.require(machine && !machine->beds.empty(), "tip needs a machine with <navvy:bed>");
+  if (!machine || machine->beds.empty() || !fields.has("angle_deg")) return step;
+  // Limits can only be asked of a machine that has the bed, an angle that was given, and a joint that exists.
+  const int index = machine->joint_index(machine->beds[0].joint);
+  if (index < 0) return step;
+  const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
+  if (joint.has_limits && (step.angle < joint.lower - 1e-6 || step.angle > joint.upper + 1e-6))
+    fields.error("angle_deg", fields.written("angle_deg"),
+                 "must lie within the limits of the bed's joint, " + std::to_string(joint.lower / scene::kDegree) +
+                     " to " + std::to_string(joint.upper / scene::kDegree));
+  return step;
+}
+
+void Tip::check_machine(const scene::Machine& machine) const {
+  // A bed without a joint of its own is a box on the frame: it carries, but does not tip.
+  const std::string joint = machine.beds.empty() ? "" : machine.beds[0].joint;
+  if (machine.joint_index(joint) < 0)
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/tip", joint,
+                           "tip needs a machine with a bed on a joint of its own", "add <navvy:bed>"});
+}
+
+std::unique_ptr<Activity> Tip::activity(Workplace& place) const { return std::make_unique<Tipping>(place, *this); }
+
+}  // namespace navvy::control

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/wait.h"
+
+#include "control/activity.h"
+
+namespace navvy::control {
+namespace {
+
+// Without memory: the clock that every activity has is enough.
+class Resting final : public Activity {
+ public:
+  Resting(Workplace& place, const Wait& step) : Activity(place), step_(step) {}
+  const char* phase() const override { return "wait"; }
+  void begin(const Observation&) override {}
+
+ private:
+  // The control step that ends at `duration` is the last.
+  bool update(const Observation&, double dt, Command&) override { return phase_time() + dt >= step_.duration; }
+
+  const Wait& step_;
+};
+
+}  // namespace
+
+Wait Wait::read(const scene::StepSource& source) {
+  Wait step;
+  source.fields.number("duration_s", step.duration, {0, 1e6}).required("duration_s").finish();
+  return step;
+}
+
+std::unique_ptr<Activity> Wait::activity(Workplace& place) const { return std::make_unique<Resting>(place, *this); }
+
+}  // namespace navvy::control

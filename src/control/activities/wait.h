@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "control/step.h"
+
+namespace navvy::control {
+
+/// Stay as it is for a while.
+struct Wait final : Step {
+  /// Name in scene files.
+  static constexpr const char* kElement = "wait";
+  explicit Wait(double duration_in = 1) : duration(duration_in) {}
+  double duration;  ///< [s]
+
+  /// Elements: <duration_s>.
+  static Wait read(const scene::StepSource& source);
+  const char* element() const override { return kElement; }
+  /// One phase: holds what was commanded.
+  std::unique_ptr<Activity> activity(Workplace& place) const override;
+};
+
+}  // namespace navvy::control

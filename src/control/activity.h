@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What carries out one step of a program, and what the steps of one operator share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "control/arm.h"
+#include "control/observation.h"
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "scene/machine.h"
+
+namespace navvy::control {
+
+/// Angles of swing, boom, stick and bucket [rad].
+using Axes = std::array<double, 4>;
+/// A swing angle with the angles of boom, stick and bucket.
+inline Axes with_arm(double swing, const ArmAngles& q) { return {swing, q[0], q[1], q[2]}; }
+
+/// What one step hands on to the next. Plain values, all eight bytes wide: no gaps, so hash and snapshot take it whole.
+struct Handover {
+  std::int64_t cycles = 0;  ///< digging cycles of the program so far
+  std::int64_t known = 0;   ///< 1 once `q` was read from the machine
+  Axes q{};                 ///< commanded angles of the arm; moves begin here, not where the machine is
+};
+
+/// One operator's machine, and what flows from step to step. Activities keep a reference to it.
+struct Workplace {
+  /// Copies the machine. Whoever builds the workplace adds the arm where the program needs it.
+  explicit Workplace(const scene::Machine& machine_in) : machine(machine_in) {}
+
+  const scene::Machine machine;  ///< its joints in the order of Observation and Command
+  std::optional<Arm> arm;        ///< in every program with a step that needs one
+  Handover handover;
+
+  /// Index in Machine::joints of axis 0..3: swing, boom, stick, bucket.
+  std::size_t joint(std::size_t axis) const {
+    return static_cast<std::size_t>(axis == 0 ? arm->swing_joint() : arm->joints()[axis - 1]);
+  }
+  /// Commanded angles without the swing [rad].
+  ArmAngles arm_angles() const { return {handover.q[1], handover.q[2], handover.q[3]}; }
+};
+
+/// Carries out one step: begun once, then asked every control step until it is over, then thrown away.
+///
+/// Deterministic: a function of its memory, the workplace and the observations. Never hangs: every phase has a time
+/// limit, after which it says so in the log and goes on. A snapshot taken at any moment resumes bit for bit.
+class Activity {
+ public:
+  explicit Activity(Workplace& place) : place_(place) {}
+  virtual ~Activity() = default;
+  Activity(const Activity&) = delete;
+  Activity& operator=(const Activity&) = delete;
+
+  /// Sets the activity up, right before its first `advance`; not called after `load`.
+  virtual void begin(const Observation& seen) = 0;
+  /// One control step of `dt` [s]. True: the step is over, and this call was the last.
+  bool advance(const Observation& seen, double dt, Command& out) {
+    const bool over = update(seen, dt, out);
+    clock_.time += dt;
+    return over;
+  }
+  /// What it is doing, for telemetry and messages: one word.
+  virtual const char* phase() const = 0;
+  /// The event told since the last call of this.
+  CycleEvent take_event() { return std::exchange(event_, CycleEvent::kNone); }
+
+  /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`.
+  virtual void hash(StateHash& hash) const { hash.bytes(&clock_, sizeof clock_); }
+  virtual void save(StateWriter& writer) const { writer.value(clock_); }
+  virtual void load(StateReader& reader) { clock_ = reader.value<Clock>(); }
+
+  // For derived classes: what they do, and what they have to do it with.
+ protected:
+  /// One control step: looks at `seen`, commands through `out` and Workplace::handover. True when the step is over.
+  virtual bool update(const Observation& seen, double dt, Command& out) = 0;
+
+  /// Goes to a phase: its time begins anew. Activities with several give their own enum here.
+  void enter(std::int64_t phase) { clock_ = {phase, 0}; }
+  /// The phase last entered; 0 at first.
+  std::int64_t phase_index() const { return clock_.phase; }
+  /// Since the phase was entered, at the start of this control step [s].
+  double phase_time() const { return clock_.time; }
+  /// Reported once with the result of this control step; a later one in the same step replaces it.
+  void tell(CycleEvent event) { event_ = event; }
+
+  Workplace& place_;
+
+ private:
+  // Part of every activity's state, so that no kind has to think of it.
+  struct Clock {
+    std::int64_t phase = 0;
+    double time = 0;  // [s]
+  };
+  Clock clock_;
+  CycleEvent event_ = CycleEvent::kNone;
+};
+
+/// An activity whose state is one struct of plain values `m`. Members of Memory are eight bytes wide each, or structs
+/// and arrays of such: there are no gaps, so hash and snapshot take it whole. An activity with state besides (the plan
+/// of a dig) overrides the three and calls these first.
+template <class Memory>
+class ActivityWith : public Activity {
+ public:
+  using Activity::Activity;
+  void hash(StateHash& hash) const override {
+    Activity::hash(hash);
+    hash.bytes(&m, sizeof m);
+  }
+  void save(StateWriter& writer) const override {
+    Activity::save(writer);
+    writer.value(m);
+  }
+  void load(StateReader& reader) override {
+    Activity::load(reader);
+    m = reader.value<Memory>();
+  }
+
+ protected:
+  static_assert(std::is_trivially_copyable_v<Memory> && alignof(Memory) == 8);
+  Memory m;
+};
+
+}  // namespace navvy::control

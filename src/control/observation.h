@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes into an operator and what comes out of it, once a control step.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/surface.h"
+#include "core/math.h"
+#include "heightfield/ground.h"
+#include "vehicle/engine.h"
+
+namespace navvy::control {
+
+/// How far a machine's program has come.
+struct Progress {
+  int done = 0, steps = 0;  ///< steps that are over, and all
+};
+
+/// What the operator knows at one control step: what can be seen and felt from a cab.
+struct Observation {
+  std::vector<vehicle::JointState> joints;  ///< as in scene::Machine::joints
+  Pose X_WB = Pose::Identity();             ///< base link
+  Vec3 v_WB = Vec3::Zero();                 ///< [m/s]
+  const heightfield::Ground* ground = nullptr;
+  const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
+  double payload = 0;                    ///< soil in the bucket [kg]
+  double force = 0;                      ///< low-passed soil force on the bucket [N]
+  const std::map<std::string, Progress>* programs = nullptr;  ///< of all machines of the world, by name
+};
+
+/// What it wants; joints without an entry keep their last command.
+struct Command {
+  std::vector<std::optional<vehicle::JointInput>> joints;  ///< as in scene::Machine::joints
+  std::optional<vehicle::DriveInput> drive;                ///< without: as last commanded
+};
+
+/// Moments of a digging cycle and of a tip, told once each.
+enum class CycleEvent { kNone, kScoopStart, kLiftOut, kDumpStart, kCycleEnd, kTipStart, kTipEnd };
+
+}  // namespace navvy::control

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks over a program before the run: what cannot be reached is told at once.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control/arm.h"
+#include "control/surface.h"
+#include "core/error.h"
+#include "core/math.h"
+#include "scene/machine.h"
+#include "scene/program.h"
+
+namespace navvy::control {
+
+/// One look over a program, step by step, before anything moves.
+///
+/// What a step sees when it is asked whether its targets can be reached, and where it tells what cannot.
+class ReachCheck {
+ public:
+  /// `file` and the program's lines are for messages. The machine stands at `X_WB_at_start`.
+  ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
+             const SurfaceView& surface_in, std::string file);
+
+  const scene::Machine& machine;  ///< whose program it is
+  const SurfaceView& surface;     ///< what digs and drives look at
+  Pose X_WB;                      ///< base link, when the step begins
+
+  /// Asks every step in turn, moving X_WB on from station to station.
+  std::vector<Fault> run();
+
+  /// An error of the present step. `element` is the step's, or a part of it: "dig/far end".
+  void fault(const std::string& element, const std::string& value, const std::string& rule, const std::string& remedy);
+  /// Tells of an angle [rad] beyond the swing joint's limits.
+  void require_swing(const Arm& arm, const char* element, double swing, const char* remedy);
+
+ private:
+  // Index of the present step, for messages.
+  const scene::Program& program_;
+  std::string file_;
+  std::size_t index_ = 0;
+  std::vector<Fault> faults_;
+};
+
+/// Text of messages: a value with two digits and its unit, a place as "(x , y )".
+std::string number_text(double value, const char* unit);
+/// With the unit m.
+std::string metres(double value);
+std::string place_text(const Vec2& p);
+
+/// Every target of the program that cannot be reached from where the machine will then stand: needed and possible
+/// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.
+std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
+                               const SurfaceView& surface, const std::string& file);
+
+/// Poses of the base link where a program makes the machine stand: `X_WB` at the start, then the end of every drive.
+std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
+                           const SurfaceView& surface);
+
+}  // namespace navvy::control

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a machine stands while its arm works.
+#pragma once
+
+#include <array>
+
+#include "control/arm.h"
+#include "core/math.h"
+
+namespace navvy::control {
+
+/// The chassis' pose with its shaking on the tyres smoothed away, and how upright it stood at first. Tip paths in W are
+/// worked out from here, so that the arm does not answer every sway. Plain values, part of an activity's memory.
+class Stance {
+ public:
+  /// Takes the pose of the base link as it is.
+  void begin(const Pose& X_WB);
+  /// Follows it with a time constant of a quarter of a second; `dt` [s].
+  void follow(const Pose& X_WB, double dt);
+  /// Smoothed pose of the swing axis' frame S in W, at zero swing.
+  Pose swing_frame(const Arm& arm) const;
+  /// 1 while the machine stands as it did at `begin`, 0 when the bucket tips it by 3 deg.
+  double footing(const Pose& X_WB) const;
+
+ private:
+  std::array<double, 7> base_ = {0, 0, 0, 1, 0, 0, 0};  // x y z [m], quaternion w x y z
+  std::array<double, 3> up_ = {0, 0, 1};                // the base's z axis in W at the start
+};
+
+}  // namespace navvy::control

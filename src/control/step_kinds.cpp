@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/step_kinds.h"
+
+#include "control/activities/dig/dig.h"
+#include "control/activities/drive_to.h"
+#include "control/activities/dump.h"
+#include "control/activities/swing.h"
+#include "control/activities/tip.h"
+#include "control/activities/trajectory.h"
+#include "control/activities/wait.h"
+#include "control/activities/wait_for.h"
+
+namespace navvy::control {
+
+const scene::StepKinds& step_kinds() {
+  // The one place that names every step. Messages list them in this order.
+  static const scene::StepKinds kinds = {
+      scene::step_kind<DriveTo>(), scene::step_kind<Dig>(), scene::step_kind<Swing>(),   scene::step_kind<Dump>(),
+      scene::step_kind<Wait>(),    scene::step_kind<Tip>(), scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(),
+  };
+  return kinds;
+}
+
+}  // namespace navvy::control

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/tip_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/dig_pose.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kLag = 0.12;                       // tip this far behind its path: the path waits [m]
+constexpr double kHeld = 0.08;                      // [m/s] a waiting tip slower than this is held by the soil
+constexpr double kGiveIn = 0.2;                     // [s] of being held before the path rises
+constexpr double kLiftRate = 0.3, kSinkRate = 0.1;  // of the path while held, and back when free [m/s]
+
+}  // namespace
+
+TipPath::Solution TipPath::solve(const Workplace& place, const Stance& stance, const Vec2& p, double height) const {
+  const SwingPoint tip = swing_point(stance.swing_frame(*place.arm), Vec3(p.x(), p.y(), height));
+  BucketPose pose{tip.reach, tip.height, tip.level(angle)};
+  // Out of reach the arm keeps its angles.
+  ArmAngles q = place.arm_angles();
+  const bool found = place.arm->inverse_nearest(pose, q);
+  const double swing = place.handover.q[0] + std::remainder(tip.swing - place.handover.q[0], 2 * kPi);
+  return {with_arm(swing, q), pose.angle + tip.pitch, found};
+}
+
+Axes TipPath::start(const Workplace& place, const Stance& stance, const Vec2& p, double height, double tip_angle) {
+  z = height;
+  angle = tip_angle;
+  lift = 0;
+  slow = 1;
+  stall_ = 0;
+  const Solution solution = solve(place, stance, p, z);
+  reached = solution.angle;
+  return solution.q;
+}
+
+void TipPath::follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt,
+                     bool curling) {
+  // Out of reach `reached` stays what it last was.
+  const Solution solution = solve(place, stance, p, z + lift);
+  if (solution.found) reached = solution.angle;
+  Axes& q = place.handover.q;
+  for (std::size_t i = 0; i < 4; ++i) {
+    // The servo gets no jumps, whatever the pose of the machine or a limit of the arm did.
+    const double rate = 1.5 * std::min(2.0, std::max(0.1, seen.joints[place.joint(i)].velocity_limit));
+    q[i] += std::clamp(solution.q[i] - q[i], -rate * dt, rate * dt);
+  }
+  feel_stall(place, stance, seen, dt, curling);
+}
+
+void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Observation& seen, double dt,
+                         bool curling) {
+  ArmAngles real, soon;
+  bool stalled = false;
+  constexpr double kAhead = 0.01;  // [s]
+  for (std::size_t i = 0; i < 3; ++i) {
+    const vehicle::JointState& joint = seen.joints[place.joint(i + 1)];
+    real[i] = joint.position;
+    soon[i] = joint.position + kAhead * joint.velocity;
+    stalled = stalled || joint.stalled;
+  }
+  const Arm& arm = *place.arm;
+  const BucketPose wanted = arm.forward(place.arm_angles()), tip = arm.forward(real), next = arm.forward(soon);
+  // How far the tip lags behind what the arm could reach, and how fast it goes, from two poses a moment apart.
+  const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
+  const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
+  const double footing = stance.footing(seen.X_WB);
+  slow = std::min(footing, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
+  // A lag alone may be the servo's; what lags and hardly moves is held.
+  const bool held = (slow < 0.35 || stalled) && speed < kHeld;
+  stall_ = held ? stall_ + dt : std::max(0.0, stall_ - 2 * dt);
+  // Rising helps against soil in front, but not while the curl pulls the machine over.
+  const bool tipping = curling && footing < 1;
+  if (held && !tipping && stall_ > kGiveIn) lift += kLiftRate * dt;
+  if (!held) lift = std::max(0.0, lift - kSinkRate * dt);
+}
+
+}  // namespace navvy::control

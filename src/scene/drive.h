@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a machine's wheels are driven and steered, one struct a kind. Plain data: what a kind does stands in
+// vehicle/drive/, how it is written in a file in scene_io/machine_reader.cpp.
+#pragma once
+
+#include <variant>
+
+#include "core/math.h"
+
+namespace navvy::scene {
+
+/// What every kind of drive has: one motor with a speed governor, and brakes.
+struct Powertrain {
+  double max_speed = 2.5;         ///< [m/s], forwards and backwards
+  double tractive_force = 100e3;  ///< all driven wheels together [N]
+  double power = 90e3;            ///< at the wheels [W]
+  double brake_force = 150e3;     ///< all wheels together, each braked [N]
+};
+
+/// An open differential between the driven wheels, and wheels that are turned to steer: trucks, wheeled excavators.
+///
+/// It steers by a bicycle angle: that of one wheel in the middle of the front axle [rad], positive to the left. The
+/// machine's frame stands on the ground under the middle of the rear axle, which is not steered.
+struct AckermannDrive : Powertrain {
+  static constexpr const char* kName = "ackermann";  ///< type in a file
+  static constexpr const char* kSteerUnit = "rad";
+  static constexpr const char* kSteerMeaning = "bicycle angle, positive to the left";
+
+  double max_steer = radians(35);   ///< of the inner wheel [rad]
+  double wheelbase = 2.8;           ///< [m]
+  double track = 1.94;              ///< between king pins [m]
+  double steer_rate = radians(30);  ///< of a steered wheel [rad/s]
+};
+
+/// Left and right wheels driven each side by itself: most mobile robots, skid-steered loaders. It steers by a yaw rate
+/// [rad/s], positive to the left, at any speed: it also turns on the spot.
+///
+/// The driven wheels of a side turn alike. Those with their link left of the machine's middle (y > 0) are the left
+/// side. The machine's frame stands between the driven wheels; others, if any, are casters that swivel freely, or slip.
+struct DifferentialDrive : Powertrain {
+  static constexpr const char* kName = "differential";
+  static constexpr const char* kSteerUnit = "rad/s";
+  static constexpr const char* kSteerMeaning = "yaw rate, positive to the left";
+
+  double track = 0.5;  ///< between the middles of left and right wheels [m]; of skid-steered machines an effective one
+};
+
+using Drive = std::variant<AckermannDrive, DifferentialDrive>;
+
+/// What all kinds share.
+inline const Powertrain& powertrain(const Drive& drive) {
+  return std::visit([](const Powertrain& common) -> const Powertrain& { return common; }, drive);
+}
+
+/// Name of the kind in a file.
+inline const char* drive_name(const Drive& drive) {
+  return std::visit([](const auto& kind) { return kind.kName; }, drive);
+}
+
+/// Unit and meaning of the steer command of this drive, for inputs that carry it by name.
+inline const char* steer_unit(const Drive& drive) {
+  return std::visit([](const auto& kind) { return kind.kSteerUnit; }, drive);
+}
+inline const char* steer_meaning(const Drive& drive) {
+  return std::visit([](const auto& kind) { return kind.kSteerMeaning; }, drive);
+}
+
+}  // namespace navvy::scene

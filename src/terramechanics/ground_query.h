@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a wheel, a track or a body asks of the ground under it. Who owns the ground answers: coupling from its columns,
+// a test from a formula.
+#pragma once
+
+#include "core/math.h"
+#include "scene/soil.h"
+
+namespace navvy::terramechanics {
+
+/// The soil on the surface at one place and how dense it lies there. Without a soil the place is a firm floor: a slab,
+/// a plate, a plane of a test.
+///
+/// `soil` belongs to the ground that answered and lives as long as it does.
+struct SoilState {
+  const scene::Soil* soil = nullptr;
+  double volume_ratio = 1;  ///< volume / bank volume [-]: 1 bank, up to the soil's swell when loose, below 1 pressed
+
+  /// [kg/m3]; 0 on a firm floor.
+  double density() const { return soil != nullptr ? soil->bank_density / volume_ratio : 0; }
+};
+
+/// All of one place at once.
+struct GroundState {
+  double height = 0;            ///< of the surface in W [m]
+  Vec3 normal = Vec3::UnitZ();  ///< unit, upward, in W
+  SoilState soil;
+};
+
+/// The question itself. Places are W's x and y [m]; outside its extent a ground answers with its nearest place.
+///
+/// Height and normal are asked some hundred times a wheel and step, the soil a few times, so each has a call of its
+/// own.
+class GroundQuery {
+ public:
+  virtual ~GroundQuery() = default;
+
+  /// Of the surface in W [m].
+  virtual double height(double x, double y) const = 0;
+  /// Unit upward normal of the surface.
+  virtual Vec3 normal(double x, double y) const = 0;
+  /// Soil and density state on the surface; a firm floor unless the ground knows better.
+  virtual SoilState soil(double x, double y) const {
+    (void)x, (void)y;
+    return {};
+  }
+
+  /// All three.
+  GroundState at(double x, double y) const { return {height(x, y), normal(x, y), soil(x, y)}; }
+};
+
+}  // namespace navvy::terramechanics

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terramechanics/rigid_wheel.h"
+
+#include <cmath>
+
+#include "core/math.h"
+#include "terramechanics/plate.h"
+#include "terramechanics/shear.h"
+
+namespace navvy::terramechanics {
+namespace {
+
+constexpr int kSlices = 400;     // of the arc
+constexpr int kBisections = 60;  // of the entry angle: below a double's rounding
+
+/// Sums over the arc from below the axle to the entry angle; `lift` is the load it carries [N].
+struct Arc {
+  double lift = 0, drawbar = 0, torque = 0;
+};
+
+Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
+  const double r = wheel.radius, modulus = plate_modulus(soil, wheel.width);
+  const ShearStrength strength = rim_strength(soil);
+  // Ways against the soil depend on the ratio of speeds alone.
+  const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
+  Arc out;
+  const double slice = entry / kSlices;
+  for (int i = 0; i < kSlices; ++i) {
+    // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has its corner.
+    const double at = (i + 0.5) * slice;
+    const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
+    // Way of the rim against the soil since it entered; a locked rim is dragged on and on.
+    const double moved =
+        rim > 1e-6 ? r * ((entry - at) - (std::sin(entry) - std::sin(at)) / rim) : -1e3 * soil.janosi_k;
+    const double shear = shear_stress(strength, pressure, moved, soil.janosi_k);
+    // Pressure acts along the radius, shear along the rim.
+    const double area = r * wheel.width * slice;
+    out.lift += (pressure * std::cos(at) + shear * std::sin(at)) * area;
+    out.drawbar += (shear * std::cos(at) - pressure * std::sin(at)) * area;
+    out.torque += shear * r * area;
+  }
+  return out;
+}
+
+}  // namespace
+
+double rim_speed(double speed, double slip) { return slip >= 0 ? speed / (1 - slip) : speed * (1 + slip); }
+
+WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
+  // The load grows with the entry angle: bisect between nothing and the axle at the surface.
+  double low = 0, high = kPi / 2;
+  WheelForce out;
+  out.carried = sum_arc(wheel, soil, high).lift >= wheel.load;
+  for (int i = 0; i < kBisections && out.carried; ++i) {
+    const double middle = 0.5 * (low + high);
+    (sum_arc(wheel, soil, middle).lift < wheel.load ? low : high) = middle;
+  }
+  const Arc arc = sum_arc(wheel, soil, high);
+  out.sinkage = wheel.radius * (1 - std::cos(high));
+  out.drawbar = arc.drawbar;
+  out.torque = arc.torque;
+  return out;
+}
+
+}  // namespace navvy::terramechanics

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terramechanics/shear.h"
+
+#include <cmath>
+
+namespace navvy::terramechanics {
+
+ShearStrength rim_strength(const scene::Soil& soil) {
+  // Friction decides which layer slides: under a loaded rim it is far above cohesion.
+  const bool steel = soil.tool_friction_angle < soil.friction_angle;
+  return {steel ? soil.adhesion : soil.residual_cohesion,
+          std::tan(steel ? soil.tool_friction_angle : soil.friction_angle)};
+}
+
+double mobilised_share(double displacement, double janosi_k) {
+  return 1 - std::exp(-std::abs(displacement) / janosi_k);
+}
+
+double shear_stress(const ShearStrength& strength, double pressure, double displacement, double janosi_k) {
+  // The sign of zero goes with the displacement: a rim that has not moved shears nothing either way.
+  return std::copysign(strength.cohesion + pressure * strength.slope, displacement) *
+         mobilised_share(displacement, janosi_k);
+}
+
+}  // namespace navvy::terramechanics

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terramechanics/tyre.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::terramechanics {
+namespace {
+
+constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
+constexpr double kArcStep = radians(15);  // so that 0.1 m cells are not stepped over near the ground
+constexpr double kReboundSpeed = 0.25;    // [m/s] tuned: BulletDrive.DropsIntoATrenchWithoutBeingLaunched
+constexpr double kMaxDeflection = 0.25;   // of the radius: tread on the rim
+constexpr double kBristleShare = 0.8;     // tangential over radial stiffness of a bias truck tyre, 0.5 to 1 (U)
+constexpr double kRelaxation = 0.6;  // of the radius [Pacejka 2012, 7.2: about the contact's half length to radius]
+
+struct Track {
+  Vec3 normal = Vec3::UnitZ();
+  double deflection = 0;  // 0: in the air
+};
+
+/// One ray from the centre, where the tread dips into the ground.
+struct Dip {
+  Vec3 normal;
+  double depth = 0;
+};
+
+/// The plane of the ground at p if the wheel's deepest point agrees with it, else a corner on the ray itself.
+Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3& ray, const Vec3& ground_point,
+           const Vec3& normal, const GroundQuery& ground) {
+  const Vec3 in_plane = normal - normal.dot(spin_axis) * spin_axis;
+  const double tilt = in_plane.norm();
+  const double away = normal.dot(center - ground_point);
+  if (tilt > 0.05) {
+    const Vec3 deepest = center - in_plane * (radius / tilt);
+    // Height of the plane there; the ground must be that plane over the contact.
+    const double plane = ground_point.z() - (normal.x() * (deepest.x() - ground_point.x()) +
+                                             normal.y() * (deepest.y() - ground_point.y())) /
+                                                std::max(normal.z(), 0.02);
+    if (std::abs(ground.height(deepest.x(), deepest.y()) - plane) < 0.03) return {normal, radius * tilt - away};
+  }
+  const double facing = normal.dot(ray);
+  const double reach = facing < -0.05 ? -away / facing : radius;
+  return {-ray, std::clamp(radius - reach, 0.0, radius)};
+}
+
+/// Deflection and mean normal of one track: rays from the centre that meet ground are weighed by their dip squared, so
+/// that the deepest one leads and the normal turns without jumps as the wheel rolls over an edge.
+Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, const GroundQuery& ground) {
+  Track track;
+  const Vec3 forward = spin_axis.cross(Vec3::UnitZ());
+  if (forward.norm() < 0.1) return track;  // lying on its side: the body's contacts hold it
+  const Vec3 ahead = forward.normalized(), down = -ahead.cross(spin_axis);
+  Vec3 normal = Vec3::Zero();
+  for (int i = 0; i < kArcSamples; ++i) {
+    const double angle = kArcStep * (i - kArcSamples / 2);
+    const Vec3 ray = std::cos(angle) * down + std::sin(angle) * ahead;
+    const Vec3 p = center + radius * ray;
+    const double height = ground.height(p.x(), p.y());
+    if (height <= p.z()) continue;
+    const Dip dip =
+        dip_at(center, spin_axis, radius, ray, Vec3(p.x(), p.y(), height), ground.normal(p.x(), p.y()), ground);
+    if (dip.depth <= 0) continue;
+    normal += dip.depth * dip.depth * dip.normal;
+    track.deflection = std::max(track.deflection, dip.depth);
+  }
+  if (normal.norm() > 0) track.normal = normal.normalized();
+  track.deflection = std::min(track.deflection, kMaxDeflection * radius);
+  return track;
+}
+
+/// Spring and damper of the carcass [N], never pulling, bounded where the tread meets the rim.
+double radial_force(const scene::Wheel& tyre, double share, double deflection, double closing) {
+  const double force = share * (tyre.stiffness * deflection + tyre.damping * closing);
+  // Leaving the ground, the spring gives back less and less, nothing at the rebound speed.
+  const double taper = closing < 0 ? std::max(0.0, 1 + closing / kReboundSpeed) : 1.0;
+  return std::clamp(force * taper, 0.0, 2 * share * tyre.stiffness * kMaxDeflection * tyre.radius);
+}
+
+/// Stretches the bristle by the slip of this step and returns the force on the tyre (forward, left).
+Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, double limit,
+                   double rim_mass, double dt, Vec2& bristle) {
+  // An explicit step stays stable while k dt^2 and c dt are well below the rim's mass.
+  const double k = std::min(kBristleShare * share * tyre.stiffness, 0.2 * share * rim_mass / (dt * dt));
+  const double c = std::min(share * tyre.damping, 0.3 * share * rim_mass / dt);
+  // Fresh, unstretched bristles roll in at the rolling speed.
+  bristle = (bristle + dt * slip) / (1 + dt * std::abs(rolling) / (kRelaxation * tyre.radius));
+  const double stretched = k * bristle.norm();
+  if (stretched > limit) bristle *= limit / stretched;
+  Vec2 force = -k * bristle - c * slip;
+  if (force.norm() > limit) force *= limit / force.norm();
+  return force;
+}
+
+/// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
+double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
+  const Vec3 p = X.translation(), left = X.linear().col(1);
+  const double aside = 0.5 * tyre.twin_spacing + tyre.width;
+  const Vec3 a = p + aside * left, b = p - aside * left;
+  const double beside = 0.5 * (ground.height(a.x(), a.y()) + ground.height(b.x(), b.y()));
+  const double offset = 0.5 * tyre.twin_spacing;
+  const Vec3 c = p + offset * left, d = p - offset * left;
+  const double under = 0.5 * (ground.height(c.x(), c.y()) + ground.height(d.x(), d.y()));
+  return std::max(0.0, beside - under);
+}
+
+}  // namespace
+
+double tyre_friction(const scene::Wheel& tyre, const SoilState& ground) {
+  (void)ground;  // decides nothing yet: every soil grips as the tyre says
+  return tyre.friction;
+}
+
+TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
+                     TyreState& state) {
+  TyreForce out;
+  const Vec3 center = motion.X_WWheel.translation(), axis = motion.X_WWheel.linear().col(1);
+  // The tyres of a pair, or the middles of the two halves of a single tyre, which then resists leaning.
+  const double offset = tyre.twin_spacing > 0 ? 0.5 * tyre.twin_spacing : 0.25 * tyre.width;
+  const double rim_mass = motion.spin_inertia / (tyre.radius * tyre.radius);
+  double rim_speed = 0, ground_speed = 0, load = 0;
+  for (int t = 0; t < 2; ++t) {
+    const Vec3 arm = (t == 0 ? offset : -offset) * axis;
+    const Track track = find_contact(center + arm, axis, tyre.radius, ground);
+    Vec2& bristle = state.bristle[static_cast<std::size_t>(t)];
+    const Vec3 in_plane = track.normal - track.normal.dot(axis) * axis;
+    if (track.deflection <= 0 || in_plane.norm() < 0.05) {
+      bristle.setZero();
+      continue;
+    }
+    // What the tread does at the contact: the carrier's motion there, and the rim's by the spin.
+    const double loaded = tyre.radius - track.deflection;
+    const Vec3 p = arm - loaded * in_plane.normalized();  // contact from the centre
+    const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p);
+    const Vec3 v_rim = motion.spin * axis.cross(p);
+    const double normal_force = radial_force(tyre, 0.5, track.deflection, -track.normal.dot(v_carrier));
+
+    // Tangential forces act in the plane of the ground, forward and left.
+    const Vec3 ahead = axis.cross(track.normal).normalized(), left = track.normal.cross(ahead);
+    const Vec3 v_slip = v_carrier + v_rim;
+    const SoilState soil = ground.soil(center.x() + p.x(), center.y() + p.y());
+    const double limit = tyre_friction(tyre, soil) * normal_force;
+    const double rolling = -v_rim.dot(ahead);
+    const Vec2 f =
+        bristle_force(tyre, 0.5, Vec2(v_slip.dot(ahead), v_slip.dot(left)), rolling, limit, rim_mass, dt, bristle);
+    const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
+    out.force_W += force;
+    out.moment_W += p.cross(force);
+    out.deflection = std::max(out.deflection, track.deflection);
+
+    // Rolling resistance turns against the spin; smooth through zero, within what the step can bear.
+    const double band = std::max(0.05, tyre.rolling_resistance * normal_force * dt / (0.15 * rim_mass));
+    out.moment_W -= axis * (tyre.rolling_resistance * normal_force * loaded * std::tanh(rolling / band));
+    rim_speed += normal_force * rolling;
+    ground_speed += normal_force * v_carrier.dot(ahead);
+    load += normal_force;
+  }
+  // Slip of the wheel as a whole, weighed by what each track carries.
+  if (load > 0) {
+    rim_speed /= load;
+    ground_speed /= load;
+    out.slip = (rim_speed - ground_speed) / std::max({std::abs(rim_speed), std::abs(ground_speed), 0.1});
+    out.sinkage = sinkage(tyre, motion.X_WWheel, ground);
+  }
+  return out;
+}
+
+}  // namespace navvy::terramechanics

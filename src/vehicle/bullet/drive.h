@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The drive of a machine in the Bullet engine: steers joints, turns and brakes wheels, locks axles.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "vehicle/bullet/joints.h"
+#include "vehicle/bullet/wheels.h"
+#include "vehicle/drive/drive_line.h"
+
+namespace navvy::vehicle {
+
+/// Puts what a DriveLine says into joints and wheels. A machine without a drive has wheels that turn freely, as a
+/// trailer's do.
+///
+/// A joint that set_joint took over is left alone until the next command of the drive.
+class MachineDrive {
+ public:
+  /// Takes the joints of wheels, steering and oscillating axles. All references must outlive it.
+  MachineDrive(const scene::Machine& machine, TreeBody& tree, MachineJoints& joints, MachineWheels& wheels);
+
+  /// A new command; joints that were taken over are the drive's again.
+  void set(const DriveInput& input);
+  /// The command that is followed now.
+  DriveInput& input() { return input_; }
+  const DriveInput& input() const { return input_; }
+
+  /// Before the joints' part of a step: commands of steering and axles, torque or brake of the wheels.
+  void begin_step(double dt);
+
+  /// Memory of the drive line's governors.
+  DriveLine& line() { return *line_; }
+  const DriveLine& line() const { return *line_; }
+
+ private:
+  /// Joints between chassis and wheels that neither spin nor steer.
+  void find_axles();
+  /// Commands of steering joints and axles for this step.
+  void steer();
+  void lock_axles();
+  /// Holds a wheel where it stopped with `torque` [N m] at most.
+  void brake(MachineWheel& wheel, double torque, double dt);
+
+  const scene::Machine& machine_;
+  TreeBody& tree_;
+  MachineJoints& joints_;
+  MachineWheels& wheels_;
+  std::unique_ptr<DriveLine> line_;  // of the default drive, asked nothing, where the machine has none
+  std::vector<DriveWheel> about_;    // by wheel
+  std::vector<int> axles_;           // joints between chassis and wheel carriers: oscillation, casters
+  std::vector<WheelTurn> turns_;     // of the present step, by wheel
+  std::vector<double> torque_;       // likewise [N m]
+  DriveInput input_;
+};
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvy::vehicle {
+namespace {
+
+bool moves(const scene::Joint& joint) {
+  return joint.type == scene::Joint::Type::kRevolute || joint.type == scene::Joint::Type::kPrismatic;
+}
+
+}  // namespace
+
+MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
+    : machine_(machine),
+      tree_(tree),
+      hydraulics_(machine),
+      actuators_(machine.joints.size()),
+      constraints_(machine.joints.size()),
+      drive_rate_(std::numeric_limits<double>::infinity()) {
+  for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+    const scene::Joint& joint = machine.joints[j];
+    // Whatever nobody commands stays where it is.
+    actuators_[j].servo.set({JointMode::kPosition, joint.initial});
+    // Fixed and ball joints have no servo, nor has a joint of the base to the world.
+    const int k = tree.bullet_of_joint(static_cast<int>(j));
+    if (k >= 0 && moves(joint))
+      constraints_[j] =
+          std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits, joint.lower, joint.upper);
+  }
+  placed();
+}
+
+// Positions only change at the end of a step and by a snapshot, so this is all that linkages ever cost.
+void MachineJoints::placed() {
+  for (int c = 0; c < hydraulics_.count(); ++c) hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
+}
+
+void MachineJoints::note_speeds() {
+  for (std::size_t j = 0; j < actuators_.size(); ++j) actuators_[j].speed_before = tree_.velocity(static_cast<int>(j));
+}
+
+JointLimits MachineJoints::limits(int joint) const {
+  const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];
+  const Actuator& a = (*this)[joint];
+  JointLimits limits;
+  // The joint's own limits hold in any case: of its bearing, or of a motor that the model has no more of.
+  limits.effort_positive = limits.effort_negative = about.effort;
+  limits.speed_positive = limits.speed_negative = about.velocity;
+  // A cylinder allows less, and not the same both ways: the rod takes its share of the bore.
+  if (const int cylinder = hydraulics_.of_joint(joint); cylinder >= 0) {
+    const CylinderLimits& hydraulic = hydraulics_.limits(cylinder);
+    limits.effort_positive = std::min(about.effort, hydraulic.torque_positive);
+    limits.effort_negative = std::min(about.effort, hydraulic.torque_negative);
+    limits.speed_positive = std::min(about.velocity, hydraulic.speed_positive);
+    limits.speed_negative = std::min(about.velocity, hydraulic.speed_negative);
+  }
+  // Steering: as fast as the drive says, not as fast as the joint could.
+  if (a.driven && a.servo.input().mode == JointMode::kPosition) {
+    limits.speed_positive = std::min(limits.speed_positive, drive_rate_);
+    limits.speed_negative = std::min(limits.speed_negative, drive_rate_);
+  }
+  // At the present pose; what the servo needs to brake in time.
+  limits.inertia = tree_.outward_inertia(joint);
+  return limits;
+}
+
+double MachineJoints::share_oil(double dt) {
+  // Without a pump every cylinder has its own flow, which limits() already holds.
+  if (!hydraulics_.has_pump()) return 1;
+  demands_.clear();
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    const Actuator& a = actuators_[j];
+    const int cylinder = hydraulics_.of_joint(static_cast<int>(j));
+    if (cylinder < 0 || !constraints_[j]) continue;
+    demands_.push_back(hydraulics_.demand(cylinder, a.opened, a.effort, a.servo.flows()));
+  }
+  return pump().share(machine_.pump, demands_, dt);
+}
+
+void MachineJoints::begin_step(double dt) {
+  // All valves open first, so that the pump knows what is asked of it; then every function gets its share.
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    Actuator& a = actuators_[j];
+    if (!constraints_[j] || is_drives(a)) continue;
+    const int joint = static_cast<int>(j);
+    a.limits = limits(joint);
+    a.opened = a.servo.open(machine_.joints[j], a.limits, tree_.position(joint), tree_.velocity(joint), dt);
+  }
+  const double share = share_oil(dt);
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    if (!constraints_[j]) continue;
+    const int joint = static_cast<int>(j);
+    const scene::Joint& about = machine_.joints[j];
+    Actuator& a = actuators_[j];
+    // The demand is a velocity within bounds of effort: one row of the solver, which finds the effort.
+    const double qd = tree_.velocity(joint);
+    if (!is_drives(a)) {
+      // Joints without a cylinder (a swing motor) do not share the pump.
+      const double oil = hydraulics_.of_joint(joint) >= 0 ? share : 1.0;
+      a.demand = a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
+      constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt, a.demand.effort_high * dt);
+    }
+    // Viscous friction, no stronger than what stops the joint within the step.
+    const double damping = about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
+    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint), a.demand.feed_forward - damping * qd);
+  }
+}
+
+void MachineJoints::end_step(double dt) {
+  placed();
+  // The effort is what the solver's row gave, over the step, and what was applied as it is.
+  double oil = 0;
+  for (std::size_t j = 0; j < actuators_.size(); ++j) {
+    if (!constraints_[j]) continue;
+    Actuator& a = actuators_[j];
+    const int joint = static_cast<int>(j);
+    const double q = tree_.position(joint), qd = tree_.velocity(joint);
+    a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
+    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
+    // The servo hears the row alone: a feed-forward never saturates it.
+    a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
+    // What a load pushes back goes to the tank.
+    const double driven = a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
+    const int cylinder = hydraulics_.of_joint(joint);
+    if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0) oil += hydraulics_.oil(cylinder, qd);
+  }
+  // What the valves let through may be less than what they asked for: told after the step.
+  pump().settle(oil);
+}
+
+JointState MachineJoints::state(int joint) const {
+  const Actuator& a = (*this)[joint];
+  const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];
+  JointState state;
+  state.position = tree_.position(joint);
+  state.velocity = tree_.velocity(joint);
+  state.effort = a.effort;
+  state.effort_limit = about.effort;
+  state.velocity_limit = about.velocity;
+  if (const int cylinder = hydraulics_.of_joint(joint); cylinder >= 0) {
+    const CylinderGeometry& geometry = hydraulics_.geometry(cylinder);
+    const CylinderLimits& limits = hydraulics_.limits(cylinder);
+    // The limit the way it pushes and moves now.
+    const bool up = state.effort >= 0;
+    state.effort_limit = std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
+    state.velocity_limit =
+        std::min(about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
+    state.cylinder_length = geometry.length;
+    state.cylinder_force = std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
+  }
+  state.stalled = a.servo.stalled();
+  return state;
+}
+
+}  // namespace navvy::vehicle

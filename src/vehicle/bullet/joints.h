@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The joints of a machine in the Bullet engine: their servos, what limits them, and their rows in the solver.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "vehicle/bullet/body.h"
+#include "vehicle/bullet/hydraulics.h"
+#include "vehicle/bullet/servo.h"
+#include "vehicle/joint_servo.h"
+
+namespace navvy::vehicle {
+
+/// A joint between two steps.
+struct Actuator {
+  JointServo servo;
+  bool spins_wheel = false;  // never changes
+  bool driven = false;       // the drive commands it
+  JointLimits limits;        // of this step
+  JointServo::Demand demand;
+  double opened = 0;  // velocity that the valve lets through with oil enough
+  double effort = 0;  // in the last step
+  double speed_before = 0;
+};
+
+/// Turns commands into rows of the solver and its answer into efforts, work and oil.
+///
+/// Joints by their index in scene::Machine. A wheel's joint that the drive turns gets its row and torque from there
+/// (Actuator::demand); here it only gets its damping.
+class MachineJoints {
+ public:
+  /// Every joint holds its initial position. Machine and tree must outlive it.
+  MachineJoints(const scene::Machine& machine, TreeBody& tree);
+
+  Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
+  const Actuator& operator[](int joint) const { return actuators_.at(static_cast<std::size_t>(joint)); }
+  /// All, in the order of scene::Machine.
+  std::vector<Actuator>& all() { return actuators_; }
+  const std::vector<Actuator>& all() const { return actuators_; }
+  /// By joint, null where it is fixed or a ball.
+  std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
+  /// Of a joint that moves.
+  ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
+  /// The machine's, idle where it has none.
+  Pump& pump() { return hydraulics_.pump(); }
+  const Pump& pump() const { return hydraulics_.pump(); }
+  /// Fastest turning of joints that the drive commands by position [rad/s].
+  void set_drive_rate(double rate) { drive_rate_ = rate; }
+
+  /// Velocities before anything acts: work is counted from them.
+  void note_speeds();
+  /// Before the solver: valves, oil, rows and damping.
+  void begin_step(double dt);
+  /// After it, positions moved: efforts, work, oil taken, and the linkages at their new place.
+  void end_step(double dt);
+  /// Positions came from elsewhere (a snapshot): the linkages follow.
+  void placed();
+
+  /// As told by the last step; limits are those at the present place.
+  JointState state(int joint) const;
+  double& work() { return work_; }  ///< mechanical, done since the start [J]
+  double work() const { return work_; }
+
+ private:
+  /// What effort and speed are to be had in this step.
+  JointLimits limits(int joint) const;
+  /// Share of its oil that every function gets.
+  double share_oil(double dt);
+  bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }
+
+  // By joint, but for the cylinders inside `hydraulics_` and `demands_`, one for each that acts.
+  const scene::Machine& machine_;
+  TreeBody& tree_;
+  Hydraulics hydraulics_;
+  std::vector<Actuator> actuators_;
+  std::vector<std::unique_ptr<ServoConstraint>> constraints_;
+  std::vector<OilDemand> demands_;  // of the present step
+  double drive_rate_;
+  double work_ = 0;
+};
+
+}  // namespace navvy::vehicle

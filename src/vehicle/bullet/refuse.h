@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// How this engine says no to a machine it cannot build.
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+
+namespace navvy::vehicle {
+
+/// @throws InputError always: the element of the machine ("wheel", "link[name]"), the offending value (may be empty)
+/// and the rule it breaks.
+[[noreturn]] inline void refuse(const std::string& element, const std::string& value, const std::string& rule) {
+  Fault fault;
+  fault.element = element;
+  fault.value = value;
+  fault.rule = rule;
+  throw InputError(fault);
+}
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/wheels.h"
+
+#include "vehicle/bullet/refuse.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::vehicle {
+namespace {
+
+/// Axes of a wheel that does not spin with it: y the axle, x level ahead as the carrier stands.
+Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
+  const Vec3 axis = X_WC.linear() * axis_C;
+  Vec3 ahead = axis.cross(X_WC.linear().col(2));
+  // An axle along the carrier's z has no ahead of its own: any will do, it only has to be a frame.
+  if (ahead.norm() < 0.1) ahead = axis.unitOrthogonal();
+  ahead.normalize();
+  // Right-handed: ahead, axle, and up as their product.
+  Pose X = Pose::Identity();
+  X.linear().col(0) = ahead;
+  X.linear().col(1) = axis;
+  X.linear().col(2) = ahead.cross(axis);
+  X.translation() = X_WC * center_C;
+  return X;
+}
+
+}  // namespace
+
+MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : machine_(machine), tree_(tree) {
+  for (const scene::Wheel& about : machine.wheels) {
+    MachineWheel wheel;
+    wheel.spin_joint = machine.joint_index(about.joint);
+    if (wheel.spin_joint < 0) refuse("wheel", about.joint, "no joint of this name");
+    const scene::Joint& joint = machine.joints[static_cast<std::size_t>(wheel.spin_joint)];
+    if (joint.type != scene::Joint::Type::kRevolute || joint.parent < 0)
+      refuse("wheel", about.joint, "a wheel spins on a revolute joint of the machine");
+    wheel.wheel_link = joint.child;
+    wheel.carrier_link = joint.parent;
+    const scene::Link& link = machine.links[static_cast<std::size_t>(joint.child)];
+    // Its inertia about the axle bounds what an explicit step may do to the spin.
+    const Vec3 axis_L = joint.X_LcJ.linear() * joint.axis.normalized();
+    wheel.spin_inertia = axis_L.dot(link.inertia * axis_L);
+    // Axle and centre stay where they are in the carrier, however the wheel has turned.
+    const Pose X_CL = joint_pose(machine, joint, 0);
+    wheel.axis_C = X_CL.linear() * axis_L;
+    wheel.center_C = X_CL * Vec3(joint.X_LcJ.translation());
+    if (!about.steer_joint.empty()) {
+      wheel.steer_joint = machine.joint_index(about.steer_joint);
+      if (wheel.steer_joint < 0) refuse("wheel", about.steer_joint, "no joint of this name");
+    }
+    wheels_.push_back(wheel);
+  }
+}
+
+terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
+  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead is.
+  const LinkState carrier = tree_.link(wheel.carrier_link);
+  terramechanics::TyreMotion motion;
+  motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);
+  motion.w_W = carrier.w_WL;
+  motion.v_W = carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
+  motion.spin = tree_.velocity(wheel.spin_joint);
+  motion.spin_inertia = wheel.spin_inertia;
+  return motion;
+}
+
+Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
+  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle only the wheel.
+  Vec3 impulse = Vec3::Zero();
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    MachineWheel& wheel = wheels_[w];
+    const terramechanics::TyreMotion now = motion(wheel);
+    wheel.force = terramechanics::tyre_force(machine_.wheels[w], now, ground, dt, wheel.tyre);
+    tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W, now.X_WWheel.translation());
+    impulse += dt * wheel.force.force_W;
+  }
+  return impulse;
+}
+
+WheelState MachineWheels::state(int i) const {
+  // Motion is of now, force and slip are of the last step.
+  const MachineWheel& wheel = wheels_.at(static_cast<std::size_t>(i));
+  const terramechanics::TyreMotion now = motion(wheel);
+  WheelState state;
+  state.X_WWheel = now.X_WWheel;
+  state.v_W = now.v_W;
+  state.spin = now.spin;
+  state.steer = wheel.steer_joint >= 0 ? tree_.position(wheel.steer_joint) : 0;
+  state.force_W = wheel.force.force_W;
+  state.slip = wheel.force.slip;
+  state.sinkage = wheel.force.sinkage;
+  return state;
+}
+
+}  // namespace navvy::vehicle

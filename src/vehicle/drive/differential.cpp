@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/drive/differential.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr std::size_t kLeft = 0;  // group of the line; the other is the right side
+
+}  // namespace
+
+SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input) {
+  // Rim speed that the yaw rate adds on the right and takes on the left.
+  const double turn = 0.5 * drive.track * input.steer;
+  const double fastest = std::max(std::abs(input.speed - turn), std::abs(input.speed + turn));
+  // Both by one share: the ratio of yaw rate to speed, the curvature, stays.
+  const double share = fastest > drive.max_speed ? drive.max_speed / fastest : 1;
+  return {share * (input.speed - turn), share * (input.speed + turn)};
+}
+
+DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels)
+    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}), drive_(drive) {}
+
+Roll DifferentialLine::roll(const DriveInput& input) const {
+  if (input.brake) return {};
+  const SideSpeeds sides = side_speeds(drive_, input);
+  // From the sides as they were cut, so that speed and yaw rate are those the wheels can do.
+  return {0.5 * (sides.left + sides.right), (sides.right - sides.left) / drive_.track};
+}
+
+double DifferentialLine::rolling_spin(const Roll& roll, const DriveWheel& wheel) const {
+  // A caster swivels into the way it is pulled; what it turns at is told as that of its side.
+  return (roll.speed + (wheel.left ? -0.5 : 0.5) * drive_.track * roll.yaw_rate) / wheel.radius;
+}
+
+std::optional<double> DifferentialLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
+  (void)input, (void)wheel;
+  return std::nullopt;
+}
+
+double DifferentialLine::steer_rate() const { return std::numeric_limits<double>::infinity(); }
+
+double DifferentialLine::group_speed(const DriveInput& input, std::size_t group) const {
+  const SideSpeeds sides = side_speeds(drive_, input);
+  return group == kLeft ? sides.left : sides.right;
+}
+
+scene::AckermannDrive bicycle_of(const scene::DifferentialDrive& drive) {
+  scene::AckermannDrive bicycle;
+  static_cast<scene::Powertrain&>(bicycle) = drive;
+  bicycle.wheelbase = drive.track;
+  bicycle.track = 0;  // the bicycle's own angle is what is limited
+  // Inner wheels at rest: the radius is half the track, tan = L / R = 2.
+  bicycle.max_steer = std::atan(2);
+  bicycle.steer_rate = std::numeric_limits<double>::infinity();
+  return bicycle;
+}
+
+double command_of(const scene::DifferentialDrive& drive, double bicycle, double speed) {
+  return speed * std::tan(bicycle) / bicycle_of(drive).wheelbase;
+}
+
+}  // namespace navvy::vehicle

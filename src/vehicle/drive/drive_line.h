@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drive command means for every wheel of a machine. One class a kind of drive, used by all engines.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "scene/machine.h"
+#include "vehicle/drive/drive_input.h"
+#include "vehicle/drive/governor.h"
+
+namespace navvy::vehicle {
+
+/// A wheel as a drive line sees it: what never changes.
+struct DriveWheel {
+  bool driven = false;
+  bool left = false;  ///< of the machine's middle: its link lies at y > 0 in M
+  double radius = 0;  ///< unloaded [m]
+};
+/// One for each of machine.wheels.
+std::vector<DriveWheel> drive_wheels(const scene::Machine& machine);
+
+/// A wheel as it turns at the start of a step.
+struct WheelTurn {
+  bool on_line = false;     ///< driven, and the drive commands it (not a joint command that took it over)
+  double spin = 0;          ///< positive rolls forward [rad/s]
+  double radius = 0;        ///< loaded [m]
+  double spin_inertia = 0;  ///< [kg m2]
+};
+
+/// How the machine's frame moves while no wheel slips.
+struct Roll {
+  double speed = 0;     ///< along x of M [m/s]
+  double yaw_rate = 0;  ///< positive to the left [rad/s]
+};
+
+/// The drive line of one machine.
+///
+/// Kinematics (roll, rolling_spin, steer_angle) is a function of the command alone: an engine without forces moves by
+/// it, one with forces turns steered joints by it. Torques have a memory, the governors'; it is saved and hashed.
+class DriveLine {
+ public:
+  virtual ~DriveLine() = default;
+
+  /// Where the command takes the machine, its limits of speed and steering kept; nowhere under the brake. Yaw rate is
+  /// speed x curvature for a kind that steers by an angle.
+  virtual Roll roll(const DriveInput& input) const = 0;
+  /// Spin [rad/s] of a wheel that rolls along.
+  virtual double rolling_spin(const Roll& roll, const DriveWheel& wheel) const = 0;
+  /// Angle [rad] of a wheel's steering joint; nothing from a kind that does not turn wheels.
+  virtual std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const = 0;
+  /// Fastest turning of a steering joint [rad/s].
+  virtual double steer_rate() const = 0;
+
+  /// Torque [N m] about each wheel's axis over the next step dt [s], 0 for wheels not on the line; `mass` is the
+  /// machine's [kg]. The brake is on: all 0, and the governors start afresh from the present speed.
+  void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
+               std::vector<double>& torque);
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ protected:
+  /// Wheels that one governor turns.
+  struct Group {
+    std::vector<char> members;  // is wheel w of machine.wheels one of them
+    double share = 1;           // of the machine's mass, and of the motor's force and power
+    SpeedGovernor governor;
+  };
+  DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups)
+      : powertrain_(powertrain), groups_(std::move(groups)) {}
+  static Group all_driven(const std::vector<DriveWheel>& wheels);
+  /// Half the machine: the driven wheels of the left or right side.
+  static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);
+  /// Speed that a group's wheels are to roll at [m/s].
+  virtual double group_speed(const DriveInput& input, std::size_t group) const = 0;
+
+ private:
+  scene::Powertrain powertrain_;
+  std::vector<Group> groups_;
+};
+
+/// The line of machine.drive.
+std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine);
+
+/// The bicycle that follows the same arcs, for laws that steer by a bicycle angle whatever drives the wheels: an
+/// Ackermann drive itself; for a differential drive one as long as its track, whose tightest arc is the one on which
+/// the inner wheels stand still.
+scene::AckermannDrive equivalent_bicycle(const scene::Drive& drive);
+/// DriveInput::steer for an angle of that bicycle [rad] at `speed` [m/s, negative backwards].
+double steer_command(const scene::Drive& drive, double bicycle, double speed);
+
+}  // namespace navvy::vehicle

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The speed governor of a hydrostatic drive. Knows no engine and no kind of drive.
+#pragma once
+
+#include "core/hash.h"
+#include "core/state_io.h"
+#include "scene/drive.h"
+
+namespace navvy::vehicle {
+
+/// Wheels that one motor turns together: all driven wheels of an axle differential, or those of one side.
+struct DrivenWheels {
+  int count = 0;
+  double spin = 0;          ///< mean of the wheels, that of the differential's cage [rad/s]
+  double radius = 0;        ///< mean, loaded [m]
+  double spin_inertia = 0;  ///< of all together about their axes [kg m2]
+  double mass = 0;          ///< that they have to move [kg]
+};
+
+/// Torque so that the driven wheels' mean speed follows the one asked for.
+///
+/// An open differential gives each wheel the same torque; its cage turns with their mean. The force at the ground is
+/// limited by the tractive force and by power / speed; the asked speed changes by at most 1.5 m/s2. Feed-forward of
+/// the mass's acceleration, a proportional part and an integral that only grows while it can act.
+class SpeedGovernor {
+ public:
+  /// Torque for each of the wheels [N m] over the next step dt [s], towards `speed` [m/s]; 0 without wheels.
+  double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels, double dt);
+  /// Brakes are on at this speed [m/s]: the governor starts afresh from it.
+  void reset(double speed);
+
+  void hash(StateHash& hash) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+
+ private:
+  double asked_ = 0;     // [m/s] after the ramp
+  double integral_ = 0;  // [N]
+};
+
+}  // namespace navvy::vehicle

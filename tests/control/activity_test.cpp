@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// Activities one at a time, each on a machine whose joints go where they are told; and the parts that they share.
+#include "control/activity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "control/activities/drive_to.h"
+#include "control/activities/dump.h"
+#include "control/activities/swing.h"
+#include "control/activities/tip.h"
+#include "control/activities/trajectory.h"
+#include "control/activities/wait.h"
+#include "control/activities/wait_for.h"
+#include "control/arm_move.h"
+#include "control/ew180_like.h"
+#include "control/operator.h"
+#include "control/stance.h"
+#include "control/step.h"
+#include "control/tip_path.h"
+#include "core/error.h"
+
+namespace navvy::control::testing {
+namespace {
+
+constexpr double kStep = 0.01;  // [s]
+
+/// The excavator of the other tests with a bed on its bucket joint, so that one machine can do every step.
+scene::Machine able_machine() {
+  scene::Machine machine = ew180_like();
+  machine.beds.push_back({"bucket", "bucket", "bucket_joint", 1});
+  return machine;
+}
+
+/// One step's activity, begun, with nothing round it but a workplace and what it sees.
+class Alone {
+ public:
+  explicit Alone(const scene::ProgramStep& step_in) : step(step_in), place(able_machine()) {
+    seen.joints.resize(place.machine.joints.size());
+    for (std::size_t j = 0; j < seen.joints.size(); ++j) {
+      seen.joints[j].position = place.machine.joints[j].initial;
+      seen.joints[j].velocity_limit = place.machine.joints[j].velocity;
+    }
+    programs["other"] = {0, 3};
+    seen.programs = &programs;
+    if (step_of(step).needs_arm()) place.arm.emplace(place.machine);
+    for (std::size_t i = 0; place.arm && i < 4; ++i) place.handover.q[i] = seen.joints[place.joint(i)].position;
+    activity = step_of(step).activity(place);
+    activity->begin(seen);
+  }
+
+  /// One control step, then the machine follows.
+  bool advance() {
+    Command command;
+    command.joints.resize(seen.joints.size());
+    const bool over = activity->advance(seen, kStep, command);
+    time += kStep;
+    phases.insert(activity->phase());
+    for (std::size_t i = 0; place.arm && i < 4; ++i)
+      if (auto& slot = command.joints[place.joint(i)]; !slot)
+        slot = vehicle::JointInput{vehicle::JointMode::kPosition, place.handover.q[i]};
+    for (std::size_t j = 0; j < command.joints.size(); ++j)
+      if (command.joints[j]) seen.joints[j].position = command.joints[j]->target;
+    if (command.drive) seen.X_WB.translation().x() += command.drive->brake ? 0 : command.drive->speed * kStep;
+    return over;
+  }
+  /// Until it is over; how long that took, or `limit` [s].
+  double run(double limit) {
+    while (!advance() && time < limit) continue;
+    return time;
+  }
+  std::uint64_t digest() const {
+    StateHash hash;
+    hash.bytes(&place.handover, sizeof place.handover);
+    activity->hash(hash);
+    return hash.digest();
+  }
+
+  const scene::ProgramStep step;
+  Workplace place;
+  Observation seen;
+  std::map<std::string, Progress> programs;
+  std::unique_ptr<Activity> activity;
+  double time = 0;
+  std::set<std::string> phases;
+};
+
+Trajectory path() {
+  Trajectory step;
+  step.joints = {"boom_joint"};
+  step.times = {0, 1, 2};
+  step.positions = {{0.7}, {0.6}, {0.9}};
+  return step;
+}
+
+DriveTo ahead() {
+  DriveTo step;
+  step.target = Vec2(3, 0);
+  return step;
+}
+
+/// A step of every kind but the dig, which has tests of its own.
+std::vector<scene::ProgramStep> one_of_each() {
+  return {ahead(), Swing(0.8), Dump(0.5), Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2), path()};
+}
+
+TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {
+  const std::map<std::string, std::string> names = {{"drive_to", "drive"}};
+  for (const scene::ProgramStep& step : one_of_each()) {
+    Alone alone(step);
+    EXPECT_LT(alone.run(60), 20) << step->element();
+    const auto name = names.find(step->element());
+    EXPECT_EQ(alone.phases, std::set<std::string>{name == names.end() ? step->element() : name->second});
+  }
+}
+
+TEST(Activity, ResumesFromASnapshotInTheMiddleBitForBit) {
+  for (const scene::ProgramStep& step : one_of_each()) {
+    const double length = Alone(step).run(60);
+    Alone whole(step), resumed(step);
+    while (whole.time < 0.6 * length) whole.advance();
+    StateWriter writer;
+    whole.activity->save(writer);
+    StateReader reader(writer.bytes());
+    resumed.activity = step_of(step).activity(resumed.place);
+    resumed.activity->load(reader);
+    resumed.place.handover = whole.place.handover;
+    resumed.seen = whole.seen;
+    EXPECT_EQ(resumed.digest(), whole.digest()) << step->element();
+    for (bool over = false; !over && whole.time < 60;) {
+      over = whole.advance();
+      EXPECT_EQ(resumed.advance(), over) << step->element();
+      ASSERT_EQ(resumed.digest(), whole.digest()) << step->element() << " at " << whole.time;
+    }
+  }
+}
+
+TEST(Activity, SwingTurnsTheUpperStructureAlone) {
+  Alone alone(Swing(0.8));
+  const Axes before = alone.place.handover.q;
+  alone.run(20);
+  EXPECT_DOUBLE_EQ(alone.place.handover.q[0], 0.8);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(alone.place.handover.q[i], before[i]);
+}
+
+TEST(Activity, DumpOpensTheBucketHoldsAndCurlsBack) {
+  Alone alone(Dump(2));
+  const double before = alone.place.handover.q[3];
+  double open = before, opened_for = 0;
+  while (!alone.advance() && alone.time < 30) {
+    const double q = alone.place.handover.q[3];
+    if (q > open + 1e-9) opened_for = 0;
+    open = std::max(open, q);
+    // Level to 1e-9 rad: the smooth profile has arrived.
+    if (q > open - 1e-9) opened_for += kStep;
+  }
+  EXPECT_GT(open, before + 0.7);
+  EXPECT_NEAR(opened_for, 2, 0.1);  // ends of the profile are flat to 1e-9 rad for some steps
+  EXPECT_DOUBLE_EQ(alone.place.handover.q[3], before);
+}
+
+TEST(Activity, TrajectoryHandsTheArmOnWhereItEnds) {
+  // Without an arm in the workplace it commands joints only; with one the next move begins where it ended.
+  Alone alone(path());
+  alone.run(10);
+  EXPECT_EQ(alone.place.handover.q[1], 0);
+  Alone with_an_arm(path());
+  with_an_arm.place.arm.emplace(with_an_arm.place.machine);
+  with_an_arm.run(10);
+  EXPECT_DOUBLE_EQ(with_an_arm.place.handover.q[1], 0.9);
+}
+
+TEST(Activity, TellsItsEventsOnceEach) {
+  Alone alone(Tip(-1, 0.5));
+  EXPECT_EQ(alone.activity->take_event(), CycleEvent::kTipStart);
+  EXPECT_EQ(alone.activity->take_event(), CycleEvent::kNone);
+  alone.run(20);
+  EXPECT_EQ(alone.activity->take_event(), CycleEvent::kTipEnd);
+}
+
+TEST(Operator, RefusesASnapshotOfAnotherStep) {
+  const scene::Machine machine = able_machine();
+  Operator waiting(machine, {{Wait(5)}, {}});
+  Observation seen;
+  seen.joints.resize(machine.joints.size());
+  waiting.update(seen, 0, kStep);
+  StateWriter writer;
+  waiting.save(writer);
+  Operator swinging(machine, {{Swing(1)}, {}});
+  StateReader reader(writer.bytes());
+  try {
+    swinging.load(reader);
+    FAIL() << "a swing took over the state of a wait";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'swing'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
+  Alone alone(Swing(0));
+  Axes to = alone.place.handover.q;
+  to[0] += 0.8;
+  ArmMove move;
+  move.start(alone.place, to, alone.seen, {});
+  // 0.80 rad/s at the fastest moment, 1.5 times the mean; the joint's own limit of 0.85 x 0.9425 rad/s is slower than
+  // that by a hair.
+  EXPECT_NEAR(move.duration(), 1.5 * 0.8 / std::min(0.80, 0.85 * 0.9425), 1e-12);
+  double fastest = 0, before = alone.place.handover.q[0];
+  for (int i = 1; i * kStep < move.duration(); ++i) {
+    move.advance(alone.place, alone.seen, i * kStep, "test");
+    fastest = std::max(fastest, (alone.place.handover.q[0] - before) / kStep);
+    before = alone.place.handover.q[0];
+  }
+  EXPECT_NEAR(fastest, 0.80, 0.002);  // a control step off the fastest moment, in which the parabola has lost 1e-3
+}
+
+TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
+  Stance stance;
+  stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
+  const Arm arm(able_machine());
+  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
+  // One and a half degrees are the tyres', at three the bucket tips it.
+  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
+  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
+  const Vec3 still = stance.swing_frame(arm).translation();
+  stance.follow(make_pose(1, 2, 0.1, 0, 0, 0.3), 0.25);
+  // After one time constant 1 - 1/e of a jump has come through.
+  EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)), 1e-12);
+}
+
+TEST(TipPath, RisesWhileTheTipIsHeldAndSinksBackWhenFree) {
+  Alone alone(Swing(0));
+  Stance stance;
+  stance.begin(Pose::Identity());
+  TipPath tip;
+  const Vec2 p(6.5, 0);
+  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  for (std::size_t i = 0; i < 4; ++i) alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
+  // The path goes down half a metre, the joints stay: held by soil.
+  tip.z = -0.3;
+  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+  EXPECT_LT(tip.slow, 0.35);  // below this a tip that stands still counts as held
+  EXPECT_GT(tip.lift, 0.2);   // 0.3 m/s for what is left of 2 s after the lag has grown and been felt
+  const double raised = tip.lift;
+  // Free again: the joints follow at once.
+  for (int i = 0; i < 50; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+    tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+  }
+  EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; a step or two of being held before
+}
+
+}  // namespace
+}  // namespace navvy::control::testing

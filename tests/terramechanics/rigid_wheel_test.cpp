@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wheel by Bekker's and Janosi's laws: its limits.
+#include "terramechanics/rigid_wheel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math.h"
+
+namespace navvy::terramechanics {
+namespace {
+
+scene::Soil plain() {
+  scene::Soil soil;
+  soil.friction_angle = radians(30);
+  soil.tool_friction_angle = radians(20);
+  soil.cohesion = soil.residual_cohesion = soil.adhesion = 0;
+  soil.bekker_kc = 0;
+  soil.bekker_kphi = 1e6;
+  soil.bekker_n = 1;
+  soil.janosi_k = 0.02;
+  return soil;
+}
+
+TEST(RigidWheel, SmoothWheelSinksByBekkersClosedForm) {
+  // n = 1, no shear, small entry angle: W = (2/3) k b sqrt(2 r) z^(3/2).
+  scene::Soil soil = plain();
+  soil.tool_friction_angle = 0;
+  const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.3}, soil);
+  const double z = std::pow(300 / (2.0 / 3 * 1e6 * 0.2 * std::sqrt(1.0)), 2.0 / 3);
+  EXPECT_NEAR(force.sinkage, z, 0.02 * z);
+  EXPECT_NEAR(force.torque, 0, 1e-12);
+  // Towed with the work of compacting the rut: b k z^2 / 2 per metre.
+  EXPECT_NEAR(-force.drawbar, 0.5 * 1e6 * 0.2 * force.sinkage * force.sinkage, 0.01 * -force.drawbar);
+}
+
+TEST(RigidWheel, SinksByBekkersClosedFormInMeasuredSand) {
+  // z = (3 W / ((3 - n) b k sqrt(D)))^(2 / (2 n + 1)) [Bekker 1956], for small entry angles: 26.0 mm.
+  scene::Soil sand = plain();
+  sand.tool_friction_angle = 0;
+  sand.bekker_kphi = 1734000, sand.bekker_n = 1.34;
+  EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);  // entry angle 53 degrees
+}
+
+TEST(RigidWheel, SpinningWheelBearsTheRimsFriction) {
+  scene::Soil soil = plain();
+  soil.janosi_k = 1e-5;  // fully mobilised
+  const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.9}, soil);
+  // The rim's forces stand within the entry angle of upright, so the torque is r tan delta load, a few percent less.
+  EXPECT_NEAR(force.torque, 0.5 * std::tan(radians(20)) * 300, 0.05 * 0.5 * std::tan(radians(20)) * 300);
+  EXPECT_GT(force.drawbar, 0);
+}
+
+TEST(RigidWheel, LockedWheelIsDragged) {
+  const WheelForce force = rigid_wheel({0.5, 0.2, 300, -1}, plain());
+  EXPECT_LT(force.drawbar, -std::tan(radians(20)) * 300);
+  EXPECT_LT(force.torque, 0);
+}
+
+TEST(RigidWheel, PullGrowsWithSlip) {
+  double before = -1e9;
+  for (const double slip : {-1.0, -0.5, -0.2, 0.0, 0.1, 0.3, 0.6}) {
+    const double pull = rigid_wheel({0.5, 0.2, 300, slip}, plain()).drawbar;
+    EXPECT_GT(pull, before) << slip;
+    before = pull;
+  }
+}
+
+TEST(RigidWheel, SaysWhenTheGroundDoesNotCarryTheLoad) {
+  scene::Soil mud = plain();
+  mud.bekker_kphi = 1000;
+  EXPECT_FALSE(rigid_wheel({0.5, 0.2, 3000, 0}, mud).carried);
+}
+
+}  // namespace
+}  // namespace navvy::terramechanics
