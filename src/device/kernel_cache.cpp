@@ -52,6 +52,9 @@ bool is_listed(const fs::path& relative) {
   return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 && name != "last_accessed";
 }
 
+/// What the driver writes to before it gives a file its name.
+bool is_temporary(const fs::path& relative) { return relative.filename().string().rfind("tempfile_", 0) == 0; }
+
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   // A folder that cannot be listed to its end gives what was found: check() then misses files and takes their programs
@@ -152,6 +155,11 @@ void KernelCache::check(bool alone) {
   for (const fs::path& file : files) {
     if (!is_listed(file)) continue;
     std::error_code error;
+    if (is_temporary(file)) {
+      // PoCL leaves one of these behind in every run: no damage. A neighbour's may be about to get its name.
+      if (alone) fs::remove(folder_ / file, error);
+      continue;
+    }
     const std::uintmax_t size = fs::file_size(folder_ / file, error);
     const auto entry = manifest.find(file.generic_string());
     seen.insert(file.generic_string());
@@ -174,7 +182,7 @@ void KernelCache::check(bool alone) {
   for (const auto& [path, entry] : manifest)
     if (seen.count(path) == 0) bad.insert(program_of(path));
   for (const fs::path& file : files) {
-    if (!is_listed(file)) continue;
+    if (!is_listed(file) || is_temporary(file)) continue;
     const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
     ++(remove ? removed_ : whole_);
   }
@@ -187,8 +195,11 @@ void KernelCache::check(bool alone) {
   }
   // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
   if (alone && bytes > kMostBytes) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-      if (entry.path().filename() != kLockName) fs::remove_all(entry.path());
+    std::error_code error;
+    for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+      std::error_code kept;  // what cannot be removed was found whole above
+      if (it->path().filename() != kLockName) fs::remove_all(it->path(), kept);
+    }
   }
 }
 
@@ -198,7 +209,7 @@ void KernelCache::seal() noexcept {
     Manifest old = read_manifest(), now;
     for (const fs::path& file : files_in(folder_)) {
       // PoCL writes to a file of this name first and renames it; half of one must not be vouched for.
-      if (!is_listed(file) || file.filename().string().rfind("tempfile_", 0) == 0) continue;
+      if (!is_listed(file) || is_temporary(file)) continue;
       const std::string name = file.generic_string();
       const auto entry = old.find(name);
       // What is listed stays as listed: a file that changed since is found out by the next check.
