@@ -10,7 +10,7 @@
 #include "control/surface.h"
 #include "core/math.h"
 #include "heightfield/ground.h"
-#include "vehicle/engine.h"
+#include "vehicle/machine_state.h"
 
 namespace navvy::control {
 

@@ -9,6 +9,7 @@
 
 #include "control/activities/wait.h"
 #include "control/arm_move.h"
+#include "control/dig_rig.h"
 #include "control/operator.h"
 #include "control/reach.h"
 #include "control/step.h"
@@ -188,10 +189,9 @@ TEST(NewStep, TellsItsFaultsWithLineAndElement) {
 TEST(NewStep, IsAskedWhatItCanReach) {
   const scene::World world = load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
-  class Flat final : public SurfaceView {
-    double height(double, double) const override { return 0; }
-  } flat;
-  const std::vector<Fault> faults = check_reach(placed.machine, placed.program, Pose::Identity(), flat, "mine.sdf");
+  const heightfield::Ground ground = flat_ground();
+  const std::vector<Fault> faults =
+      check_reach(placed.machine, placed.program, Pose::Identity(), GroundSurface(ground), "mine.sdf");
   ASSERT_EQ(faults.size(), 1u);
   expect_in("step 2/nod/times", faults[0].text());
 }
