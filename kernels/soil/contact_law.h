@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one side of a plate and one node near it do to each other: the contact's weight, the area of plate the node
-// stands for, the most it holds in shear, the impulse. One source for the kernels and for the double twin, in the dialect
-// of kernels/README.md. Lengths in cells unless said.
+// stands for, the most it holds in shear, the impulse. One source for the kernels and for the double twin, in the
+// dialect of kernels/README.md. Lengths in cells unless said.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 #define NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 
@@ -69,8 +69,8 @@ typedef struct ContactBranch {
   bool acts, pushing, sticking;  // at all; in the normal direction; slip is stopped whole
 } ContactBranch;
 
-// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]: fractional
-// [weight b], unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0.
+// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]:
+// fractional [weight b], unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0.
 INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
                                 ContactBranch* branch) {
   const scalar3 rel = node->v - (speed + cross(spin, node->r));

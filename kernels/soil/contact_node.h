@@ -54,8 +54,8 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 // Sums before anything was added.
 #define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
 
-// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the tool's origin, linear) and
-// G^T b m P G, where P is what of the node's velocity the contact holds: the normal, the slip, or both
+// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the tool's origin, linear)
+// and G^T b m P G, where P is what of the node's velocity the contact holds: the normal, the slip, or both
 // [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);

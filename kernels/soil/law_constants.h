@@ -54,7 +54,10 @@ typedef struct SoilRow {
 #undef SOIL_ROW_FLOAT
 
 #ifdef __cplusplus
-static_assert(sizeof(SoilRow) == 4 * (10 + 8 + 3), "floats without gaps: one per constant of the lists and three");
+#define ONE_MORE(name) +1
+static_assert(sizeof(SoilRow) == sizeof(float) * (3 ALL_LAW_CONSTANTS(ONE_MORE)),
+              "floats without gaps: one per constant of the lists and three");
+#undef ONE_MORE
 }  // namespace navvy::soil
 #endif
 

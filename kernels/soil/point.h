@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arithmetic of one particle: weights, stress and momentum on its way to the nodes, gradient and volume on its way
-// back. One source for sixteen lanes, for one work-item, for the native loop and for the double twin (kernels/README.md,
-// one dialect); the schedules say who computes it when, and how sums over particles and nodes run.
+// back. One source for sixteen lanes, for one work-item, for the native loop and for the double twin
+// (kernels/README.md, one dialect); the schedules say who computes it when, and how sums over particles and nodes run.
 #ifndef NAVVY_KERNELS_SOIL_POINT_H
 #define NAVVY_KERNELS_SOIL_POINT_H
 

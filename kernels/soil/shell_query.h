@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or soil/groups/group.h).
+// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or
+// soil/groups/group.h).
 //
 // Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance comes from the
 // pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on folds of either kind: with
@@ -83,8 +84,9 @@ static inline int3 window_of(global const Tool* tools, int tool) {
 }
 
 // Nearest of the candidate triangles list[begin..end) of points of block `key`.
-static inline void query(real x, real y, real z, int3 key, global const ShellTriangle* triangles, global const Tool* tools,
-                         global const int* list, int begin, int end, float far, Closest* best) {
+static inline void query(real x, real y, real z, int3 key, global const ShellTriangle* triangles,
+                         global const Tool* tools, global const int* list, int begin, int end, float far,
+                         Closest* best) {
   best->distance2 = INFINITY;
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;

@@ -23,7 +23,9 @@ static inline bool resolve(global const ShellTriangle* triangles, int feature, f
 }
 
 // Which field of velocities a node has: 0 one, 1 split and in front, 2 split and behind.
-static inline int split_of(bool rim, float phi, float band) { return rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2; }
+static inline int split_of(bool rim, float phi, float band) {
+  return rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2;
+}
 
 static inline NodeShell node_shell_of(float3 normal, float phi, float inset) {
   const NodeShell out = {{normal.x, normal.y, normal.z}, phi, inset, {0.0f, 0.0f, 0.0f}};
@@ -40,8 +42,9 @@ typedef struct SideResult {
 
 // The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
 // plate comes back to its surface.
-static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest, float band,
-                             float longest_push, global const ShellTriangle* triangles, global const Tool* tools) {
+static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
+                                   float band, float longest_push, global const ShellTriangle* triangles,
+                                   global const Tool* tools) {
   SideResult out = {x, 0, 0.0f, 0};
   float phi = 0.0f;
   float3 normal = (float3)(0.0f);

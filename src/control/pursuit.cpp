@@ -11,7 +11,7 @@ namespace {
 
 // A long look ahead is calm far away, a short one ends close to the line; below half a wheelbase the steering, which
 // takes a second from lock to lock, would swing about the line.
-constexpr double kLongLook = 3.0, kShortLook = 1.5;  // [m] tuned: Pursuit.ArrivesBesideAndTurned
+constexpr double kLongLook = 3.0, kShortLook = 1.5;  // [m] tuned: Drive.ArrivesBesideAndTurned
 constexpr double kCreep = 0.05;                      // [m/s]
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace navvy::device {
 
-/// Text of one kernel file, named relative to kernels/, e.g. "soil/particle_to_grid.cl". Read from the folder in the
-/// environment variable NAVVY_KERNEL_DIR when it is set (edit and run), else what the build embedded.
+/// Text of one kernel file, named relative to kernels/, e.g. "soil/lanes/particle_to_grid.cl". Read from the folder in
+/// the environment variable NAVVY_KERNEL_DIR when it is set (edit and run), else what the build embedded.
 /// @throws DeviceError when there is no such file.
 std::string kernel_source(const std::string& path);
 

@@ -7,7 +7,7 @@
 namespace navvy::heightfield {
 namespace {
 
-// Memory bound (64 KiB) against exactness: edits of a few seconds of digging. tuned: ChangeLog tests
+// Memory bound (64 KiB) against exactness: some seconds of digging keep their rectangles
 constexpr std::size_t kMostEdits = 2048;
 
 }  // namespace

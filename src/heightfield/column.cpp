@@ -18,7 +18,7 @@ constexpr float kSameSpecificVolume = 1e-3f;
 constexpr float kSameShear = 0.05f;
 // Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
 constexpr float kFullShear = 4.0f;
-// Past this many layers alike neighbours are united. tuned: Column.StaysShortUnderEndlessEdits
+// Past this many layers alike neighbours are united. tuned: Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
 bool alike(const Layer& a, const Layer& b) {

@@ -16,7 +16,7 @@
 namespace navvy::heightfield {
 namespace {
 
-// Rut zone: the top two cells carry most of a tyre's compaction. tuned: Ground.CompactsTheTopFirst
+// Rut zone: the top two cells carry most of a tyre's compaction. tuned: Ground.CompactsTheTopFirstAndKeepsMass
 constexpr double kCompactionCells = 2.0;
 constexpr std::uint32_t kStateVersion = 1;
 

@@ -18,7 +18,7 @@ double first_root(double f0, double f1, double f2, double range) {
   // Already at or below the surface.
   if (f0 <= 0) return 0;
   const double end = f0 + (f1 + f2 * range) * range;
-  // Roots by the form that does not cancel [Press et al. 2007, Numerical Recipes, 5.6].
+  // Roots by the form that does not cancel [Press 2007].
   // Rays mostly come down, so a root in the range is the rule.
   const double discriminant = f1 * f1 - 4 * f2 * f0;
   if (discriminant >= 0) {

@@ -2,6 +2,7 @@
 // Shape of files: licence line, length, what libraries must not do, kernel rules (kernels/README.md).
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,23 @@ TEST(Files, StayWithinTheirLength) {
     const int lines = count_lines(file.text);
     if (lines > most)
       found.push_back(file.path + ": " + std::to_string(lines) + " lines, at most " + std::to_string(most));
+  }
+  EXPECT_EQ(report(found), "");
+}
+
+TEST(Files, HaveNoLineThatDoesNotFitAScreen) {
+  constexpr std::size_t kWidest = 120;  // as clang-format wraps C++
+  std::vector<std::string> found;
+  for (const char* folder : {"src", "kernels", "tests", "bench", "examples"}) {
+    for (const SourceFile& file : sources(folder, {".h", ".cpp", ".cl"})) {
+      std::istringstream lines(file.text);
+      std::string line;
+      for (int number = 1; std::getline(lines, line); ++number) {
+        // An #include cannot be broken, and a text that users see may stand in one piece.
+        if (line.size() <= kWidest || line.find('"') != std::string::npos) continue;
+        found.push_back(file.path + ":" + std::to_string(number) + ": " + std::to_string(line.size()) + " characters");
+      }
+    }
   }
   EXPECT_EQ(report(found), "");
 }

@@ -69,6 +69,7 @@ constexpr Absent kAbsent[] = {{"SOIL_SOLVER", false},
                               {"evidence/", false},
                               {"[evidence", false},
                               {"columns-and-particles", false},
+                              {"STYLE:", false},
                               {"issue", true},
                               {"issues", true},
                               {"Issue", true}};
@@ -104,6 +105,8 @@ std::vector<std::string> wrong_references(const std::string& line, const Book& b
     else if ((*it)[2].matched && at->second.count(heading) == 0)
       found.push_back(name + " has no heading '" + heading + "'");
   }
+  // The first name and the year are the key; "et al." would hide an entry that is not there.
+  if (line.find(" et al.") != std::string::npos) found.push_back("a reference is [Name YEAR], without et al.");
   for (std::sregex_iterator it(line.begin(), line.end(), literature), end; it != end; ++it) {
     const std::string key = (*it)[1].str() + " " + (*it)[2].str();
     if (book.entries.count(key) == 0) found.push_back("docs/bibliography.md has no [" + key + "]");
@@ -152,11 +155,35 @@ TEST(References, ThatLeadNowhereAreFound) {
   EXPECT_EQ(wrong("[docs/rock.md, soil]"), 1u);
   EXPECT_EQ(wrong("// [docs/soil.md, swell,"), 1u);
   EXPECT_EQ(wrong("[Klar 2017] [Hu and Fang 2018] [Jiang 2015: APIC]"), 3u);
+  EXPECT_EQ(wrong("[Klar et al. 2016]"), 1u);
   for (const char* absent :
        {"SOIL_SOLVER 3", "[VALIDATION 1]", "MACHINES_AND_SENSORS", "thin-tools.md", "evidence/forces",
         "[evidence, section 4]", "columns-and-particles", "issue 2", "see issues 3"})
     EXPECT_EQ(wrong(absent), 1u) << absent;
   EXPECT_EQ(wrong("there is no evidence of an issue here, nor of validation"), 0u);
+}
+
+/// Names of all tests as "Suite.Case".
+Names test_cases() {
+  static const std::regex declared(R"re(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))re");
+  Names out;
+  for (const SourceFile& file : sources("tests", {".cpp"}))
+    for (std::sregex_iterator it(file.text.begin(), file.text.end(), declared), end; it != end; ++it)
+      out.insert((*it)[1].str() + "." + (*it)[2].str());
+  return out;
+}
+
+TEST(References, OfTunedConstantsNameATestThatIsThere) {
+  // "tuned: Suite.Case"; other words after the colon tell in a sentence what a constant was chosen by.
+  static const std::regex tuned(R"re(tuned: ([A-Z]\w*\.[A-Z]\w*))re");
+  const Names known = test_cases();
+  ASSERT_GT(known.size(), 100u);
+  std::vector<std::string> found;
+  for (const char* folder : {"src", "kernels"})
+    for (const SourceFile& file : sources(folder, {".h", ".cpp", ".cl"}))
+      for (std::sregex_iterator it(file.text.begin(), file.text.end(), tuned), end; it != end; ++it)
+        if (known.count((*it)[1]) == 0) found.push_back(file.path + ": no test " + (*it)[1].str());
+  EXPECT_EQ(report(found), "");
 }
 
 TEST(References, OfTheBibliographyAreUnique) {

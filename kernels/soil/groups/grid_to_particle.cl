@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and moves them: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then each
-// work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is found by
-// an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
+// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then
+// each work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is
+// found by an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
 #include "soil/point.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added in the
-// order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host: src/soil/particles/grid_update.cpp.
+// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added
+// in the order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host:
+// src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
 #include "soil/node.h"
 #include "soil/place.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One particle or node per work-item: the scalar counterpart of soil/lanes/lanes.h for the schedule of work-groups. Law and
-// shell queries are the same sources in both.
+// One particle or node per work-item: the scalar counterpart of soil/lanes/lanes.h for the schedule of work-groups.
+// Law and shell queries are the same sources in both.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 #define NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 

@@ -17,8 +17,8 @@ static inline LawSoil load_soil(constant SoilRow* row) {
 }
 
 // Law and momentum of the particle in `slot`; false when a value is not finite. out: STAGED words.
-static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening, float dt,
-                           float dx, float mixing, float* out) {
+static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
+                           float dt, float dx, float mixing, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
@@ -50,8 +50,8 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   return isfinite(sum);
 }
 
-// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in soil/point.h). A work-item is a
-// cell.
+// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in soil/point.h). A
+// work-item is a cell.
 static inline float cell_opening(global const float* state, int capacity, Home home, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);

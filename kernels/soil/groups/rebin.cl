@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics, whose order
-// does not matter; the order inside a cell is found by one work-item per cell. Host: src/soil/particles/rebin.cpp.
+// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics,
+// whose order does not matter; the order inside a cell is found by one work-item per cell. Host:
+// src/soil/particles/rebin.cpp.
 #include "soil/groups/group.h"
 #include "soil/place.h"
 

@@ -33,8 +33,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global 
 
 // Applies the impulses of the final twist, then holds nodes at or below the resting ground.
 // Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
-// (soil/node.h). For the host: touched[near] = 1 when any node of the block changed; records per node and field, valid in
-// touched blocks.
+// (soil/node.h). For the host: touched[near] = 1 when any node of the block changed; records per node and field, valid
+// in touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
     global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and moves them.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], room.h),
+// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
 //      BLOCK_NODES per active block; full = such a mass of a node that means packed [kg]; closing = share of the excess
 //      a step takes;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active

@@ -63,7 +63,8 @@ typedef float4 columns;
 // where the compiler does not know how.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
-#define SOON(field) __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + slot + 4 * NAVVY_LANES))
+#define SOON(field) \
+  __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + slot + 4 * NAVVY_LANES))
 #endif
 #endif
 #ifndef SOON

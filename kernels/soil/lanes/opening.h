@@ -9,7 +9,8 @@
 // Cells of base nodes -1..4 in a home, x fastest.
 #define CELLS 216
 static inline int16 cell_of(real x, real y, real z) {
-  return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) + 36 * (convert_int16(base_node(z)) + 1);
+  return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) +
+         36 * (convert_int16(base_node(z)) + 1);
 }
 
 // Sums per cell in float4s: volume, bank volume, open particles, 0. False, and no sums, when no particle is open.

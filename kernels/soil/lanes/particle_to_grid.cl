@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stress update of each particle, then scatter of mass and momentum to its block's tile.
 //
-// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing = share of the way to its
-//      cell's opening that a particle goes.
+// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing = share of the way to
+// its      cell's opening that a particle goes.
 // Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
 //      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit.

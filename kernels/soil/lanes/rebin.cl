@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts particles into their new home blocks without atomics, inside a block by cell, in stable order.
 //
-// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many, and the
-//   cell of its base node there (0..63, x fastest).
+// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many, and
+// the   cell of its base node there (0..63, x fastest).
 // 2 (host) builds the new homes from the counts, and for each the 27 old homes it takes from.
 // 3 rebin_gather: per new home, the old slot of each new slot.
 // 4 rebin_move: per new home, copies every field.
@@ -20,7 +20,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   int count[CODES];
   for (int i = 0; i < CODES; ++i) count[i] = 0;
   for (int slot = homes[home].start; slot < homes[home].start + homes[home].count; ++slot) {
-    const Place place = place_of(state[slot], state[(size_t)capacity + slot], state[2 * (size_t)capacity + slot],
+    const Place place = place_of(state[slot], state[(FIELD_X + 1) * (size_t)capacity + slot],
+                                 state[(FIELD_X + 2) * (size_t)capacity + slot],
                                  from_home);
     codes[slot] = place.code;
     cells[slot] = place.cell;
@@ -29,8 +30,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   for (int i = 0; i < CODES; ++i) counts[CODES * home + i] = count[i];
 }
 
-// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand together, in the order
-// of their arrival: scatter and gather then work on the same nodes for a while.
+// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand together, in the
+// order of their arrival: scatter and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const Home* restrict old_homes, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const Home* restrict homes, global const int* restrict sources,
@@ -77,8 +78,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
   for (int slot = start; slot < end; ++slot) {
     const int3 d = neighbour_offset(codes[from[slot]]);
     state[slot] -= 4.0f * d.x;
-    state[(size_t)capacity + slot] -= 4.0f * d.y;
-    state[2 * (size_t)capacity + slot] -= 4.0f * d.z;
+    state[(FIELD_X + 1) * (size_t)capacity + slot] -= 4.0f * d.y;
+    state[(FIELD_X + 2) * (size_t)capacity + slot] -= 4.0f * d.z;
     const int tag = as_int(state[(size_t)FIELD_TAG * capacity + slot]);
     const float4 here = surface_of(soils + (tag & 0xffff));
     if (slot == start) first = here;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
 //
-// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed rows). Band [cells]:
-//      how far a side reaches.
+// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed rows). Band
+// [cells]:      how far a side reaches.
 // One work-item per near block, nothing shared. Host: src/soil/tools/shell.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/shell_side.h"

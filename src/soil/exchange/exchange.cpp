@@ -16,7 +16,7 @@ namespace navvy::soil {
 namespace {
 
 /// Deposited columns are left alone by the motion rule for this long [s], so that waking and booking back do
-/// not chase each other. tuned: ExchangeCycle tests
+/// not chase each other. tuned: ExchangeDeposit.WakingAndBookingBackAgainAndAgainChangesNothing
 constexpr double kRestAfterDeposit = 1.0;
 /// Tiles of changed ground looked at per check; the others wait, so that one check stays cheap. tuned: 48 tiles of flat
 /// ground cost about a millisecond.

@@ -11,7 +11,8 @@ namespace {
 constexpr double kAhead = 2, kSides = 1, kLeastDepthCells = 2;
 /// Soil within this of a tool stays particles [cells] [docs/exchange.md, deposit].
 constexpr int kToolGuard = 2;
-/// A tool slower than this has no direction and no speed to take a share of [m/s]. tuned: ExchangeWake tests
+/// A tool slower than this has no direction and no speed to take a share of [m/s]. tuned: the wake of `trench`, where a
+/// bucket at rest must keep what it woke
 constexpr double kSlowTool = 0.1;
 /// What is dragged along under a tool wakes no further down than this [cells]: soil fails upwards from the edge, and a
 /// cell of depth gives the same force as many [docs/exchange.md, wake].
@@ -19,7 +20,7 @@ constexpr double kDeepest = 3;
 /// A cut column ends within a mass quantum of the height asked for; this is above that [cells].
 constexpr double kCutError = 1e-3;
 // Motion at the seam: share of tool speed, without a tool, and the floor under which ringing wakes everything [m/s].
-// The floor is above the 0.02 of the prototype: a tenth fewer particles before a blade in loam at the same force.
+// tuned: with a floor of 0.02 a blade in loam has a tenth more particles before it, at the same force.
 constexpr double kMotionShare = 0.05, kMotionDefault = 0.05, kMotionFloor = 0.05;
 
 // Columns that the interval [low, high] of W along one axis covers, with `margin` cells around.

@@ -28,7 +28,7 @@ struct Point : LawState {
 
 Point from_particle(const Particle& particle);
 
-/// MLS-MPM with quadratic B-splines [Hu et al. 2018, "A moving least squares material point method ..."], APIC
+/// MLS-MPM with quadratic B-splines [Hu 2018], APIC
 /// transfer, the law of kernels/soil/law.h. No tools of its own. Slow: a map from node to momentum.
 class ReferenceSolver {
  public:

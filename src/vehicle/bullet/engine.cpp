@@ -20,7 +20,7 @@ namespace {
 
 // Machines meet the ground and each other; the ground meets nobody else.
 constexpr int kGroundGroup = 1, kMachineGroup = 2;
-constexpr int kIterations = 60;     // tuned: BulletServo.HoldTorqueIsTheAnalyticOne
+constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyticOne
 constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 // The broad phase is a plain list of this size: a few dozen shapes are never worth a tree.
 constexpr int kMostShapes = 4096;

@@ -8,7 +8,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kContactStiffness = 2e7;  // [N/m] tuned: BulletEngine.RaisedGroundDoesNotLaunchABody
+constexpr double kContactStiffness = 2e7;  // [N/m] tuned: BulletContact.RaisedGroundDoesNotLaunchABody
 constexpr double kContactDamping = 1e7;    // [N s/m] with it: overlap is pressed out at 2 per second
 
 }  // namespace

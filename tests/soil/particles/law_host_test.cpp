@@ -222,7 +222,7 @@ TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
     const double wanted = std::sin(radians(30)) + (std::sin(radians(40)) - std::sin(radians(30))) * inertial /
                                                       (inertial + soil.inertial_number);
     print_value("q / p at I = " + std::to_string(inertial), e.q() / e.pressure(), std::to_string(wanted) + " +-0.1 %",
-                "mu(I), Jop et al. 2006, on sin phi");
+                "mu(I) [Jop 2006] on sin phi");
     EXPECT_NEAR(e.q() / e.pressure(), wanted, 1e-3 * wanted);
   }
 }
