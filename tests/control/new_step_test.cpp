@@ -31,7 +31,7 @@ struct Nod final : Step {
   static Nod read(const scene::StepSource& source) {
     Nod step;
     source.fields.whole("times", step.times, {1, 10}).required("times").text("after", step.after).finish();
-    source.require(source.machine && !source.machine->boom_joint.empty(), "nod needs a machine with a boom");
+    source.require(source.machine && !source.machine->arm.boom.empty(), "nod needs a machine with a boom");
     return step;
   }
   const char* element() const override { return kElement; }
