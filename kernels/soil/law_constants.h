@@ -4,10 +4,13 @@
 #ifndef NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 #define NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 
-// bulk, shear: elastic moduli K, G [Pa]; alpha: sin(friction angle); k_residual, k_bond: residual, and intact less
-// residual cohesion, x cos(friction angle) [Pa]; inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain;
-// viscosity: where it does not yield [Pa s]; swell: largest J0; loosening: growth of J0 per plastic shear, as far as J
-// allows.
+// bulk, shear: elastic moduli K, G [Pa]
+// alpha: sin(friction angle)
+// k_residual, k_bond: residual, and intact less residual cohesion, x cos(friction angle) [Pa]
+// inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
+// viscosity: of the deviator, where it does not yield [Pa s] [docs/soil.md, viscosity]
+// swell: largest J0
+// loosening: growth of J0 per plastic shear, as far as J allows
 #define BASIC_LAW_CONSTANTS(X) \
   X(bulk)                      \
   X(shear)                     \
@@ -20,11 +23,14 @@
   X(swell)                     \
   X(loosening)
 
-// Only where LAW_EXTENDED is defined. dilatancy: b, plastic volume strain per plastic shear in bank state; inv_range:
-// 1 / (swell - 1), 0 without swell; matched: yield stress that plane strain needs at b / that without dilatancy - 1;
-// alpha_fast: growth of alpha from slow to fast flow; grain: diameter x sqrt(density) of the grains; inertial: inertial
-// number at half that growth; cap: mean pressure that bank soil bears without getting denser [Pa]; cap_growth: growth
-// of it, as a share, per volume strain.
+// Only where LAW_EXTENDED is defined.
+// dilatancy: b, plastic volume strain per plastic shear in bank state
+// inv_range: 1 / (swell - 1), 0 without swell
+// matched: yield stress that plane strain needs at b / that without dilatancy - 1
+// alpha_fast: growth of alpha from slow to fast flow
+// grain: diameter x sqrt(density) of the grains; inertial: inertial number at half that growth
+// cap: mean pressure that bank soil bears without getting denser [Pa]; cap_growth: growth of it, as a share, per volume
+// strain
 #define EXTENDED_LAW_CONSTANTS(X) \
   X(dilatancy)                    \
   X(inv_range)                    \
