@@ -25,8 +25,7 @@ struct Options {
   std::vector<std::string> command;  ///< that started the run, for run.json
 };
 
-/// What a progress line shows.
-/// Read as often as wanted: it costs nothing.
+/// What a progress line shows; costs nothing to read.
 struct Progress {
   double time = 0, duration = 0;  ///< simulated, most it may take [s]
   double real_time_factor = 0;
@@ -48,8 +47,7 @@ class Recorder {
 
   /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
   void observe();
-  /// Once; later calls do nothing.
-  /// Final files; status "finished", "interrupted" or "failed". After a failure also the snapshot of the last state.
+  /// Writes the final files, once; later calls do nothing. `status` is "finished", "interrupted" or "failed". After a failure also the snapshot of the last state.
   void finish(const std::string& status, const std::string& message = "");
   Progress progress() const;
 

@@ -29,15 +29,13 @@ struct WorldParts;
 class LinkHandle {
  public:
   const std::string& name() const;
-  /// X_WL.
-  /// Of the link in the world:
+  /// X_WL: the link in the world.
   Pose pose() const;
   /// Of L's origin, axes of W [m/s].
   Vec3 velocity() const;
   /// Axes of W [rad/s].
   Vec3 angular_velocity() const;
-  /// Pose [m], velocity [m/s] and angular velocity [rad/s], axes of W.
-  /// All of it in one read.
+  /// All of it in one read: pose [m], velocity [m/s] and angular velocity [rad/s], axes of W.
   vehicle::LinkState state() const;
 
  private:
@@ -88,8 +86,7 @@ class WheelHandle {
 /// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes of W.
 class ToolHandle {
  public:
-  /// Unique in its machine.
-  /// Name of its shell.
+  /// Name of its shell, unique in its machine.
   const std::string& name() const;
   /// Index into scene::World::machines.
   int machine() const;
@@ -137,8 +134,7 @@ class MachineHandle {
   ToolHandle tool(const std::string& name) const;
   ToolHandle tool(int index) const;
 
-  /// Oil flow [m3/s] and pressure [Pa]; zeros without a pump.
-  /// Read once a step or as often as wanted; none of these changes anything.
+  /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake.
   vehicle::DriveInput drive() const;
