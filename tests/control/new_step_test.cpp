@@ -9,11 +9,13 @@
 
 #include "control/activities/wait.h"
 #include "control/arm_move.h"
+#include "control/dig_rig.h"
 #include "control/operator.h"
 #include "control/reach.h"
 #include "control/step.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "scene_io/loader.h"
 
 namespace navvy::control::testing {
@@ -30,7 +32,7 @@ struct Nod final : Step {
   static Nod read(const scene::StepSource& source) {
     Nod step;
     source.fields.whole("times", step.times, {1, 10}).required("times").text("after", step.after).finish();
-    source.require(source.machine && !source.machine->boom_joint.empty(), "nod needs a machine with a boom");
+    source.require(source.machine && !source.machine->arm.boom.empty(), "nod needs a machine with a boom");
     return step;
   }
   const char* element() const override { return kElement; }
@@ -48,6 +50,12 @@ struct NodMemory {
   ArmMove move;
   std::int64_t left = 0;  // strokes, two a nod
   double high = 0;        // [rad]
+
+  void visit(Archive& a) {
+    a("move", move);
+    a("left", left);
+    a("high", high);
+  }
 };
 
 class Nodding final : public ActivityWith<NodMemory> {
@@ -126,11 +134,7 @@ struct Trial {
     for (std::size_t j = 0; j < command.joints.size(); ++j)
       if (command.joints[j]) seen.joints[j].position = command.joints[j]->target;
   }
-  std::uint64_t digest() const {
-    StateHash hash;
-    op.hash(hash);
-    return hash.digest();
-  }
+  std::uint64_t digest() const { return hash_of(op).digest(); }
   Operator op;
   Observation seen;
   std::size_t boom = 0;
@@ -163,10 +167,8 @@ TEST(NewStep, ResumesFromASnapshotBitForBit) {
   const scene::World world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
   Trial whole(world.machines[0]), resumed(world.machines[0]);
   while (whole.op.phase() != "up") whole.step();
-  StateWriter writer;
-  whole.op.save(writer);
-  StateReader reader(writer.bytes());
-  resumed.op.load(reader);
+  const std::vector<char> bytes = saved(whole.op);
+  load_saved(bytes, resumed.op);
   resumed.seen = whole.seen;
   EXPECT_EQ(resumed.op.phase(), "up");
   for (int i = 0; i < 5000 && !whole.op.done(); ++i) {
@@ -188,10 +190,9 @@ TEST(NewStep, TellsItsFaultsWithLineAndElement) {
 TEST(NewStep, IsAskedWhatItCanReach) {
   const scene::World world = load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
-  class Flat final : public SurfaceView {
-    double height(double, double) const override { return 0; }
-  } flat;
-  const std::vector<Fault> faults = check_reach(placed.machine, placed.program, Pose::Identity(), flat, "mine.sdf");
+  const heightfield::Ground ground = flat_ground();
+  const std::vector<Fault> faults =
+      check_reach(placed.machine, placed.program, Pose::Identity(), GroundSurface(ground), "mine.sdf");
   ASSERT_EQ(faults.size(), 1u);
   expect_in("step 2/nod/times", faults[0].text());
 }
