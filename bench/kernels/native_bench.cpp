@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench.h"
-#include "core/hash.h"
+#include "core/saved_state.h"
 #include "native/native_soil.h"
 #include "soil/particles/floor.h"
 #include "soil/rig.h"
@@ -52,26 +52,19 @@ bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particl
 }
 
 bench::Row opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, double dt) {
-  StateWriter writer;
-  rig.solver().save(writer);
+  const std::vector<char> start = saved(rig.solver());
   bench::Row row;
   row.bench = "soil_collapse_no_tool:" + size_name(particles);
   row.particles = particles;
   row.steps = static_cast<std::uint64_t>(steps);
   row.simulated = steps * dt;
   row.timing = bench::measure(
-      soil::rig::Rig::device(),
-      [&] {
-        StateReader reader(writer.bytes());
-        rig.solver().load(reader);
-      },
+      soil::rig::Rig::device(), [&] { load_saved(start, rig.solver()); },
       [&] {
         for (int i = 0; i < steps; ++i) rig.solver().step(dt, {}, {});
       },
       kRuns);
-  StateHash state;
-  rig.solver().hash(state);
-  row.hash = state.hex();
+  row.hash = hash_of(rig.solver()).hex();
   return row;
 }
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/saved_state.h"
 #include "device/buffer.h"
 #include "device/device.h"
 #include "device/program.h"
@@ -162,9 +161,7 @@ void ground_save(benchmark::State& state) {
   for (int iy = 0; iy < 128; ++iy)
     for (int ix = 0; ix < 128; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
   for (auto _ : state) {
-    StateWriter writer;
-    ground.save(writer);
-    benchmark::DoNotOptimize(writer.bytes().data());
+    benchmark::DoNotOptimize(saved(ground).data());
   }
 }
 BENCHMARK(ground_save)->Unit(benchmark::kMicrosecond);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench.h"
-#include "core/hash.h"
+#include "core/saved_state.h"
 #include "soil/rig.h"
 
 namespace {
@@ -25,8 +25,7 @@ std::string only;
 template <class Work>
 void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work, double particle_steps) {
   device::Device& device = soil::rig::Rig::device();
-  StateReader reader(start);
-  rig.solver().load(reader);
+  load_saved(start, rig.solver());
   device.set_profile(true);
   device.clear_profile();
   const auto before = rig.solver().stage_times();
@@ -46,8 +45,7 @@ void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Wo
 
 /// Runs `steps` steps from the same snapshot and prints a row; tools go on at their speed.
 void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::vector<soil::ToolMotion> motions) {
-  StateWriter writer;
-  rig.solver().save(writer);
+  const std::vector<char> start = saved(rig.solver());
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
   const double dt = rig.solver().step_limit(fastest);
@@ -66,17 +64,10 @@ void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::vec
   row.simulated = steps * dt;
   row.bytes_per_particle = kBytesPerParticle;
   row.timing = bench::measure(
-      soil::rig::Rig::device(),
-      [&] {
-        StateReader reader(writer.bytes());
-        rig.solver().load(reader);
-      },
-      work, 3);
-  StateHash state;
-  rig.solver().hash(state);
-  row.hash = state.hex();
+      soil::rig::Rig::device(), [&] { load_saved(start, rig.solver()); }, work, 3);
+  row.hash = hash_of(rig.solver()).hex();
   bench::print(soil::rig::Rig::device().info(), row);
-  if (profile) print_profile(rig, writer.bytes(), work, static_cast<double>(row.particles) * steps);
+  if (profile) print_profile(rig, start, work, static_cast<double>(row.particles) * steps);
 }
 
 void collapse(double edge, int steps) {

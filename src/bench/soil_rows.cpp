@@ -6,7 +6,7 @@
 
 #include "bench/measure.h"
 #include "core/error.h"
-#include "core/hash.h"
+#include "core/saved_state.h"
 #include "device/device.h"
 #include "lab/shapes.h"
 #include "lab/site.h"
@@ -33,9 +33,7 @@ scene::Soil sand() { return lab::clean_sand(35); }
 /// Times `steps` steps from the site's present state; tools go on at their speed.
 Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
   // One saved state for every run, so that each starts from the same bits.
-  StateWriter writer;
-  site.ground().save(writer);
-  site.solver().save(writer);
+  const std::vector<char> ground = saved(site.ground()), soil = saved(site.solver());
   // The step that the stability limit allows for the fastest tool, taken once: runs must not differ in it.
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
@@ -47,9 +45,8 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
   row.bytes_per_particle = kBytesPerParticle;
   row.flops_per_particle = kFlopsPerParticle;
   const auto restore = [&] {
-    StateReader reader(writer.bytes());
-    site.ground().load(reader);
-    site.solver().load(reader);
+    load_saved(ground, site.ground());
+    load_saved(soil, site.solver());
   };
   const auto work = [&] {
     // A copy each run, as the tools move with it.
@@ -66,9 +63,7 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
   row.kernels = kernel_seconds(device, restore, work);
   // Of the last run. All runs begin and end alike, so which one does not matter; a row with another hash simulated
   // something else and its time is not compared.
-  StateHash state;
-  site.solver().hash(state);
-  row.hash = state.hex();
+  row.hash = hash_of(site.solver()).hex();
   return row;
 }
 

@@ -5,13 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "control/arm.h"
 #include "control/observation.h"
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/machine.h"
 
 namespace navvy::control {
@@ -21,11 +19,17 @@ using Axes = std::array<double, 4>;
 /// A swing angle with the angles of boom, stick and bucket.
 inline Axes with_arm(double swing, const ArmAngles& q) { return {swing, q[0], q[1], q[2]}; }
 
-/// What one step hands on to the next. Plain values, all eight bytes wide: no gaps, so hash and snapshot take it whole.
+/// What one step hands on to the next.
 struct Handover {
   std::int64_t cycles = 0;  ///< digging cycles of the program so far
   std::int64_t known = 0;   ///< 1 once `q` was read from the machine
   Axes q{};                 ///< commanded angles of the arm; moves begin here, not where the machine is
+
+  void visit(Archive& a) {
+    a("cycles", cycles);
+    a("known", known);
+    a("q", q);
+  }
 };
 
 /// One operator's machine, and what flows from step to step. Activities keep a reference to it.
@@ -69,10 +73,12 @@ class Activity {
   /// The event told since the last call of this.
   CycleEvent take_event() { return std::exchange(event_, CycleEvent::kNone); }
 
-  /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`.
-  virtual void hash(StateHash& hash) const { hash.bytes(&clock_, sizeof clock_); }
-  virtual void save(StateWriter& writer) const { writer.value(clock_); }
-  virtual void load(StateReader& reader) { clock_ = reader.value<Clock>(); }
+  /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`. Who overrides
+  /// it calls this first.
+  virtual void visit(Archive& a) {
+    a("phase", clock_.phase);
+    a("phase_time", clock_.time);
+  }
 
   // For derived classes: what they do, and what they have to do it with.
  protected:
@@ -100,28 +106,18 @@ class Activity {
   CycleEvent event_ = CycleEvent::kNone;
 };
 
-/// An activity whose state is one struct of plain values `m`. Members of Memory are eight bytes wide each, or structs
-/// and arrays of such: there are no gaps, so hash and snapshot take it whole. An activity with state besides (the plan
-/// of a dig) overrides the three and calls these first.
+/// An activity whose state is one struct `m`, which lists its fields in a `visit(Archive&)`. An activity with state
+/// besides (the plan of a dig) overrides visit and calls this one first.
 template <class Memory>
 class ActivityWith : public Activity {
  public:
   using Activity::Activity;
-  void hash(StateHash& hash) const override {
-    Activity::hash(hash);
-    hash.bytes(&m, sizeof m);
-  }
-  void save(StateWriter& writer) const override {
-    Activity::save(writer);
-    writer.value(m);
-  }
-  void load(StateReader& reader) override {
-    Activity::load(reader);
-    m = reader.value<Memory>();
+  void visit(Archive& a) override {
+    Activity::visit(a);
+    m.visit(a);
   }
 
  protected:
-  static_assert(std::is_trivially_copyable_v<Memory> && alignof(Memory) == 8);
   Memory m;
 };
 

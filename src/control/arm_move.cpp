@@ -47,6 +47,14 @@ void ArmMove::open_bucket(const Workplace& place, const Observation& seen) {
   start(place, with_arm(place.handover.q[0], q), seen, {1.3, 0});
 }
 
+void ArmMove::visit(Archive& a) {
+  a("from", from_);
+  a("to", to_);
+  a("swing_time", swing_time_);
+  a("arm_delay", arm_delay_);
+  a("arm_time", arm_time_);
+}
+
 double ArmMove::duration() const { return std::max(swing_time_, arm_delay_ + arm_time_); }
 
 bool ArmMove::advance(Workplace& place, const Observation& seen, double since, const char* phase) {

@@ -14,8 +14,8 @@ struct Pace {
 
 /// A move of swing, boom, stick and bucket between two poses, each axis with a smooth profile (at rest at both ends).
 ///
-/// Commands only: it writes Workplace::handover.q, and ends when the machine has followed. Plain values, part of an
-/// activity's memory.
+/// Commands only: it writes Workplace::handover.q, and ends when the machine has followed. Part of an activity's
+/// memory.
 class ArmMove {
  public:
   /// From the commanded angles to `to` [rad]. Its time follows from the slowest axis, at the usual rates or at a share
@@ -29,6 +29,8 @@ class ArmMove {
   /// Of the commanded move [s].
   double duration() const;
   double target(std::size_t axis) const { return to_[axis]; }
+
+  void visit(Archive& a);
 
  private:
   // Ends of the move [rad], each axis on its own smooth profile between them.

@@ -6,7 +6,6 @@
 
 #include "control/activity.h"
 #include "control/step.h"
-#include "core/error.h"
 
 namespace navvy::control {
 
@@ -88,41 +87,28 @@ Command Operator::update(const Observation& seen, double, double dt) {
   return out;
 }
 
-void Operator::hash(StateHash& hash) const {
-  hash.value(state_->step);
-  hash.bytes(&state_->place.handover, sizeof(Handover));
-  // Between steps there is no activity, and nothing of the last one is left.
-  hash.value(state_->active != nullptr);
-  if (state_->active) state_->active->hash(hash);
-}
-
-void Operator::save(StateWriter& writer) const {
-  writer.begin("operator", 3);
-  writer.value(state_->step);
-  writer.value(state_->place.handover);
-  // The step's name, so that a snapshot of another program is refused instead of misread.
-  writer.text(state_->active ? state_->present().element() : "");
-  if (state_->active) state_->active->save(writer);
-  writer.end();
-}
-
-void Operator::load(StateReader& reader) {
+void Operator::visit(Archive& a) {
   State& s = *state_;
-  reader.begin("operator", 3);
-  s.step = reader.value<std::int64_t>();
-  s.place.handover = reader.value<Handover>();
-  s.active.reset();
-  // The scene may have changed since. A running activity is made anew and reads its memory.
-  const std::string running = reader.text();
-  const std::string here = s.step >= 0 && !s.done() ? s.present().element() : "";
-  if (s.step < 0 || (!running.empty() && running != here))
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "operator", running,
-                           "the program has another step there: '" + here + "'", "use the scene it was made with"});
-  if (!running.empty()) {
-    s.active = s.present().activity(s.place);
-    s.active->load(reader);
-  }
-  reader.end();
+  a.section("operator", 4, [&] {
+    a("step", s.step);
+    a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
+              "the program has no such step; use the scene it was made with");
+    a("handover", s.place.handover);
+    // The running step's name, so that a snapshot of another program is refused instead of misread. Between steps there
+    // is no activity, and nothing of the last one is left.
+    std::string running;
+    if (!a.loading() && s.active) running = s.present().element();
+    a("running", running);
+    if (a.loading()) {
+      // The scene may have changed since.
+      const std::string here = s.done() ? "" : s.present().element();
+      a.require(running.empty() || running == here, "running",
+                "the program has another step there: '" + here + "'; use the scene it was made with");
+      // Made anew, then it reads its memory.
+      s.active = running.empty() ? nullptr : s.present().activity(s.place);
+    }
+    if (s.active) a("activity", *s.active);
+  });
 }
 
 }  // namespace navvy::control

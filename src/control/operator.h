@@ -7,8 +7,7 @@
 
 #include "control/observation.h"
 #include "control/reach.h"
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/machine.h"
 #include "scene/program.h"
 
@@ -40,11 +39,9 @@ class Operator {
   /// The event of the last update.
   CycleEvent event() const;
 
-  /// The whole state: step, what steps hand on, the running activity.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  /// @throws InputError when the snapshot was taken in a step that the program does not have there.
-  void load(StateReader& reader);
+  /// The whole state: step, what steps hand on, the running activity. Loading refuses a snapshot that was taken in a
+  /// step that the program does not have there.
+  void visit(Archive& a);
 
  private:
   struct State;

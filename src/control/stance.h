@@ -5,12 +5,13 @@
 #include <array>
 
 #include "control/arm.h"
+#include "core/archive.h"
 #include "core/math.h"
 
 namespace navvy::control {
 
 /// The chassis' pose with its shaking on the tyres smoothed away, and how upright it stood at first. Tip paths in W are
-/// worked out from here, so that the arm does not answer every sway. Plain values, part of an activity's memory.
+/// worked out from here, so that the arm does not answer every sway. Part of an activity's memory.
 class Stance {
  public:
   /// Takes the pose of the base link as it is.
@@ -21,6 +22,11 @@ class Stance {
   Pose swing_frame(const Arm& arm) const;
   /// 1 while the machine stands as it did at `begin`, 0 when the bucket tips it by 3 deg.
   double footing(const Pose& X_WB) const;
+
+  void visit(Archive& a) {
+    a("base", base_);
+    a("up", up_);
+  }
 
  private:
   std::array<double, 7> base_ = {0, 0, 0, 1, 0, 0, 0};  // x y z [m], quaternion w x y z

@@ -51,6 +51,15 @@ void TipPath::follow(Workplace& place, const Stance& stance, const Vec2& p, cons
   feel_stall(place, stance, seen, dt, curling);
 }
 
+void TipPath::visit(Archive& a) {
+  a("z", z);
+  a("angle", angle);
+  a("reached", reached);
+  a("lift", lift);
+  a("slow", slow);
+  a("stall", stall_);
+}
+
 void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Observation& seen, double dt,
                          bool curling) {
   ArmAngles real, soon;

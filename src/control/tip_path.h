@@ -9,8 +9,8 @@ namespace navvy::control {
 
 /// The wanted pose of the bucket's tip in the vertical plane of a point, turned into joint angles every control step.
 ///
-/// Whoever uses it moves `z` and `angle` at speeds times `slow`; held by soil or rock the path waits, then rises. Plain
-/// values, part of an activity's memory.
+/// Whoever uses it moves `z` and `angle` at speeds times `slow`; held by soil or rock the path waits, then rises. Part
+/// of an activity's memory.
 class TipPath {
  public:
   double z = 0;        ///< wanted height of the tip [m] in W, without `lift`
@@ -25,8 +25,9 @@ class TipPath {
   /// tips over is not relieved by rising: that would tip it further.
   void follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt, bool curling);
 
+  void visit(Archive& a);
+
  private:
-  // Plain values only: see ActivityWith.
   // The arm's answer to one wanted pose.
   struct Solution {
     Axes q;

@@ -11,18 +11,18 @@
 //       if (a.loading()) rebuild_lists();                           // derived values are not visited but rebuilt
 //     }
 //
-// How a class with hand-written hash(), save() and load() is turned over:
-// 1. Write `void visit(Archive& a)` with the fields in the order of save(). Put what save() wraps in begin/end into
-//    `a.section(tag, version, [&] { ... })`; raise the version. Sections nest.
-// 2. A field that save() holds and hash() does not is either state (visit it plainly; the hash of that part changes) or
-//    belongs in `unhashed` with the reason why two runs that differ in it go on alike.
+// How to write one:
+// 1. Everything that two runs must agree in to go on alike is visited, in a fixed order. A part with a life of its own
+//    wraps its fields in `a.section(tag, version, [&] { ... })`; another order or another field raises the version.
+//    Sections nest.
+// 2. What is saved and changes nothing that follows is `unhashed`, with the reason.
 // 3. A value that must be what the scene says (number of tools, size of the site) is a `constant`; a vector whose
-//    length the scene sets is `fixed`. Checks of ranges become `ranged` or `require`, which names the field.
+//    length the scene sets is `fixed`. A saved value that could lead outside of an array or into an endless loop is
+//    `ranged`, or checked by `require`. While loading, other fields are still those of another moment: do not ask them
+//    before they have been visited.
 // 4. What lives in a foreign object (a Bullet body, a device buffer) goes through `property(name, get, set)`.
 // 5. Virtual interfaces take `virtual void visit(Archive& a) = 0`. A class behind a pointer to its state visits that.
-// 6. Delete hash(), save() and load(); callers use `hash_of`, `saved` and `load_saved` of core/saved_state.h. While a
-//    caller still has a StateHash, StateWriter or StateReader: `add_to_hash(hash, x)`, `writer.vector(saved(x))`,
-//    `load_saved(reader.vector<char>(), x)`.
+// 6. Whoever wants the hash or the bytes calls `hash_of`, `saved` and `load_saved` of core/saved_state.h.
 // 7. Test the class with `flip_every_byte` of tests/flip_bytes.h.
 #pragma once
 
@@ -70,8 +70,9 @@ class Archive {
 
   /// One field: a number, bool or enum, std::string, Eigen matrix of fixed size, quaternion or Pose, a class with a
   /// member `visit(Archive&)` or a function `visit(Archive&, T&)` beside it, or std::array, vector, optional, variant,
-  /// pair, map or set of those. Containers are replaced when loading. A field whose type has no part here does not
-  /// compile; give it a `visit`, or use `property`.
+  /// pair, map or set of those. Containers are replaced when loading. A std::span of constant plain values is taken
+  /// like a vector, and loaded as one. A field whose type has no part here does not compile; give it a `visit`, or use
+  /// `property`.
   /// @throws InputError naming the field, when loading meets the end of the section, a bool that is neither 0 nor 1 or
   /// keys that do not ascend.
   template <class T>

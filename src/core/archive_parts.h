@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <variant>
 
 #include "core/archive.h"
@@ -154,6 +155,16 @@ struct ArchiveParts {
         part(a, v.emplace_back());
       }
     }
+  }
+  // Memory of someone else, taken where it lies: large arrays of a device need not be copied to be hashed. Whoever
+  // loads visits a vector in its place.
+  template <class T>
+  static void part(Archive& a, std::span<const T>& v) {
+    static_assert(kPlain<T>, "plain values only");
+    if (a.loading_) a.fail("a view cannot be loaded");
+    count(a, v.size());
+    // Archives that do not load only read.
+    a.block(const_cast<T*>(v.data()), v.size_bytes());
   }
   // The length is in the type, so it is not written.
   template <class T, std::size_t N>

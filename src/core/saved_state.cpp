@@ -157,11 +157,11 @@ std::vector<char> saved_state::save(const Visit& visit, ByteMap* map) {
   return archive.take();
 }
 
-void saved_state::load(std::vector<char> bytes, const Visit& visit) {
+void saved_state::load(std::vector<char> bytes, const Visit& visit, bool whole) {
   // When the visit throws, the object is half loaded, and the caller throws it away or loads it again.
   LoadArchive archive(std::move(bytes));
   visit(archive);
-  archive.finish();
+  if (whole) archive.finish();
 }
 
 }  // namespace navvy

@@ -38,7 +38,7 @@ namespace saved_state {
 using Visit = std::function<void(Archive&)>;
 void hash(StateHash& sum, const Visit& visit);
 std::vector<char> save(const Visit& visit, ByteMap* map);
-void load(std::vector<char> bytes, const Visit& visit);
+void load(std::vector<char> bytes, const Visit& visit, bool whole);
 
 /// Hashing and saving read only, which is the one promise of a visit that the compiler cannot check. A visit that wrote
 /// while saving would change the run by looking at it; that is what the tests with flipped bytes find.
@@ -81,7 +81,15 @@ std::vector<char> saved(const T& object, ByteMap* map = nullptr) {
 /// loaded again or thrown away.
 template <class T>
 void load_saved(std::vector<char> bytes, T& object) {
-  saved_state::load(std::move(bytes), [&object](Archive& archive) { object.visit(archive); });
+  saved_state::load(
+      std::move(bytes), [&object](Archive& archive) { object.visit(archive); }, true);
+}
+
+/// The same for an object that reads no more than the first sections of a longer state; what follows is left unread.
+template <class T>
+void load_front(std::vector<char> bytes, T& object) {
+  saved_state::load(
+      std::move(bytes), [&object](Archive& archive) { object.visit(archive); }, false);
 }
 
 }  // namespace navvy

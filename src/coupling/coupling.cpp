@@ -17,6 +17,7 @@ constexpr double kSinkSpeed = 0.2;
 constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
 constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
 constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
+constexpr int kFarthest = 1 << 29;    // column of a loaded patch: sides and their sums stay numbers
 constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
 
 }  // namespace
@@ -142,11 +143,11 @@ void Coupling::update_ground_patch() {
     patch_ = {need.x0 - margin, need.y0 - margin, need.x1 + margin, need.y1 + margin};
   }
   const int stride = patch_stride();
-  const int nx = (patch_.x1 - patch_.x0) / stride + 1, ny = (patch_.y1 - patch_.y0) / stride + 1;
+  const Vec2i nodes = patch_nodes();
   patch_height_.clear();
-  patch_height_.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
+  patch_height_.reserve(static_cast<std::size_t>(nodes.x()) * static_cast<std::size_t>(nodes.y()));
+  for (int j = 0; j < nodes.y(); ++j)
+    for (int i = 0; i < nodes.x(); ++i)
       patch_height_.push_back(
           static_cast<float>(ground_.height(std::clamp(patch_.x0 + i * stride, 0, ground_.nx() - 1),
                                             std::clamp(patch_.y0 + j * stride, 0, ground_.ny() - 1))));
@@ -159,53 +160,62 @@ int Coupling::patch_stride() const {
   return std::max(1, (span + kPatchNodes - 1) / kPatchNodes);
 }
 
-void Coupling::upload_ground_patch() {
+Vec2i Coupling::patch_nodes() const {
   const int stride = patch_stride();
-  const int nx = (patch_.x1 - patch_.x0) / stride + 1, ny = (patch_.y1 - patch_.y0) / stride + 1;
+  return {(patch_.x1 - patch_.x0) / stride + 1, (patch_.y1 - patch_.y0) / stride + 1};
+}
+
+void Coupling::upload_ground_patch() {
+  const Vec2i nodes = patch_nodes();
   const Vec2 corner = ground_.origin() + ground_.cell() * Vec2(patch_.x0 + 0.5, patch_.y0 + 0.5);
-  dynamic_.set_ground_patch(nx, ny, stride * ground_.cell(), corner, patch_height_);
+  dynamic_.set_ground_patch(nodes.x(), nodes.y(), patch_stride() * ground_.cell(), corner, patch_height_);
 }
 
-void Coupling::hash(StateHash& hash) const {
-  hash.value(steps_);
-  for (const ToolLoad& tool : tools_)
-    for (const Vec3* force : {&tool.smooth_W, &tool.rock_W})
-      for (int i = 0; i < 3; ++i) hash.value((*force)[i]);
-  ruts_.hash(hash);
+void ToolLoad::visit(Archive& a) {
+  // Which shell it is, the scene says. All of the last step is what outputs show until the next one.
+  a("force_W", force_W);
+  a("moment_W", moment_W);
+  a("smooth_W", smooth_W);
+  a("rock_W", rock_W);
+  a("J_W", impulse.J_W);
+  a("L_W", impulse.L_W);
+  a("p_W", impulse.p_W);
+  a("normal", impulse.normal);
+  a("friction", impulse.friction);
+  a("residual", impulse.residual);
+  a("residual_moment", impulse.residual_moment);
+  a("scale", impulse.scale);
+  a("scale_moment", impulse.scale_moment);
 }
 
-void Coupling::save(StateWriter& writer) const {
-  writer.begin("coupling", 3);
-  writer.value(steps_);
-  writer.value(patch_);
-  writer.vector(patch_height_);
-  writer.value(static_cast<std::uint64_t>(tools_.size()));
-  for (const ToolLoad& tool : tools_) {
-    writer.vec3(tool.smooth_W);
-    writer.vec3(tool.rock_W);
-  }
-  writer.end();
-  ruts_.save(writer);
-}
-
-void Coupling::load(StateReader& reader) {
-  reader.begin("coupling", 3);
-  steps_ = reader.value<std::uint64_t>();
-  patch_ = reader.value<heightfield::CellRect>();
-  patch_height_ = reader.vector<float>();
-  if (reader.value<std::uint64_t>() != tools_.size())
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "coupling", "",
-                           "the snapshot has another number of tools than the scene",
-                           "use the scene it was made with"});
-  for (ToolLoad& tool : tools_) {
-    tool.smooth_W = reader.vec3();
-    tool.rock_W = reader.vec3();
-  }
-  reader.end();
-  // The patch as it was saved; the next look renews it from whatever the ground is then.
+void Coupling::visit_patch(Archive& a) {
+  a.ranged("patch_x0", patch_.x0, -kFarthest, kFarthest);
+  a.ranged("patch_y0", patch_.y0, -kFarthest, kFarthest);
+  a.ranged("patch_x1", patch_.x1, patch_.x0, kFarthest);
+  a.ranged("patch_y1", patch_.y1, patch_.y0, kFarthest);
+  a("patch_height", patch_height_);
+  if (!a.loading()) return;
+  // The patch as it was saved, which may be older than the ground; the next look renews it from whatever that is then.
   patch_changes_.forget();
-  if (!patch_height_.empty()) upload_ground_patch();
-  ruts_.load(reader);
+  if (dynamic_.machine_count() == 0) {
+    a.require(patch_height_.empty(), "patch_height", "there is ground for rigid bodies, and none in the scene");
+    return;
+  }
+  const Vec2i nodes = patch_nodes();
+  const auto expected = static_cast<std::size_t>(nodes.x()) * static_cast<std::size_t>(nodes.y());
+  a.require(nodes.minCoeff() >= 2 && patch_height_.size() == expected, "patch_height", "does not fill the patch");
+  a.require(std::all_of(patch_height_.begin(), patch_height_.end(), [](float z) { return std::isfinite(z); }),
+            "patch_height", "must be finite");
+  upload_ground_patch();
+}
+
+void Coupling::visit(Archive& a) {
+  a.section("coupling", 4, [&] {
+    a("steps", steps_);
+    visit_patch(a);
+    a.fixed("tools", tools_);
+    a("ruts", ruts_);
+  });
 }
 
 }  // namespace navvy::coupling

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "heightfield/change_follower.h"
@@ -24,6 +23,8 @@ struct ToolLoad {
   Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
   Vec3 rock_W = Vec3::Zero();    ///< force of the rock on it, low-passed likewise [N]
   soil::ToolImpulse impulse;     ///< of the last step, with the momentum proof
+
+  void visit(Archive& a);
 };
 
 /// Wall time spent so far, by module [s].
@@ -53,9 +54,9 @@ class Coupling {
   vehicle::Engine& engine(int m) const { return *homes_[static_cast<std::size_t>(m)].engine; }
   int index(int m) const { return homes_[static_cast<std::size_t>(m)].index; }
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
+  /// @throws InputError for another scene's tools or a ground patch that cannot be.
+  void visit(Archive& a);
 
  private:
   struct Home {
@@ -65,6 +66,9 @@ class Coupling {
   void update_ground_patch();
   void upload_ground_patch();
   int patch_stride() const;
+  /// Nodes of the patch along x and y.
+  Vec2i patch_nodes() const;
+  void visit_patch(Archive& a);
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 

@@ -67,35 +67,19 @@ void Ruts::press_patch(const terramechanics::TyrePatch& patch, const scene::Soil
     }
 }
 
-void Ruts::hash(StateHash& hash) const {
-  for (const auto& [key, memory] : memory_) {
-    hash.value(key);
-    hash.value(memory.pressure);
-    hash.value(memory.height);
-  }
+void Ruts::Memory::visit(Archive& a) {
+  a("pressure", pressure);
+  a("height", height);
 }
 
-void Ruts::save(StateWriter& writer) const {
-  writer.begin("ruts", 1);
-  writer.value(static_cast<std::uint64_t>(memory_.size()));
-  for (const auto& [key, memory] : memory_) {
-    writer.value(key);
-    writer.value(memory.pressure);
-    writer.value(memory.height);
-  }
-  writer.end();
-}
-
-void Ruts::load(StateReader& reader) {
-  reader.begin("ruts", 1);
-  memory_.clear();
-  for (auto n = reader.value<std::uint64_t>(); n > 0; --n) {
-    const auto key = reader.value<std::int64_t>();
-    Memory& memory = memory_[key];
-    memory.pressure = reader.value<double>();
-    memory.height = reader.value<double>();
-  }
-  reader.end();
+void Ruts::visit(Archive& a) {
+  a.section("ruts", 2, [&] {
+    a("memory", memory_);
+    // Keys ascend, so the first and the last tell of all.
+    const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();
+    a.require(memory_.empty() || (memory_.begin()->first >= 0 && memory_.rbegin()->first < columns), "memory",
+              "a rut lies beside the site");
+  });
 }
 
 }  // namespace navvy::coupling

@@ -7,8 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "terramechanics/tyre_patch.h"
@@ -31,14 +30,13 @@ class Ruts {
   void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
              double most = std::numeric_limits<double>::infinity());
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   struct Memory {
     double pressure = 0;  ///< largest borne [Pa]
     double height = 0;    ///< surface it left behind [m]
+    void visit(Archive& a);
   };
   /// One tyre's patch, its middle `left` [m] of the wheel's centre; `soil` is the one under the wheel.
   void press_patch(const terramechanics::TyrePatch& patch, const scene::Soil& soil, const Pose& X_WWheel, double left,

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/state_io.h"
 #include "heightfield/cell_rect.h"
+
+namespace navvy {
+class Archive;
+}
 
 namespace navvy::heightfield {
 
@@ -21,15 +24,18 @@ class ChangeLog {
   /// Rectangle changed after `sequence`; `everything` when `sequence` lies in the future (a snapshot was loaded).
   CellRect since(std::uint64_t sequence, const CellRect& everything) const;
 
-  /// All of it, as the soil's next look at what changed depends on it.
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// Whether all edits lie in `site`; for who loads a log.
+  bool lies_in(const CellRect& site) const;
+
+  /// All of it, as the soil's next look at what changed depends on it. @throws InputError for edits that no log has.
+  void visit(Archive& a);
+
+  struct Edit {
+    std::uint64_t last = 0;  ///< newest sequence number in here
+    CellRect rect;           ///< never empty
+  };
 
  private:
-  struct Edit {
-    std::uint64_t last;  // newest sequence number in here
-    CellRect rect;
-  };
   std::vector<Edit> edits_;
   std::uint64_t sequence_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/archive.h"
 #include "core/error.h"
 #include "heightfield/change_log.h"
 #include "heightfield/column.h"
@@ -18,7 +19,6 @@ namespace {
 
 // Rut zone: the top two cells carry most of a tyre's compaction. tuned: Ground.CompactsTheTopFirstAndKeepsMass
 constexpr double kCompactionCells = 2.0;
-constexpr std::uint32_t kStateVersion = 1;
 
 /// Collects what is wrong with a setup, so that one message tells all of it.
 class SetupCheck {
@@ -179,11 +179,11 @@ void Ground::volume_change(double& raised, double& lowered) const {
   // From heights, as a surveyor would; with mass_change it tells how much was loosened.
   raised = lowered = 0;
   for (const auto& [key, tile] : state_->tiles.touched()) {
-    const SurfaceTile& surface =
-        *table_.find(static_cast<int>(key % table_.tiles_x()), static_cast<int>(key / table_.tiles_x()));
+    const SurfaceTile* surface =
+        table_.find(static_cast<int>(key % table_.tiles_x()), static_cast<int>(key / table_.tiles_x()));
     for (std::size_t i = 0; i < kTileColumns; ++i)
       if (tile->slot[i] >= 0) {
-        const double change = (surface.height[i] - (*surface.start)[i]) * cell() * cell();
+        const double change = (surface->height[i] - (*surface->start)[i]) * cell() * cell();
         (change > 0 ? raised : lowered) += std::abs(change);
       }
   }
@@ -202,101 +202,25 @@ CellRect Ground::touched_rect() const {
   return rect;
 }
 
-void Ground::hash(StateHash& hash) const {
-  // In the order of tiles and of columns within them, not of the edits that brought them into being.
-  for (const auto& [key, tile] : state_->tiles.touched()) {
-    // A tile without changed columns counts too: it was touched.
-    hash.value(key);
-    for (int i = 0; i < kTileColumns; ++i) {
-      if (tile->slot[i] < 0) continue;
-      hash.value(i);
-      for (const Layer& layer : tile->columns[tile->slot[i]]) {
-        hash.value(layer.soil);
-        hash.value(layer.mass);
-        hash.value(layer.specific_volume);
-        hash.value(layer.plastic_shear);
-      }
-    }
-  }
-}
-
-void Ground::save(StateWriter& writer) const {
+void Ground::visit(Archive& a) {
   const Setup& s = setup();
-  writer.begin("ground", kStateVersion);
-  writer.value(s.nx);
-  writer.value(s.ny);
-  writer.value(s.cell);
-  writer.value(s.datum);
-  // Layers only: heights and start columns follow from them and from the source.
-  writer.value(static_cast<std::uint64_t>(touched_tiles()));
-  for (const auto& [key, tile] : state_->tiles.touched()) {
-    writer.value(key);
-    writer.value(static_cast<std::uint32_t>(tile->columns.size()));
-    for (int i = 0; i < kTileColumns; ++i) {
-      if (tile->slot[i] < 0) continue;
-      const Column& column = tile->columns[tile->slot[i]];
-      writer.value(static_cast<std::uint16_t>(i));
-      writer.value(static_cast<std::uint32_t>(column.size()));
-      for (const Layer& layer : column) {
-        writer.value(layer.soil);
-        writer.value(layer.mass);
-        writer.value(layer.specific_volume);
-        writer.value(layer.plastic_shear);
-      }
-    }
-  }
-  state_->changes.save(writer);
-  writer.end();
-}
-
-void Ground::load(StateReader& reader) {
-  const Setup& s = setup();
-  // A snapshot is input like any other: every number is checked before it becomes soil.
-  const auto require = [](bool good, const char* rule) {
-    if (!good)
-      throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "ground", "", rule,
-                             "load it into the scene it was saved from"});
-  };
-  reader.begin("ground", kStateVersion);
-  const auto snx = reader.value<int>(), sny = reader.value<int>();
-  const auto scell = reader.value<double>(), sdatum = reader.value<double>();
-  require(snx == s.nx && sny == s.ny && scell == s.cell && sdatum == s.datum, "the site has another size or datum");
+  a.section("ground", 2, [&] {
+    constexpr const char* kRule = "the site has another size or datum";
+    a.constant("nx", s.nx, kRule);
+    a.constant("ny", s.ny, kRule);
+    a.constant("cell", s.cell, kRule);
+    a.constant("datum", s.datum, kRule);
+    // Layers only: heights and start columns follow from them and from the source.
+    a("tiles", state_->tiles);
+    // Number and list of edits as well, so that who continues the run sees the same changes as who never stopped.
+    a("changes", state_->changes);
+    a.require(state_->changes.lies_in(site_rect()), "changes", "an edit is outside the site");
+  });
+  if (!a.loading()) return;
   // Views taken so far keep their tiles; the table starts anew.
-  state_->tiles.clear();
   table_.clear();
-  const auto tiles = reader.value<std::uint64_t>();
-  for (std::uint64_t t = 0; t < tiles; ++t) {
-    const auto key = reader.value<std::int64_t>();
-    const auto columns = reader.value<std::uint32_t>();
-    require(key >= 0 && columns <= kTileColumns, "a tile is outside the site");
-    for (std::uint32_t n = 0; n < columns; ++n) {
-      const int i = reader.value<std::uint16_t>();
-      const std::int64_t ix = key % state_->tiles.tiles_x() * kTileSide + i % kTileSide;
-      const std::int64_t iy = key / state_->tiles.tiles_x() * kTileSide + i / kTileSide;
-      // The last tiles of a row or column reach beyond the site.
-      require(ix < s.nx && iy < s.ny && i < kTileColumns, "a column is outside the site");
-      Column& column = state_->tiles.touch_column(static_cast<int>(ix), static_cast<int>(iy));
-      // Touching it has counted its start mass; its layers are those of the snapshot.
-      column.clear();
-      const auto count = reader.value<std::uint32_t>();
-      for (std::uint32_t k = 0; k < count; ++k) {
-        Layer layer;
-        layer.soil = reader.value<std::uint16_t>();
-        layer.mass = reader.value<std::int64_t>();
-        layer.specific_volume = reader.value<float>();
-        layer.plastic_shear = reader.value<float>();
-        require(layer.soil < s.soils.size() && layer.mass > 0 && layer.specific_volume > 0 &&
-                    std::isfinite(layer.specific_volume) && std::isfinite(layer.plastic_shear),
-                "a layer is not soil");
-        column.push_back(layer);
-      }
-      state_->tiles.update_surface(static_cast<int>(ix), static_cast<int>(iy), table_, *start_);
-    }
-  }
-  // Number and list of edits as well, so that who continues the run sees the same changes as who never stopped.
-  state_->changes.load(reader);
+  state_->tiles.update_surfaces(table_, *start_);
   sequence_ = state_->changes.sequence();
-  reader.end();
 }
 
 }  // namespace navvy::heightfield

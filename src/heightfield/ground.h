@@ -6,10 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
 #include "heightfield/layer.h"
 #include "heightfield/terrain.h"
+
+namespace navvy {
+class Archive;
+}
 
 namespace navvy::heightfield {
 
@@ -63,10 +65,10 @@ class Ground final : public Terrain {
   CellRect touched_rect() const;
 
   std::size_t touched_tiles() const;
-  /// Changed columns in the order of their tiles. A ChangeFollower sees what loading changed.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// Changed columns and the log of edits; the untouched site comes from the scene and is compared in size only. A
+  /// ChangeFollower sees what loading changed.
+  /// @throws InputError for a site of another size or columns that cannot be.
+  void visit(Archive& a);
 
  private:
   struct State;

@@ -11,6 +11,10 @@
 #include "heightfield/start_site.h"
 #include "heightfield/surface_table.h"
 
+namespace navvy {
+class Archive;
+}
+
 namespace navvy::heightfield {
 
 /// A tile that was touched: layers of those of its columns that were changed.
@@ -32,13 +36,18 @@ class Tiles {
   Column& touch_column(int ix, int iy);
   /// Writes height, soil and density state of a touched column into the table.
   void update_surface(int ix, int iy, SurfaceTable& table, const StartHeights& start) const;
+  /// The same for all touched columns.
+  void update_surfaces(SurfaceTable& table, const StartHeights& start) const;
 
   /// Touched tiles by key (ty tiles_x + tx), in rising order.
   const std::map<std::int64_t, std::unique_ptr<Tile>>& touched() const { return touched_; }
   /// Mass that the changed columns held at the start, per soil.
   const std::vector<std::int64_t>& start_mass() const { return start_mass_; }
-  /// Forgets all changes.
-  void clear();
+
+  /// Layers of the changed columns, in the order of tiles and of columns within them, not of the edits that brought
+  /// them into being. A tile without changed columns counts too: it was touched.
+  /// @throws InputError for a column outside the site or a layer that is not soil.
+  void visit(Archive& a);
 
   int tiles_x() const { return tiles_x_; }
   const UnitThickness& unit() const { return site_->unit(); }
@@ -53,6 +62,8 @@ class Tiles {
   /// Null while no column of it was touched.
   Tile* find_tile(int tx, int ty) const;
   Tile& touch_tile(int tx, int ty);
+  /// Forgets all changes.
+  void clear();
 
   std::shared_ptr<const StartSite> site_;
   int tiles_x_, groups_x_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/saved_state.h"
 #include "soil/particles/soil_table.h"
 
 namespace navvy::lab {
@@ -244,21 +245,15 @@ void Site::run(double seconds, const std::function<void()>& each, double dt) {
 
 void Site::set_gravity(const Vec3& gravity) {
   // A solver keeps the world it was made with; its snapshot holds no gravity.
-  StateWriter writer;
-  solver_->save(writer);
+  const std::vector<char> state = saved(*solver_);
   world_.gravity = gravity;
   make_solver();
   // Particles, clocks and ledger as they were.
-  StateReader reader(writer.bytes());
-  solver_->load(reader);
+  load_saved(state, *solver_);
 }
 
 // Of the soil alone: tools are prescribed or follow from it.
-std::string Site::digest() const {
-  StateHash hash;
-  solver_->hash(hash);
-  return hash.hex();
-}
+std::string Site::digest() const { return hash_of(*solver_).hex(); }
 
 void Site::finish(Report& report) const {
   const soil::SolverStats& stats = solver_->stats();

@@ -183,9 +183,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.status.message = message;
   if (status == "failed") {
     // The state of the fault, to be looked at or gone on from.
-    StateWriter writer;
-    s.session.save(writer);
-    write_file_atomically(s.path("failed.snapshot"), writer.bytes());
+    s.session.save(s.path("failed.snapshot"));
   }
   if (s.hashes) s.hashes->finish();
   // The end of the ground, also of a run that failed: it shows where.

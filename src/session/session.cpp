@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/log.h"
+#include "core/saved_state.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "session/program_check.h"
@@ -70,6 +71,8 @@ struct Session::State {
     std::optional<BedTip> open_tip;
     bool taken = false;                   ///< by inputs: the program no longer commands
     std::vector<std::uint8_t> commanded;  ///< by joint: the program has
+
+    void visit(Archive& a);
   };
 
   // World, surface and handles are built in this order and refer to what stands above.
@@ -95,7 +98,7 @@ struct Session::State {
   void note_tip(OperatedMachine& one);
   void note_progress();
   void note_forces();
-  void hash_operators(StateHash& hash) const;
+  void visit(Archive& a);
 };
 
 Session::State::OperatedMachine::OperatedMachine(const sim::MachineHandle& handle, const scene::MachineInWorld& placed)
@@ -235,13 +238,37 @@ void Session::State::take_over(int machine) {
   }
 }
 
-/// A machine that was never taken hashes as before there were inputs.
-void Session::State::hash_operators(StateHash& hash) const {
-  for (const OperatedMachine& one : operated) {
-    one.op.hash(hash);
-    // The operator's state stands still from then on, but the machine may go anywhere.
-    if (one.taken) hash.value(one.taken);
-  }
+void Session::State::OperatedMachine::visit(Archive& a) {
+  // Of what the operator saw only the load is older than a step.
+  a("payload", seen.payload);
+  a("open_cycle", open);
+  a("open_tip", open_tip);
+  // The operator's state stands still once its machine is taken, but that may go anywhere.
+  a("taken", taken);
+  // As many as the scene's machine has joints.
+  a.fixed("commanded", commanded);
+  a("operator", op);
+}
+
+/// What is not the world's: reports first, then each operated machine.
+void Session::State::visit(Archive& a) {
+  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load.
+  a.section("session", 4, [&] {
+    a("cycles", cycles);
+    a("tips", tips);
+    // Reports name machines by their index.
+    const auto known = [&](const auto& report) {
+      return report.machine >= 0 && report.machine < world.machine_count();
+    };
+    a.require(std::all_of(cycles.begin(), cycles.end(), known), "cycles", "names a machine that the scene has not");
+    a.require(std::all_of(tips.begin(), tips.end(), known), "tips", "names a machine that the scene has not");
+    a("force", force);
+    a("idle", idle);
+    // Programs may have been added to the scene since.
+    a.constant("programs", operated.size(),
+               "the snapshot has another number of programs than the scene; use the scene it was made with");
+    for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
+  });
 }
 
 Session::Session(scene::World description, device::Device& device)
@@ -341,94 +368,59 @@ double Session::energy() const {
   return sum;
 }
 
-/// Operators belong to the state: two runs in equal worlds part where their programs stand differently.
-std::string Session::state_hash() const {
-  StateHash sum;
-  state_->world.hash(sum);
-  state_->hash_operators(sum);
-  return sum.hex();
+void Cycle::visit(Archive& a) {
+  a("machine", machine);
+  a("start", start);
+  a("lift_out", lift_out);
+  a("dump_start", dump_start);
+  a("end", end);
+  a("payload_lift_out", payload_lift_out);
+  a("payload_dump", payload_dump);
+  a("force_peak", force_peak);
 }
+
+void BedTip::visit(Archive& a) {
+  a("machine", machine);
+  a("start", start);
+  a("end", end);
+  a("payload_start", payload_start);
+  a("payload_end", payload_end);
+}
+
+void ForceStatistics::visit(Archive& a) {
+  a("peak", peak);
+  a("sum", sum);
+  a("steps", steps);
+  a("rock_peak", rock_peak);
+  a("residual_max", residual_max);
+}
+
+/// Operators belong to the state: two runs in equal worlds part where their programs stand differently. The world comes
+/// first, whose head tells the scene.
+void Session::visit(Archive& a) {
+  a("world", state_->world);
+  state_->visit(a);
+}
+
+std::string Session::state_hash() const { return hash_of(*this).hex(); }
 
 std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out = state_->world.hash_parts();
   // The last column, after all parts of the world.
-  StateHash operators;
-  state_->hash_operators(operators);
-  out.emplace_back("operators", operators.hex());
+  out.emplace_back("operators", hash_of(*state_).hex());
   return out;
-}
-
-/// The world first, whose head tells the scene. Version 3: machines taken by inputs.
-void Session::save(StateWriter& writer) const {
-  static_assert(std::is_trivially_copyable_v<Cycle> && std::is_trivially_copyable_v<BedTip>);
-  state_->world.save(writer);
-  // Reports first, then each operated machine, then the operators' own sections.
-  writer.begin("session", 3);
-  writer.vector(state_->cycles);
-  writer.vector(state_->tips);
-  writer.value(state_->force);
-  writer.value(state_->idle);
-  writer.value(static_cast<std::uint64_t>(state_->operated.size()));
-  for (const State::OperatedMachine& one : state_->operated) {
-    // Of what the operator saw only the load is older than a step.
-    writer.value(one.seen.payload);
-    writer.value(static_cast<std::uint8_t>(one.open.has_value()));
-    writer.value(one.open.value_or(Cycle{}));
-    writer.value(static_cast<std::uint8_t>(one.open_tip.has_value()));
-    writer.value(one.open_tip.value_or(BedTip{}));
-    writer.value(static_cast<std::uint8_t>(one.taken));
-    writer.vector(one.commanded);
-  }
-  writer.end();
-  for (const State::OperatedMachine& one : state_->operated) one.op.save(writer);
-}
-
-/// As save wrote it; the count of programs and joints must be the scene's.
-void Session::load(StateReader& reader) {
-  const auto refuse = [](const std::string& rule) {
-    throw InputError(
-        Fault{Fault::Severity::kError, "snapshot", 0, "session", "", rule, "use the scene it was made with"});
-  };
-  state_->world.load(reader);
-  reader.begin("session", 3);
-  state_->cycles = reader.vector<Cycle>();
-  state_->tips = reader.vector<BedTip>();
-  state_->force = reader.value<ForceStatistics>();
-  state_->idle = reader.value<double>();
-  // Programs may have been added to the scene since.
-  if (reader.value<std::uint64_t>() != state_->operated.size())
-    refuse("the snapshot has another number of programs than the scene");
-  for (State::OperatedMachine& one : state_->operated) {
-    one.seen.payload = reader.value<double>();
-    // An absent cycle is saved as an empty one: sections keep their length.
-    const bool open = reader.value<std::uint8_t>() != 0;
-    const auto cycle = reader.value<Cycle>();
-    one.open = open ? std::optional<Cycle>(cycle) : std::nullopt;
-    const bool tipping = reader.value<std::uint8_t>() != 0;
-    const auto tip = reader.value<BedTip>();
-    one.open_tip = tipping ? std::optional<BedTip>(tip) : std::nullopt;
-    one.taken = reader.value<std::uint8_t>() != 0;
-    std::vector<std::uint8_t> commanded = reader.vector<std::uint8_t>();
-    if (commanded.size() != one.commanded.size())
-      refuse("the snapshot has a machine with another number of joints than the scene");
-    one.commanded = std::move(commanded);
-  }
-  reader.end();
-  for (State::OperatedMachine& one : state_->operated) one.op.load(reader);
 }
 
 void Session::save(const std::string& path) const {
   // In memory first: a disk that fills up leaves the old file.
-  StateWriter writer;
-  save(writer);
-  write_file_atomically(path, writer.bytes());
+  write_file_atomically(path, saved(*this));
 }
 
 // Sections name themselves in messages; the file's name is added here.
 void Session::load(const std::string& path) {
-  StateReader reader(read_file(path));
+  std::vector<char> bytes = read_file(path);
   try {
-    load(reader);
+    load_saved(std::move(bytes), *this);
   } catch (const InputError& error) {
     Fault fault = error.faults().front();
     fault.file = path;

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "sim/world.h"
 
 namespace navvy::session {
@@ -20,6 +19,8 @@ struct Cycle {
   double start = 0, lift_out = 0, dump_start = 0, end = 0;
   double payload_lift_out = 0, payload_dump = 0;
   double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
+
+  void visit(Archive& a);
 };
 
 /// One tip of a machine's bed; times [s] simulated, masses [kg].
@@ -27,6 +28,8 @@ struct BedTip {
   int machine = 0;
   double start = 0, end = 0;
   double payload_start = 0, payload_end = 0;  ///< in the bed
+
+  void visit(Archive& a);
 };
 
 /// Soil force on buckets over all steps in contact.
@@ -38,6 +41,8 @@ struct ForceStatistics {
   double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
   double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
   double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
+
+  void visit(Archive& a);
 };
 
 /// A world and the operators that run the programs of its scene. A client of World like any other.
@@ -82,12 +87,12 @@ class Session {
   double energy() const;        ///< work of all machines' drives and cylinders [J]
   double control_time() const;  ///< wall time [s]
 
-  std::string state_hash() const;  ///< hex; of the world and the operators
+  /// The world, the operators and what they have come to, for core/saved_state.h. Loads into a session of the same
+  /// scene with the same samplers only; whatever throws leaves it of no use but to be loaded again or destroyed.
+  void visit(Archive& a);
+  std::string state_hash() const;  ///< hex
   /// World::hash_parts, then the operators.
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
-  void save(StateWriter& writer) const;
-  /// Into a session of the same scene with the same samplers. @throws InputError when the snapshot does not fit.
-  void load(StateReader& reader);
   /// Snapshot to and from a file; atomic. @throws FileError, InputError.
   void save(const std::string& path) const;
   void load(const std::string& path);

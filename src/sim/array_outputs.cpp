@@ -97,48 +97,20 @@ std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X
 }
 
 // What a reader can see is state: an operator may act on the scan that lay there when the snapshot was taken.
-void ArrayOutputs::hash(StateHash& hash) const {
-  for (const Value& value : values_) {
-    // The stamp too: an old scan in new clothes would be another state.
-    hash.value(value.sequence);
-    hash.value(value.time);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 4; ++c) hash.value(value.X_WF.matrix()(r, c));
-    hash.bytes(value.bytes.data(), value.bytes.size());
-  }
-}
-
-void ArrayOutputs::save(StateWriter& writer) const {
-  writer.value(static_cast<std::uint64_t>(channels_.size()));
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    // Names go along, to tell a snapshot of other samplers from one of these.
-    writer.text(channels_[i].name);
-    writer.value(values_[i].sequence);
-    writer.value(values_[i].time);
-    writer.pose(values_[i].X_WF);
-    writer.vector(values_[i].bytes);
-  }
-}
-
-void ArrayOutputs::load(StateReader& reader) {
-  const auto require = [](bool fits, const std::string& name) {
-    if (fits) return;
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "arrays", name,
-                           "the snapshot has other arrays than the world", "add the same samplers, then load"});
-  };
+void ArrayOutputs::visit(Archive& a) {
+  const std::string rule = "the snapshot has other arrays than the world; add the same samplers, then load";
   // As many arrays, under the same names, in the same order.
-  require(reader.value<std::uint64_t>() == channels_.size(), "");
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const std::string name = reader.text();
-    require(name == channels_[i].name, name);
-    values_[i].sequence = reader.value<std::uint64_t>();
-    values_[i].time = reader.value<double>();
-    values_[i].X_WF = reader.pose();
-    std::vector<std::byte> bytes = reader.vector<std::byte>();
-    // The shape may have changed under the same name.
-    require(bytes.size() == values_[i].bytes.size(), name);
-    values_[i].bytes = std::move(bytes);
-  }
+  a.constant("count", channels_.size(), rule);
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    a.item(i, [&] {
+      a.constant("name", channels_[i].name, rule);
+      // The stamp too: an old scan in new clothes would be another state.
+      a("sequence", values_[i].sequence);
+      a("time", values_[i].time);
+      a("X_WF", values_[i].X_WF);
+      // The shape may have changed under the same name.
+      a.fixed("bytes", values_[i].bytes);
+    });
 }
 
 }  // namespace navvy::sim

@@ -9,9 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/hash.h"
+#include "core/archive.h"
 #include "core/math.h"
-#include "core/state_io.h"
 
 namespace navvy::sim {
 
@@ -108,11 +107,9 @@ class ArrayOutputs {
   /// Storage of the next value, stamped `time` [s], of the frame at `X_WF`: the caller fills all of it now.
   std::span<std::byte> publish(int array, double time, const Pose& X_WF);
 
-  /// Sequence, stamp, frame and bytes of every array: what a reader can see is state.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  /// Into the same list of arrays. @throws InputError when the snapshot has others.
-  void load(StateReader& reader);
+  /// Sequence, stamp, frame and bytes of every array: what a reader can see is state. Loads into the same list of
+  /// arrays only.
+  void visit(Archive& a);
 
  private:
   struct Value {

@@ -60,20 +60,11 @@ void Publisher::commit() {
   new_arrays_.clear();
 }
 
-// For hash and snapshot; arrays are saved with all others.
-std::vector<double> Publisher::numbers() const {
-  std::vector<double> out;
-  for (const auto& number : numbers_) out.push_back(*number);
-  return out;
-}
-
 /// Into the same declarations: their count is all that can differ, as the sampler's name was compared before.
-void Publisher::restore(const std::vector<double>& numbers) {
-  if (numbers.size() != numbers_.size())
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", std::to_string(numbers.size()),
-                           "the snapshot has a sampler with another number of outputs",
-                           "add the same samplers, then load"});
-  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers_[i] = numbers[i];
+void Publisher::visit(Archive& a) {
+  a.constant("count", numbers_.size(),
+             "the snapshot has a sampler with another number of outputs; add the same samplers, then load");
+  for (std::size_t i = 0; i < numbers_.size(); ++i) a.item(i, [&] { a("value", *numbers_[i]); });
 }
 
 SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays)
@@ -100,25 +91,14 @@ void SamplerSlot::sample(const World& world, double time) {
   sampler_->sample(world, publisher_);
 }
 
-/// Numbers first: a sampler without state of its own still has what it published.
-void SamplerSlot::hash(StateHash& hash) const {
-  for (const double number : publisher_.numbers()) hash.value(number);
-  sampler_->hash(hash);
-}
-
-/// Under the sampler's name, by which a load finds out that it meets another one.
-void SamplerSlot::save_numbers(StateWriter& writer) const {
-  writer.text(name_);
-  writer.vector(publisher_.numbers());
-}
-
-void SamplerSlot::load_numbers(StateReader& reader) {
-  const std::string name = reader.text();
-  if (name != name_)
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", name,
-                           "the snapshot has another sampler here, the world has '" + name_ + "'",
-                           "add the same samplers in the same order, then load"});
-  publisher_.restore(reader.vector<double>());
+/// Numbers first: a sampler without state of its own still has what it published. Under the sampler's name, by which a
+/// load finds out that it meets another one.
+void SamplerSlot::visit(Archive& a) {
+  a.constant("name", name_,
+             "the snapshot has another sampler here, the world has '" + name_ +
+                 "'; add the same samplers in the same order, then load");
+  a("numbers", publisher_);
+  a("sampler", *sampler_);
 }
 
 }  // namespace navvy::sim

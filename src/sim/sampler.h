@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
+#include "core/archive.h"
 #include "core/math.h"
-#include "core/state_io.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
 
@@ -47,10 +46,8 @@ class Publisher {
   void commit();
   /// Time of the sample that is being taken [s]; set by the world.
   void stamp(double time) { time_ = time; }
-  /// All numbers in the order of their declaration, for hash and snapshot; `restore` takes as many. @throws
-  /// InputError.
-  std::vector<double> numbers() const;
-  void restore(const std::vector<double>& numbers);
+  /// All numbers in the order of their declaration; arrays are visited with all others. Loads as many only.
+  void visit(Archive& a);
 
  private:
   void require_new(const std::string& name) const;
@@ -69,8 +66,8 @@ class Publisher {
 /// in declare, and read in sample.
 /// Reads the world, changes nothing of it.
 ///
-/// Deterministic: what it publishes is a function of the world and of its own state, which it hashes and saves (a
-/// random generator, a delay line); a resumed run then goes on to the same bits.
+/// Deterministic: what it publishes is a function of the world and of its own state, which it visits (a random
+/// generator, a delay line); a resumed run then goes on to the same bits.
 class Sampler {
  public:
   virtual ~Sampler() = default;
@@ -82,10 +79,8 @@ class Sampler {
   virtual void declare(Publisher& out) = 0;
   /// Called when it is added and after each step in which a sample fell due.
   virtual void sample(const World& world, Publisher& out) = 0;
-  /// Only for a state of its own; what it published is hashed and saved by the world. `save` writes whole sections.
-  virtual void hash(StateHash& hash) const { (void)hash; }
-  virtual void save(StateWriter& writer) const { (void)writer; }
-  virtual void load(StateReader& reader) { (void)reader; }
+  /// Only for a state of its own; what it published is visited by the world.
+  virtual void visit(Archive&) {}
 };
 
 /// Owned by the world; clients see World::add and the outputs.
@@ -100,13 +95,8 @@ class SamplerSlot {
   bool due(double before, double time) const;
   /// Takes a sample stamped `time` [s].
   void sample(const World& world, double time);
-  /// The numbers it published, and its own state.
-  void hash(StateHash& hash) const;
-  void save_numbers(StateWriter& writer) const;
-  void load_numbers(StateReader& reader);
-  /// The sampler itself, for its own sections of a snapshot.
-  Sampler& sampler() { return *sampler_; }
-  const Sampler& sampler() const { return *sampler_; }
+  /// The numbers it published, and its own state. Loads into a slot of the same name only.
+  void visit(Archive& a);
 
  private:
   std::unique_ptr<Sampler> sampler_;

@@ -5,22 +5,22 @@
 #include <cstdint>
 #include <string>
 
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "heightfield/ground.h"
 #include "scene/world.h"
 
 namespace navvy::sim {
 
-/// The first section of a world's snapshot.
+/// The first section of a world's snapshot. It tells which scene and when, before anything that only a matching world
+/// can read.
 struct SnapshotHead {
   std::string scene;        ///< name of the scene it is of
   double dt = 0;            ///< base step [s]
   std::uint64_t steps = 0;  ///< time [s] is steps x dt
-};
 
-void save_head(StateWriter& writer, const SnapshotHead& head);
-/// @throws InputError when the snapshot is of a scene with another name, or of a version that is not known here.
-SnapshotHead load_head(StateReader& reader, const scene::World& scene);
+  /// Refuses a snapshot of a scene with another name than `scene`.
+  void visit(Archive& a);
+};
 
 /// The ground as it lay when the snapshot was taken: columns alone, without the soil that was awake. `scene` is the one
 /// that ran (a run's folder holds it as scene.sdf). Needs no OpenCL device; reads a heightmap that the scene names.

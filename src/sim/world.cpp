@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "sim/names.h"
 #include "sim/snapshot.h"
 #include "sim/world_channels.h"
@@ -171,36 +172,37 @@ WallTimes World::wall_times() const {
 }
 std::vector<std::pair<std::string, double>> World::soil_stage_times() const { return parts_->soil.stage_times(); }
 
-/// The order of the parts is the order in which one change reaches the next within a step.
-void World::hash(StateHash& hash) const {
-  hash.value(parts_->steps);
-  parts_->ground.hash(hash);
-  parts_->soil.hash(hash);
-  parts_->dynamic->hash(hash);
-  parts_->kinematic->hash(hash);
-  parts_->coupling.hash(hash);
-  // A world without samplers hashes as if there were no such thing.
-  if (parts_->samplers.empty()) return;
-  parts_->arrays.hash(hash);
-  for (const auto& slot : parts_->samplers) slot->hash(hash);
+/// The head first and the ground next: who wants no more than the ground reads no farther (sim/snapshot.h). The order
+/// of the parts is the order in which one change reaches the next within a step.
+void World::visit(Archive& a) {
+  WorldParts& p = *parts_;
+  SnapshotHead head{p.description.name, p.dt, p.steps};
+  a("head", head);
+  // Time is steps x dt: another step would put the same count at another time.
+  a.require(head.dt == p.dt, "head/dt", "the snapshot has another base step; load it with the same solver settings");
+  if (a.loading()) p.steps = head.steps;
+  a("ground", p.ground);
+  a("soil", p.soil);
+  a("dynamic_machines", *p.dynamic);
+  a("kinematic_machines", *p.kinematic);
+  a("coupling", p.coupling);
+  // Always there, so that a world without samplers notices those of a snapshot.
+  a.section("samplers", 2, [&] {
+    a.constant("count", p.samplers.size(),
+               "the snapshot has another number of samplers than the world; add the same samplers, then load");
+    for (std::size_t i = 0; i < p.samplers.size(); ++i) a.item(i, [&] { p.samplers[i]->visit(a); });
+    a("arrays", p.arrays);
+  });
 }
 
 /// Of the world alone; a session's hash has its operators in it.
-std::string World::state_hash() const {
-  StateHash sum;
-  hash(sum);
-  return sum.hex();
-}
+std::string World::state_hash() const { return hash_of(*this).hex(); }
 
 /// Each part by itself, so that two runs compared row by row show which of them parted first.
 std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out;
   // Each part starts a sum of its own.
-  const auto add = [&out](const char* name, const auto& part) {
-    StateHash sum;
-    part.hash(sum);
-    out.emplace_back(name, sum.hex());
-  };
+  const auto add = [&out](const char* name, const auto& part) { out.emplace_back(name, hash_of(part).hex()); };
   add("ground", parts_->ground);
   add("soil", parts_->soil);
   add("dynamic_machines", *parts_->dynamic);
@@ -209,49 +211,6 @@ std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
   if (!parts_->samplers.empty()) add("arrays", parts_->arrays);
   for (const auto& slot : parts_->samplers) add(slot->name().c_str(), *slot);
   return out;
-}
-
-/// The head first and the ground next: who wants no more than the ground reads no farther (sim/snapshot.h).
-void World::save(StateWriter& writer) const {
-  save_head(writer, {parts_->description.name, parts_->dt, parts_->steps});
-  parts_->ground.save(writer);
-  parts_->soil.save(writer);
-  parts_->dynamic->save(writer);
-  parts_->kinematic->save(writer);
-  parts_->coupling.save(writer);
-  // Always written, so that a world without samplers notices those of a snapshot.
-  writer.begin("samplers", 1);
-  writer.value(static_cast<std::uint64_t>(parts_->samplers.size()));
-  for (const auto& slot : parts_->samplers) slot->save_numbers(writer);
-  parts_->arrays.save(writer);
-  writer.end();
-  // Own sections of samplers follow: sections do not nest.
-  for (const auto& slot : parts_->samplers) slot->sampler().save(writer);
-}
-
-/// Whatever throws leaves the world half loaded: it is then of no use but to be destroyed.
-void World::load(StateReader& reader) {
-  const SnapshotHead head = load_head(reader, parts_->description);
-  // Time is steps x dt: another step would put the same count at another time.
-  if (head.dt != parts_->dt)
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "world", std::to_string(head.dt),
-                           "the snapshot has another base step", "load it with the same solver settings"});
-  // From here on parts change.
-  parts_->steps = head.steps;
-  parts_->ground.load(reader);
-  parts_->soil.load(reader);
-  parts_->dynamic->load(reader);
-  parts_->kinematic->load(reader);
-  parts_->coupling.load(reader);
-  reader.begin("samplers", 1);
-  if (reader.value<std::uint64_t>() != parts_->samplers.size())
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "samplers", "",
-                           "the snapshot has another number of samplers than the world",
-                           "add the same samplers, then load"});
-  for (const auto& slot : parts_->samplers) slot->load_numbers(reader);
-  parts_->arrays.load(reader);
-  reader.end();
-  for (const auto& slot : parts_->samplers) slot->sampler().load(reader);
 }
 
 }  // namespace navvy::sim

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "heightfield/ground.h"
 #include "scene/world.h"
 #include "sim/array_outputs.h"
@@ -93,15 +92,14 @@ class World {
   /// Wall time of the soil by stage [s]: "p2g", "grid", "exchange", ...
   std::vector<std::pair<std::string, double>> soil_stage_times() const;
 
-  /// Everything that decides how it goes on. Costs a pass over the state.
-  void hash(StateHash& hash) const;
-  std::string state_hash() const;  ///< hex
+  /// Everything that decides how it goes on, for core/saved_state.h: `saved(world)`, `load_saved(bytes, world)`. Blocks
+  /// until the state has been read from the device. Loads into a world built from the same scene, with the same
+  /// samplers, only; whatever throws leaves the world half loaded, of no use but to be loaded again or destroyed.
+  void visit(Archive& a);
+  /// Hash of that [hex]. Costs a pass over the state.
+  std::string state_hash() const;
   /// Name and hash [hex] of every part by itself, to tell which of them differs.
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
-  /// Appends sections of the whole state; blocks until it has been read from the device.
-  void save(StateWriter& writer) const;
-  /// Into a world built from the same scene, with the same samplers. @throws InputError when the snapshot does not fit.
-  void load(StateReader& reader);
 
  private:
   friend WorldParts& parts(World& world);

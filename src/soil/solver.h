@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hash.h"
 #include "core/math.h"
-#include "core/state_io.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "scene/world.h"
@@ -18,6 +16,9 @@
 #include "soil/particles/plan_grid.h"
 #include "soil/tools/tool_motion.h"
 
+namespace navvy {
+class Archive;
+}
 namespace navvy::device {
 class Device;
 }
@@ -89,9 +90,9 @@ class Solver {
   /// Seconds of wall time by stage name ("p2g", "grid", "exchange", ...).
   std::vector<std::pair<std::string, double>> stage_times() const;
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// Particles, clocks, books and what the exchange remembers. The ground is visited before it, and the same tools are
+  /// registered before it is loaded. @throws InputError for a state of another scene, or a damaged one.
+  void visit(Archive& a);
 
  private:
   struct State;

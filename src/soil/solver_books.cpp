@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/archive.h"
 #include "core/error.h"
 #include "soil/solver.h"
 #include "soil/solver_state.h"
@@ -96,65 +97,61 @@ std::vector<std::pair<std::string, double>> Solver::stage_times() const {
   return {state_->times.begin(), state_->times.end()};
 }
 
-void Solver::hash(StateHash& hash) const {
-  const State& s = *state_;
-  s.store.hash(hash);
-  hash.value(s.drift);
-  hash.value(s.travel);
-  hash.value(s.since_check);
-  hash.value(s.steps_since_check);
-  hash.value(s.next_id);
-  for (const std::int64_t m : s.left_site) hash.value(m);
-  for (const std::int64_t m : s.inserted) hash.value(m);
-  s.exchange.hash(hash);
+static void visit(Archive& a, SolverStats& stats) {
+  a("steps", stats.steps);
+  a("particle_steps", stats.particle_steps);
+  a("particles", stats.particles);
+  a("particles_peak", stats.particles_peak);
+  a("blocks", stats.blocks);
+  a("rebins", stats.rebins);
+  a("wakes", stats.wakes);
+  a("deposits", stats.deposits);
+  a("shell_crossings", stats.shell_crossings);
+  a("max_speed", stats.max_speed);
 }
 
-void Solver::save(StateWriter& writer) const {
-  const State& s = *state_;
-  writer.begin("soil", 1);
-  writer.vector(s.records());
-  writer.value(s.blocks_changed);
-  writer.value(s.drift);
-  writer.value(s.time);
-  writer.value(s.since_check);
-  writer.value(s.travel);
-  writer.value(s.steps_since_check);
-  writer.value(s.first_check);
-  writer.value(s.next_id);
-  writer.vector(s.left_site);
-  writer.vector(s.inserted);
-  writer.value(s.stats);
-  s.contact.save(writer);
-  writer.end();
-  s.exchange.save(writer);
+// What the device had no room for is saved like what lies on it.
+void Solver::State::visit_particles(Archive& a) {
+  if (!a.loading() && !unplaced.empty())
+    ParticleStore::visit(a, unplaced, world.soils.size());
+  else
+    store.visit(a);
+  if (a.loading()) unplaced.clear();
 }
 
-void Solver::load(StateReader& reader) {
-  State& s = *state_;
-  reader.begin("soil", 1);
-  s.store.assign(reader.vector<Particle>(), true);
-  s.unplaced.clear();
-  s.blocks_changed = reader.value<bool>();
-  s.drift = reader.value<double>();
-  s.time = reader.value<double>();
-  s.since_check = reader.value<double>();
-  s.travel = reader.value<double>();
-  s.steps_since_check = reader.value<std::uint32_t>();
-  s.first_check = reader.value<bool>();
-  s.next_id = reader.value<std::uint32_t>();
-  s.left_site = reader.vector<std::int64_t>();
-  s.inserted = reader.vector<std::int64_t>();
-  s.in_particles = s.store.masses(s.world.soils.size());
-  s.stats = reader.value<SolverStats>();
-  s.contact.load(reader);
-  reader.end();
-  s.exchange.load(reader);
-  // Lists and layout follow from the blocks and the poses the lists were made for.
-  s.floor = Floor(s.ground, s.grid);
-  s.contact.list_near(s.store.table());
-  s.transfer.set_blocks(s.store, s.contact.near_slot(), s.store.set_near(s.contact.near_homes()));
-  s.floor.update(s.store.table().active, true);
-  s.transfer.set_floor(s.floor.blocks());
+void Solver::State::visit(Archive& a) {
+  visit_particles(a);
+  // Decides whether the next step makes the near lists anew.
+  a("blocks_changed", blocks_changed);
+  a("drift", drift);
+  a("time", time);
+  a("since_check", since_check);
+  a("travel", travel);
+  for (const double value : {drift, time, since_check, travel})
+    a.require(std::isfinite(value) && value >= 0, "clocks", "must be finite and not negative");
+  a("steps_since_check", steps_since_check);
+  a("first_check", first_check);
+  a("next_id", next_id);
+  a.fixed("left_site", left_site);
+  a.fixed("inserted", inserted);
+  a.unhashed("counts for people, no step reads them", [&] { a("stats", stats); });
+  a("contact", contact);
+  a("exchange", exchange);
+}
+
+// Lists and layout follow from the blocks and the poses the lists were made for.
+void Solver::State::rebuild() {
+  in_particles = store.masses(world.soils.size());
+  floor = Floor(ground, grid);
+  contact.list_near(store.table());
+  transfer.set_blocks(store, contact.near_slot(), store.set_near(contact.near_homes()));
+  floor.update(store.table().active, true);
+  transfer.set_floor(floor.blocks());
+}
+
+void Solver::visit(Archive& a) {
+  a.section("soil", 2, [&] { state_->visit(a); });
+  if (a.loading()) state_->rebuild();
 }
 
 }  // namespace navvy::soil

@@ -42,6 +42,10 @@ struct Solver::State {
   /// "soil step 12, t = 0.02 s: ", the start of every fault.
   std::string here() const;
   [[noreturn]] void fail(double speed) const;
+  void visit(Archive& a);
+  void visit_particles(Archive& a);
+  /// What follows from the state, after it was loaded.
+  void rebuild();
 
   device::Device& device;
   scene::World world;

@@ -165,4 +165,14 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
   return out;
 }
 
+void TyreState::visit(Archive& a) { a("bristle", bristle); }
+
+void TyreForce::visit(Archive& a) {
+  a("force_W", force_W);
+  a("moment_W", moment_W);
+  a("slip", slip);
+  a("sinkage", sinkage);
+  a("deflection", deflection);
+}
+
 }  // namespace navvy::terramechanics

@@ -9,6 +9,7 @@
 
 #include <array>
 
+#include "core/archive.h"
 #include "core/math.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
@@ -19,6 +20,8 @@ namespace navvy::terramechanics {
 /// forward and left [m]. All the memory a tyre has.
 struct TyreState {
   std::array<Vec2, 2> bristle{Vec2::Zero(), Vec2::Zero()};
+
+  void visit(Archive& a);
 };
 
 /// How a wheel moves at the start of a step.
@@ -37,6 +40,8 @@ struct TyreForce {
   double slip = 0;               ///< (rim speed - ground speed) / the larger of both [-]
   double sinkage = 0;            ///< ground beside the wheel above the ground under it [m]
   double deflection = 0;         ///< radial, of the deeper track [m]
+
+  void visit(Archive& a);
 };
 
 /// Grip of a tyre on this ground: largest tangential over normal force [-]. The one place that decides it. So far the

@@ -6,9 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/hash.h"
+#include "core/archive.h"
 #include "core/math.h"
-#include "core/state_io.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
 #include "vehicle/machine_state.h"
@@ -79,10 +78,10 @@ class Engine {
     return Vec3::Zero();
   }
 
-  /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have been added alike.
-  virtual void hash(StateHash& hash) const = 0;
-  virtual void save(StateWriter& writer) const = 0;
-  virtual void load(StateReader& reader) = 0;
+  /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have been added alike,
+  /// and whoever owns the ground tells patch and rock again: they are not the engine's.
+  /// @throws InputError for another number or make of machines, or one whose place is not finite.
+  virtual void visit(Archive& a) = 0;
 };
 
 /// Dynamics under gravity [m/s2, W]; and positions as commanded, without forces. Neither knows the other's machines.

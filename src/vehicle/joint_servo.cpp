@@ -92,25 +92,24 @@ void JointServo::settle(const Demand& demand, const JointLimits& limits, double 
   stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
 }
 
-void JointServo::hash(StateHash& hash) const {
-  hash.value(input_.mode);
-  for (const double v : {input_.target, velocity_, held_, wanted_, share_, stall_time_}) hash.value(v);
-  hash.value(saturated_);
-  hash.value(holding_);
+void JointLimits::visit(Archive& a) {
+  a("effort_positive", effort_positive);
+  a("effort_negative", effort_negative);
+  a("speed_positive", speed_positive);
+  a("speed_negative", speed_negative);
+  a("inertia", inertia);
 }
 
-void JointServo::save(StateWriter& writer) const {
-  writer.value(input_.mode);
-  for (const double v : {input_.target, velocity_, held_, wanted_, share_, stall_time_}) writer.value(v);
-  writer.value(saturated_);
-  writer.value(holding_);
-}
-
-void JointServo::load(StateReader& reader) {
-  input_.mode = reader.value<JointMode>();
-  for (double* v : {&input_.target, &velocity_, &held_, &wanted_, &share_, &stall_time_}) *v = reader.value<double>();
-  saturated_ = reader.value<bool>();
-  holding_ = reader.value<bool>();
+void JointServo::visit(Archive& a) {
+  a("input", input_);
+  a("velocity", velocity_);
+  a("held", held_);
+  a("wanted", wanted_);
+  a("share", share_);
+  a("stall_time", stall_time_);
+  a("saturated", saturated_);
+  a("holding", holding_);
+  a("flows", flows_);
 }
 
 }  // namespace navvy::vehicle

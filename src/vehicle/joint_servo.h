@@ -2,8 +2,7 @@
 // What velocity a joint's servo asks for, so that it stops where it is told within its limits. Knows no engine.
 #pragma once
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "vehicle/engine.h"
 
 namespace navvy::vehicle {
@@ -13,6 +12,8 @@ struct JointLimits {
   double effort_positive = 1e9, effort_negative = 1e9;  ///< [N m|N]
   double speed_positive = 1e9, speed_negative = 1e9;    ///< [rad/s|m/s]
   double inertia = 0;                                   ///< of all that hangs on the joint, 0: unknown [kg m2|kg]
+
+  void visit(Archive& a);
 };
 
 /// A valve and its controller: turns a command into a velocity that the actuator is to reach in this step.
@@ -41,9 +42,7 @@ class JointServo {
   void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd, double dt);
   bool stalled() const { return stall_time_ > kStallTime; }
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   static constexpr double kStallTime = 0.05;  // [s] shorter is the solver's own settling
@@ -57,7 +56,7 @@ class JointServo {
   double share_ = 1;     // of that oil which the last step got
   double stall_time_ = 0;
   bool saturated_ = false, holding_ = false;
-  bool flows_ = false;  // follows from the above in every step
+  bool flows_ = false;
 };
 
 }  // namespace navvy::vehicle

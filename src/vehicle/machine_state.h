@@ -3,6 +3,7 @@
 // header (and with it drive_input.h) and no other of the vehicle room.
 #pragma once
 
+#include "core/archive.h"
 #include "core/math.h"
 #include "vehicle/drive/drive_input.h"
 
@@ -16,6 +17,8 @@ enum class JointMode { kFree, kPosition, kVelocity, kEffort };
 struct JointInput {
   JointMode mode = JointMode::kPosition;
   double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
+
+  void visit(Archive& a);
 };
 
 /// A joint as it is after the last step; of a servo without a cylinder the hydraulic part is 0.

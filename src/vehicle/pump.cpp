@@ -26,22 +26,10 @@ double Pump::share(const scene::Pump& pump, const std::vector<OilDemand>& demand
   return share_;
 }
 
-void Pump::hash(StateHash& hash) const {
-  hash.value(flow_);
-  hash.value(pressure_);
-  hash.value(share_);
-}
-
-void Pump::save(StateWriter& writer) const {
-  writer.value(flow_);
-  writer.value(pressure_);
-  writer.value(share_);
-}
-
-void Pump::load(StateReader& reader) {
-  flow_ = reader.value<double>();
-  pressure_ = reader.value<double>();
-  share_ = reader.value<double>();
+void Pump::visit(Archive& a) {
+  a("flow", flow_);
+  a("pressure", pressure_);
+  a("share", share_);
 }
 
 }  // namespace navvy::vehicle

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/machine.h"
 
 namespace navvy::vehicle {
@@ -34,9 +33,7 @@ class Pump {
   double flow() const { return flow_; }          ///< delivered in the last step [m3/s]
   double pressure() const { return pressure_; }  ///< as the swashplate sees it: smoothed [Pa]
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   double flow_ = 0, pressure_ = 0;

@@ -26,6 +26,8 @@
 #include "control/step.h"
 #include "control/tip_path.h"
 #include "core/error.h"
+#include "core/saved_state.h"
+#include "flip_bytes.h"
 
 namespace navvy::control::testing {
 namespace {
@@ -78,8 +80,8 @@ class Alone {
   }
   std::uint64_t digest() const {
     StateHash hash;
-    hash.bytes(&place.handover, sizeof place.handover);
-    activity->hash(hash);
+    add_to_hash(hash, place.handover);
+    add_to_hash(hash, *activity);
     return hash.digest();
   }
 
@@ -126,11 +128,9 @@ TEST(Activity, ResumesFromASnapshotInTheMiddleBitForBit) {
     const double length = Alone(step).run(60);
     Alone whole(step), resumed(step);
     while (whole.time < 0.6 * length) whole.advance();
-    StateWriter writer;
-    whole.activity->save(writer);
-    StateReader reader(writer.bytes());
+    const std::vector<char> bytes = saved(*whole.activity);
     resumed.activity = step_of(step).activity(resumed.place);
-    resumed.activity->load(reader);
+    load_saved(bytes, *resumed.activity);
     resumed.place.handover = whole.place.handover;
     resumed.seen = whole.seen;
     EXPECT_EQ(resumed.digest(), whole.digest()) << step->element();
@@ -139,6 +139,15 @@ TEST(Activity, ResumesFromASnapshotInTheMiddleBitForBit) {
       EXPECT_EQ(resumed.advance(), over) << step->element();
       ASSERT_EQ(resumed.digest(), whole.digest()) << step->element() << " at " << whole.time;
     }
+  }
+}
+
+TEST(Activity, HashesEveryByteItSaves) {
+  for (const scene::ProgramStep& step : one_of_each()) {
+    const double length = Alone(step).run(60);
+    Alone half(step);
+    while (half.time < 0.6 * length) half.advance();
+    EXPECT_EQ(test::flip_every_byte(*half.activity, *Alone(step).activity), "") << step->element();
   }
 }
 
@@ -191,12 +200,10 @@ TEST(Operator, RefusesASnapshotOfAnotherStep) {
   Observation seen;
   seen.joints.resize(machine.joints.size());
   waiting.update(seen, 0, kStep);
-  StateWriter writer;
-  waiting.save(writer);
+  const std::vector<char> bytes = saved(waiting);
   Operator swinging(machine, {{Swing(1)}, {}});
-  StateReader reader(writer.bytes());
   try {
-    swinging.load(reader);
+    load_saved(bytes, swinging);
     FAIL() << "a swing took over the state of a wait";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'swing'"), std::string::npos) << error.what();

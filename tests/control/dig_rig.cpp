@@ -206,35 +206,13 @@ void DigRig::drop(const Vec2& around, double radius, double mass) {
   for (const Vec2i& p : columns) ground.put(p.x(), p.y(), layer);
 }
 
-void DigRig::save(StateWriter& writer) const {
-  engine->save(writer);
-  op.save(writer);
-  writer.begin("rig", 1);
-  writer.value(payload_);
-  writer.value(time);
-  writer.vector(target_);
-  writer.end();
-  ground.save(writer);
-}
-
-void DigRig::load(StateReader& reader) {
-  engine->load(reader);
-  op.load(reader);
-  reader.begin("rig", 1);
-  payload_ = reader.value<double>();
-  time = reader.value<double>();
-  target_ = reader.vector<double>();
-  reader.end();
-  ground.load(reader);
-}
-
-std::uint64_t DigRig::digest() const {
-  StateHash hash;
-  engine->hash(hash);
-  op.hash(hash);
-  ground.hash(hash);
-  hash.value(payload_);
-  return hash.digest();
+void DigRig::visit(Archive& a) {
+  a("engine", *engine);
+  a("operator", op);
+  a("payload", payload_);
+  a("time", time);
+  a("target", target_);
+  a("ground", ground);
 }
 
 TrenchMeasure measure(const heightfield::Ground& ground, const Dig& dig) {

@@ -9,6 +9,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/operator.h"
+#include "core/saved_state.h"
 #include "vehicle/engine.h"
 
 namespace navvy::control::testing {
@@ -47,9 +48,8 @@ class DigRig {
   double leak_rate = 0, leak_time = 0;    // [kg/s], [s]
   double lift_since = -1, dry_since = 0;  ///< when the last lift and its leak began and ended [s]
 
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
-  std::uint64_t digest() const;
+  void visit(Archive& a);
+  std::uint64_t digest() const { return hash_of(*this).digest(); }
 
  private:
   Observation look() const;

@@ -11,6 +11,8 @@
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "core/log.h"
+#include "core/saved_state.h"
+#include "flip_bytes.h"
 
 namespace navvy::control::testing {
 namespace {
@@ -138,11 +140,9 @@ TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
   for (int i = 0; i < 4000 && whole.op.phase() != "curl"; ++i) whole.step();
   for (int i = 0; i < 100; ++i) whole.step();  // into mid-scoop
   ASSERT_EQ(whole.op.phase(), "curl");
-  StateWriter writer;
-  whole.save(writer);
+  const std::vector<char> bytes = saved(whole);
   DigRig resumed(ew180_like(), steps, make_pose(-4, 0, 0));
-  StateReader reader(writer.bytes());
-  resumed.load(reader);
+  load_saved(bytes, resumed);
   EXPECT_EQ(resumed.op.phase(), "curl");
   EXPECT_EQ(resumed.digest(), whole.digest());
   while (!whole.op.done() && whole.time < 100) {
@@ -151,11 +151,16 @@ TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
   }
   EXPECT_TRUE(resumed.op.done());
   EXPECT_EQ(resumed.digest(), whole.digest());
-  StateHash before, after;
-  DigRig fresh(ew180_like(), steps, make_pose(-4, 0, 0));
-  fresh.op.hash(before);
-  whole.op.hash(after);
-  EXPECT_NE(before.digest(), after.digest());
+  const DigRig fresh(ew180_like(), steps, make_pose(-4, 0, 0));
+  EXPECT_NE(hash_of(fresh.op).digest(), hash_of(whole.op).digest());
+}
+
+TEST(Dig, HashesEveryByteTheOperatorSavesInMidScoop) {
+  const scene::Program steps = program({trench()});
+  DigRig half(ew180_like(), steps, make_pose(-4, 0, 0)), target(ew180_like(), steps, make_pose(-4, 0, 0));
+  for (int i = 0; i < 4000 && half.op.phase() != "drag"; ++i) half.step();
+  ASSERT_EQ(half.op.phase(), "drag");
+  EXPECT_EQ(test::flip_every_byte(half.op, target.op), "");
 }
 
 TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {

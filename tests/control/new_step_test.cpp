@@ -15,6 +15,7 @@
 #include "control/step.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "scene_io/loader.h"
 
 namespace navvy::control::testing {
@@ -49,6 +50,12 @@ struct NodMemory {
   ArmMove move;
   std::int64_t left = 0;  // strokes, two a nod
   double high = 0;        // [rad]
+
+  void visit(Archive& a) {
+    a("move", move);
+    a("left", left);
+    a("high", high);
+  }
 };
 
 class Nodding final : public ActivityWith<NodMemory> {
@@ -127,11 +134,7 @@ struct Trial {
     for (std::size_t j = 0; j < command.joints.size(); ++j)
       if (command.joints[j]) seen.joints[j].position = command.joints[j]->target;
   }
-  std::uint64_t digest() const {
-    StateHash hash;
-    op.hash(hash);
-    return hash.digest();
-  }
+  std::uint64_t digest() const { return hash_of(op).digest(); }
   Operator op;
   Observation seen;
   std::size_t boom = 0;
@@ -164,10 +167,8 @@ TEST(NewStep, ResumesFromASnapshotBitForBit) {
   const scene::World world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
   Trial whole(world.machines[0]), resumed(world.machines[0]);
   while (whole.op.phase() != "up") whole.step();
-  StateWriter writer;
-  whole.op.save(writer);
-  StateReader reader(writer.bytes());
-  resumed.op.load(reader);
+  const std::vector<char> bytes = saved(whole.op);
+  load_saved(bytes, resumed.op);
   resumed.seen = whole.seen;
   EXPECT_EQ(resumed.op.phase(), "up");
   for (int i = 0; i < 5000 && !whole.op.done(); ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <variant>
 
 #include "core/error.h"
@@ -292,6 +293,28 @@ TEST(Archive, RefusesAnotherSectionAndAnotherVersion) {
   EXPECT_THROW(saved(Other{"", 1}), Error);
 }
 
+TEST(Archive, LoadsTheFrontOfALongerState) {
+  struct Part {
+    int value = 0;
+    void visit(Archive& a) {
+      a.section("part", 1, [&] { a("value", value); });
+    }
+  };
+  struct Whole {
+    Part first{1}, second{2};
+    void visit(Archive& a) {
+      a("first", first);
+      a("second", second);
+    }
+  };
+  const std::vector<char> bytes = saved(Whole());
+  Part front;
+  load_front(bytes, front);
+  EXPECT_EQ(front.value, 1);
+  EXPECT_THROW(load_saved(bytes, front), InputError);
+  EXPECT_THROW(load_front({bytes.begin(), bytes.begin() + 30}, front), InputError) << "the front itself is cut";
+}
+
 TEST(Archive, RefusesASectionThatIsShorterOrLongerThanItsVisit) {
   struct Long {
     int n = 2, a = 1, b = 2;
@@ -362,6 +385,27 @@ TEST(FlipEveryByte, FindsAFieldThatIsSavedAndNotHashed) {
   const Forgetful object;
   Forgetful target;
   EXPECT_EQ(test::flip_every_byte(object, target), "b: is saved but not hashed\n");
+}
+
+/// What lies elsewhere and is only looked at.
+struct Window {
+  std::span<const float> seen;
+  void visit(Archive& a) { a("values", seen); }
+};
+struct Values {
+  std::vector<float> values;
+  void visit(Archive& a) { a("values", values); }
+};
+
+TEST(Archive, TakesAViewLikeTheVectorItIsOf) {
+  const Values from{{1, 2.5f, -3}};
+  Window window{from.values};
+  EXPECT_EQ(saved(window), saved(from));
+  EXPECT_EQ(hash_of(window).digest(), hash_of(from).digest());
+  Values to;
+  load_saved(saved(window), to);
+  EXPECT_EQ(to.values, from.values);
+  EXPECT_THROW(load_saved(saved(from), window), InputError) << "nothing is written into what is not ours";
 }
 
 }  // namespace

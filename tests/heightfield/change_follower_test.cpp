@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/random.h"
+#include "core/saved_state.h"
 #include "heightfield/ground.h"
 #include "heightfield/grounds.h"
 
@@ -127,16 +128,14 @@ TEST(ChangeFollower, IsRightAfterASnapshotWasLoaded) {
   Ground ground(wavy_setup());
   Random random(22);
   edit(ground, random, 500, ground.site_rect());
-  StateWriter writer;
-  ground.save(writer);
+  const std::vector<char> state = saved(ground);
   ChangeFollower follower;
   const TerrainView then = ground.view();
   follower.take(then);
   edit(ground, random, 50, {10, 10, 40, 40});
   const TerrainView later = ground.view();
   follower.take(later);
-  StateReader reader(writer.bytes());
-  ground.load(reader);
+  load_saved(state, ground);
   // Back to what it was: what the edits changed has changed again, though the sequence number went down.
   const TerrainView loaded = ground.view();
   EXPECT_TRUE(differing(then, loaded).empty());

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "core/saved_state.h"
+#include "flip_bytes.h"
 #include "heightfield/grounds.h"
 
 namespace navvy::heightfield {
@@ -25,11 +29,7 @@ std::vector<std::int64_t> per_soil(const std::vector<Layer>& layers, std::size_t
   return mass;
 }
 
-std::uint64_t digest(const Ground& ground) {
-  StateHash hash;
-  ground.hash(hash);
-  return hash.digest();
-}
+std::uint64_t digest(const Ground& ground) { return hash_of(ground).digest(); }
 
 // Random digging and filling; what was taken is put back elsewhere or kept in `taken`.
 void work(Ground& ground, Random& random, int edits, std::vector<Layer>& taken) {
@@ -206,12 +206,9 @@ TEST(Ground, SavesAndLoadsToTheSameHash) {
   Random random(11);
   std::vector<Layer> taken;
   work(ground, random, 3000, taken);
-  StateWriter writer;
-  ground.save(writer);
   Ground other(wavy_setup());
   other.put(1, 1, {0, 77, 1, 0});
-  StateReader reader(writer.bytes());
-  other.load(reader);
+  load_saved(saved(ground), other);
   EXPECT_EQ(digest(other), digest(ground));
   EXPECT_EQ(other.mass_change(), ground.mass_change());
   EXPECT_EQ(other.sequence(), ground.sequence());
@@ -230,14 +227,48 @@ TEST(Ground, SavesAndLoadsToTheSameHash) {
 TEST(Ground, RefusesASnapshotOfAnotherSiteOrADamagedOne) {
   Ground ground(wavy_setup());
   ground.put(1, 1, {0, 77, 1, 0});
-  StateWriter writer;
-  ground.save(writer);
+  const std::vector<char> state = saved(ground);
   Ground other(wavy_setup(78, 45));
-  StateReader reader(writer.bytes());
-  EXPECT_THROW(other.load(reader), InputError);
-  std::vector<char> cut(writer.bytes().begin(), writer.bytes().end() - 9);
-  StateReader short_reader(cut);
-  EXPECT_THROW(ground.load(short_reader), InputError);
+  EXPECT_THROW(load_saved(state, other), InputError);
+  EXPECT_THROW(load_saved({state.begin(), state.end() - 9}, ground), InputError);
+}
+
+TEST(Ground, EverySavedByteIsHashedOrRefused) {
+  Ground ground(wavy_setup()), target(wavy_setup());
+  Random random(13);
+  std::vector<Layer> taken;
+  work(ground, random, 60, taken);
+  EXPECT_EQ(test::flip_every_byte(ground, target), "");
+}
+
+TEST(Ground, RefusesColumnsThatNoSiteHas) {
+  Ground ground(wavy_setup()), target(wavy_setup());
+  ground.put(76, 44, {0, 77, 1.5f, 0.25f});
+  ByteMap map;
+  const std::vector<char> state = saved(ground, &map);
+  // The field of that name with other bytes is refused by its name.
+  const auto refused = [&](const std::string& name, const auto& value) {
+    const auto field = std::find_if(map.fields.begin(), map.fields.end(),
+                                    [&](const ByteMap::Field& f) { return f.path.ends_with(name) && f.size != 8; });
+    std::vector<char> bytes = state;
+    std::memcpy(bytes.data() + field->offset, &value, sizeof value);
+    try {
+      load_saved(bytes, target);
+    } catch (const InputError& error) {
+      return std::string(error.what()).find(name) != std::string::npos;
+    }
+    return false;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(refused("place", std::uint16_t{1023})) << "beyond the corner of the site, but in its tile";
+  EXPECT_TRUE(refused("place", std::uint16_t{1024}));
+  EXPECT_TRUE(refused("layers", std::uint32_t{0xffffffff}));
+  EXPECT_TRUE(refused("soil", std::uint16_t{7}));
+  EXPECT_TRUE(refused("specific_volume", 0.0f));
+  EXPECT_TRUE(refused("specific_volume", nan));
+  EXPECT_TRUE(refused("plastic_shear", nan));
+  EXPECT_TRUE(refused("edits", CellRect{1, 1, 1 << 30, 2})) << "the soil would look at tiles for ever";
+  EXPECT_NO_THROW(load_saved(state, target));
 }
 
 TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {

@@ -14,6 +14,7 @@
 
 #include "core/hash.h"
 #include "core/random.h"
+#include "core/saved_state.h"
 #include "heightfield/ground.h"
 #include "heightfield/grounds.h"
 
@@ -81,10 +82,7 @@ TEST(TerrainView, StaysWhatItWasWhileTheGroundChanges) {
     views.push_back(ground->view(n));
     then.push_back(reading(*ground));
   }
-  StateWriter writer;
-  ground->save(writer);
-  StateReader reader(writer.bytes());
-  ground->load(reader);
+  load_saved(saved(*ground), *ground);
   EXPECT_EQ(reading(*ground), then.back());
   ground.reset();
   for (std::size_t n = 0; n < views.size(); ++n) EXPECT_EQ(reading(views[n]), then[n]) << n;

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "device/device.h"
 #include "folder.h"
 #include "scene_io/loader.h"
@@ -57,14 +58,12 @@ TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
   const scene::World description = load("bucket_path.sdf");
   const auto whole = make(description);
   run_to(*whole, 1.3);
-  StateWriter writer;
-  whole->save(writer);
+  const std::vector<char> bytes = saved(*whole);
   const std::string middle = whole->state_hash();
   run_to(*whole, kInSoil);
 
   const auto resumed = make(description);
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   EXPECT_EQ(resumed->state_hash(), middle);
   run_to(*resumed, kInSoil);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
@@ -86,11 +85,9 @@ TEST_F(SessionTest, AnAwakeBudgetShrinksTheWakeAndNeitherDropsSoilNorStretchesTh
 
 TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
   const auto bucket = make(load("bucket_path.sdf"));
-  StateWriter writer;
-  bucket->save(writer);
+  const std::vector<char> bytes = saved(*bucket);
   const auto block = make(load("block_collapse.sdf"));
-  StateReader reader(writer.bytes());
-  EXPECT_THROW(block->load(reader), InputError);
+  EXPECT_THROW(load_saved(bytes, *block), InputError);
 }
 
 TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
@@ -112,12 +109,10 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   const scene::World description = load("trench.sdf");
   const auto whole = make(description);
   run_to(*whole, 0.8);
-  StateWriter writer;
-  whole->save(writer);
+  const std::vector<char> bytes = saved(*whole);
   run_to(*whole, 1.2);
   const auto resumed = make(description);
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   run_to(*resumed, 1.2);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
@@ -137,15 +132,13 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   const Vec3 place = world.machine(0).link(0).pose().translation();
   const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
   const double angle = world.machine(0).joint(boom).position();
-  StateWriter writer;
-  session->save(writer);
+  const std::vector<char> bytes = saved(*session);
   run_to(*session, 6);
   EXPECT_LT((world.machine(0).link(0).pose().translation() - place).norm(), 0.02) << "braked";
   EXPECT_NEAR(world.machine(0).joint(boom).position(), angle, 0.005);
   EXPECT_FALSE(session->done());
   const auto resumed = make(description);
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   EXPECT_EQ(resumed->phase(0), "inputs");
   run_to(*resumed, 6);
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
@@ -178,12 +171,10 @@ TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
   const sim::ArrayView grid = whole->world().arrays().view("bucket/height_grid");
   EXPECT_EQ(grid.sequence(), 1u + 4u);
   EXPECT_EQ(grid.values<float>().size(), 25u);
-  StateWriter writer;
-  whole->save(writer);
+  const std::vector<char> bytes = saved(*whole);
   run_to(*whole, 0.3);
   const auto resumed = with_grid();
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   run_to(*resumed, 0.3);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
@@ -195,10 +186,7 @@ TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
   run_to(*session, kInSoil);
   session->save(folder / "dug.snapshot");
   const heightfield::Ground ground = sim::load_ground(description, folder / "dug.snapshot");
-  StateHash loaded, live;
-  ground.hash(loaded);
-  session->world().ground().hash(live);
-  EXPECT_EQ(loaded.hex(), live.hex());
+  EXPECT_EQ(hash_of(ground).hex(), hash_of(session->world().ground()).hex());
   EXPECT_GT(ground.touched_tiles(), 0u);
 }
 
@@ -207,11 +195,9 @@ TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   description.machines[0].program.steps.clear();
   const auto first = make(description);
   first->set("excavator/drive/speed", 1.5);
-  StateWriter writer;
-  first->save(writer);
+  const std::vector<char> bytes = saved(*first);
   const auto second = make(description);
-  StateReader reader(writer.bytes());
-  second->load(reader);
+  load_saved(bytes, *second);
   const sim::World& resumed = second->world();
   second->set("excavator/drive/steer", 0.2);
   EXPECT_EQ(resumed.machine(0).drive().speed, 1.5);  // steering alone does not stop the machine

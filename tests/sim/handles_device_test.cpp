@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "device/device.h"
 #include "sim/scenes.h"
 #include "sim/world.h"
@@ -106,14 +107,12 @@ TEST_F(Handles, ReadWithoutAllocating) {
 TEST_F(Handles, StayValidThroughALoadedSnapshot) {
   World world(testing::load("bucket_path.sdf"), device_);
   const JointHandle slide = world.machine("bucket").joint("slide_x");
-  StateWriter writer;
-  world.save(writer);
+  const std::vector<char> bytes = saved(world);
   const double start = slide.position();
   world.command(slide, {vehicle::JointMode::kVelocity, 0.5});
   for (int i = 0; i < 20; ++i) world.step();
   EXPECT_GT(slide.position(), start);
-  StateReader reader(writer.bytes());
-  world.load(reader);
+  load_saved(bytes, world);
   EXPECT_EQ(slide.position(), start);
 }
 

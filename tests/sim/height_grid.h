@@ -52,17 +52,7 @@ class HeightGrid final : public Sampler {
     out.set(count_, ++samples_);
   }
 
-  void hash(StateHash& hash) const override { hash.value(samples_); }
-  void save(StateWriter& writer) const override {
-    writer.begin("height_grid", 1);
-    writer.value(samples_);
-    writer.end();
-  }
-  void load(StateReader& reader) override {
-    reader.begin("height_grid", 1);
-    samples_ = reader.value<double>();
-    reader.end();
-  }
+  void visit(Archive& a) override { a("samples", samples_); }
 
  private:
   Pose frame() const {

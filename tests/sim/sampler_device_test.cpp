@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "device/device.h"
 #include "sim/height_grid.h"
 #include "sim/scenes.h"
@@ -92,19 +93,16 @@ TEST_F(SamplerTest, ChangesNothingOfTheWorldItLooksAt) {
 TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
   const auto whole = rolling();
   run_to(*whole, 0.05);
-  StateWriter writer;
-  whole->save(writer);
+  const std::vector<char> bytes = saved(*whole);
   run_to(*whole, 0.1);
   const auto resumed = rolling();
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   EXPECT_GT(resumed->arrays().view(0).sequence(), 1u);
   run_to(*resumed, 0.1);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
   EXPECT_EQ(resumed->get("excavator/height_grid/samples"), whole->get("excavator/height_grid/samples"));
   const auto blind = rolling(false);
-  StateReader again(writer.bytes());
-  EXPECT_THROW(blind->load(again), InputError);
+  EXPECT_THROW(load_saved(bytes, *blind), InputError);
 }
 
 TEST_F(SamplerTest, NamesAreUniqueAndAWrongOneGetsTheNearest) {

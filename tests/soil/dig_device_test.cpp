@@ -53,18 +53,13 @@ class Scoop {
   void place() { motion_.X_WT = make_pose(x_ + shift_.x(), 10.02 + shift_.y(), z_, 0, radians(pitch_), 0); }
   double payload() const { return solver_->payload(0, motion_.X_WT); }
   std::uint64_t digest() const {
-    StateHash hash;
-    solver_->hash(hash);
-    ground_.hash(hash);
+    StateHash hash = hash_of(*solver_);
+    add_to_hash(hash, ground_);
     return hash.digest();
   }
-  void save(StateWriter& writer) const {
-    ground_.save(writer);
-    solver_->save(writer);
-  }
-  void load(StateReader& reader) {
-    ground_.load(reader);
-    solver_->load(reader);
+  void visit(Archive& a) {
+    a("ground", ground_);
+    a("soil", *solver_);
   }
   Solver& solver() { return *solver_; }
   heightfield::Ground& ground() { return ground_; }
@@ -130,11 +125,9 @@ TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
 TEST(SoilDig, GoesOnFromASnapshotInMidCut) {
   Scoop whole, resumed;
   whole.cut();
-  StateWriter writer;
-  whole.save(writer);
+  const std::vector<char> state = saved(whole);
   resumed.at(whole);
-  StateReader reader(writer.bytes());
-  resumed.load(reader);
+  load_saved(state, resumed);
   whole.go(10.5, 0.25, -40, 0.3);
   resumed.go(10.5, 0.25, -40, 0.3);
   EXPECT_EQ(whole.digest(), resumed.digest());

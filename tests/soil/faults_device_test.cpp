@@ -40,10 +40,7 @@ std::string push(Rig& rig, double speed, double seconds) {
 
 /// The state goes into a snapshot and out of it again, mass and all.
 void expect_saved_whole(Rig& rig, Rig& fresh) {
-  StateWriter writer;
-  rig.solver().save(writer);
-  StateReader reader(writer.bytes());
-  fresh.solver().load(reader);
+  load_saved(saved(rig.solver()), fresh.solver());
   EXPECT_EQ(fresh.solver().particles().size(), rig.solver().particles().size());
   EXPECT_EQ(fresh.solver().ledger().error(), 0);
 }
@@ -89,10 +86,7 @@ TEST(SoilFaults, ANumberThatIsNotFiniteInMidRunIsNamedAndTheSnapshotShowsWhere) 
   }
   EXPECT_NE(cause.find("soil step " + std::to_string(steps)), std::string::npos) << cause;
   EXPECT_NE(cause.find("not finite"), std::string::npos) << cause;
-  StateWriter writer;
-  rig.solver().save(writer);
-  StateReader reader(writer.bytes());
-  fresh.solver().load(reader);
+  load_saved(saved(rig.solver()), fresh.solver());
   const std::vector<Particle> saved = fresh.solver().particles();
   EXPECT_EQ(saved.size(), soil.size() + 1);
   EXPECT_TRUE(std::any_of(saved.begin(), saved.end(), [](const Particle& p) { return !std::isfinite(p.v[2]); }));
@@ -178,11 +172,8 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
   EXPECT_EQ(solver.particles().size(), wanted);
   EXPECT_EQ(solver.ledger().error(), 0);
   // On a device with room the snapshot goes on.
-  StateWriter writer;
-  solver.save(writer);
-  StateReader reader(writer.bytes());
   Solver larger(Rig::device(), world, place.ground());
-  larger.load(reader);
+  load_saved(saved(solver), larger);
   EXPECT_EQ(larger.particles().size(), wanted);
   larger.step(1e-3, {}, {});
   EXPECT_EQ(larger.ledger().error(), 0);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/saved_state.h"
 #include "device/device.h"
 #include "lab/shapes.h"
 #include "lab/site.h"
@@ -47,11 +48,7 @@ class Rig : public lab::Site {
     Site::run(seconds);
     return seconds / static_cast<double>(solver().stats().steps - before);
   }
-  std::uint64_t digest() {
-    StateHash hash;
-    solver().hash(hash);
-    return hash.digest();
-  }
+  std::uint64_t digest() const { return hash_of(solver()).digest(); }
 
  private:
   static lab::SiteOptions options(const Box& pit, double size, const Vec2& origin) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/machines.h"
 
@@ -189,8 +190,7 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
   };
   auto whole = build();
   drive(*whole, 0, 1);
-  StateWriter writer;
-  whole->save(writer);
+  const std::vector<char> bytes = saved(*whole);
   drive(*whole, 1, 2);
 
   auto again = build();
@@ -199,8 +199,7 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
   EXPECT_EQ(digest(*whole), digest(*again));
 
   auto resumed = build();
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(bytes, *resumed);
   drive(*resumed, 1, 2);
   EXPECT_EQ(digest(*whole), digest(*resumed));
   // And it is no constant: another second moves on.

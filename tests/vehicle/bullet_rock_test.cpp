@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/saved_state.h"
 #include "values.h"
 #include "vehicle/machines.h"
 
@@ -139,10 +140,8 @@ TEST(BulletRock, AResumedRunPressesTheSame) {
   }
   run(*dig.engine, flat(), 5, kStep);
   ASSERT_GT(dig.rock_force().z(), 1e3);
-  StateWriter writer;
-  dig.engine->save(writer);
-  StateReader reader(writer.bytes());
-  again.engine->load(reader);
+  const std::vector<char> bytes = saved(*dig.engine);
+  load_saved(bytes, *again.engine);
   EXPECT_EQ(digest(*again.engine), digest(*dig.engine));
   run(*dig.engine, flat(), 0.5, kStep);
   run(*again.engine, flat(), 0.5, kStep);
@@ -152,8 +151,7 @@ TEST(BulletRock, AResumedRunPressesTheSame) {
   other.shells.at(0).vertices.pop_back();
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(other, Pose::Identity());
-  StateReader stranger(writer.bytes());
-  EXPECT_THROW(engine->load(stranger), InputError);
+  EXPECT_THROW(load_saved(bytes, *engine), InputError);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/saved_state.h"
 #include "values.h"
 #include "vehicle/drive/drive_line.h"
 #include "vehicle/machines.h"
@@ -98,11 +99,8 @@ TEST_P(Drives, StandUnderTheBrakeWhateverElseIsAsked) {
 TEST_P(Drives, ResumeEqualInTheMiddleOfATurn) {
   engine->set_drive(0, command(0.8, 0.2));
   run(*engine, flat(), 1, kStep);
-  StateWriter writer;
-  engine->save(writer);
   const auto resumed = build();
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(saved(*engine), *resumed);
   EXPECT_EQ(digest(*resumed), digest(*engine));
   for (int j = 0; j < static_cast<int>(machine.joints.size()); ++j)
     EXPECT_EQ(resumed->joint(0, j).effort_limit, engine->joint(0, j).effort_limit);

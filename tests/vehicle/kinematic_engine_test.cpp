@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/saved_state.h"
 #include "vehicle/machines.h"
 
 namespace navvy::vehicle {
@@ -60,11 +61,8 @@ TEST(KinematicEngine, ResumesEqual) {
   };
   auto whole = build();
   run(*whole, flat(), 1, kStep);
-  StateWriter writer;
-  whole->save(writer);
   auto resumed = build();
-  StateReader reader(writer.bytes());
-  resumed->load(reader);
+  load_saved(saved(*whole), *resumed);
   run(*whole, flat(), 1, kStep);
   run(*resumed, flat(), 1, kStep);
   EXPECT_EQ(digest(*whole), digest(*resumed));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/saved_state.h"
 #include "scene_io/loader.h"
 
 namespace navvy::vehicle::testing {
@@ -151,10 +152,6 @@ void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
   }
 }
 
-std::uint64_t digest(const Engine& engine) {
-  StateHash hash;
-  engine.hash(hash);
-  return hash.digest();
-}
+std::uint64_t digest(const Engine& engine) { return hash_of(engine).digest(); }
 
 }  // namespace navvy::vehicle::testing

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/saved_state.h"
 #include "values.h"
 #include "vehicle/joint_servo.h"
 #include "vehicle/kinematics.h"
@@ -106,11 +107,8 @@ TEST(Pump, IsTheSameAfterASnapshot) {
   Pump pump;
   pump.share(kPump, {{0.006, 30e6}}, 0.1);
   pump.settle(0.004);
-  StateWriter writer;
-  pump.save(writer);
   Pump copy;
-  StateReader reader(writer.bytes());
-  copy.load(reader);
+  load_saved(saved(pump), copy);
   EXPECT_EQ(copy.flow(), pump.flow());
   EXPECT_EQ(copy.pressure(), pump.pressure());
   EXPECT_EQ(copy.share(kPump, {{0.006, 30e6}}, 0.1), pump.share(kPump, {{0.006, 30e6}}, 0.1));

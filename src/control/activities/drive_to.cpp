@@ -22,6 +22,13 @@ struct Memory {
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
   double way = 0;       // to the target at the start [m]
+
+  void visit(Archive& a) {
+    a("speed", speed);
+    a("heading", heading);
+    a("standing", standing);
+    a("way", way);
+  }
 };
 
 class Driving final : public ActivityWith<Memory> {

@@ -11,6 +11,11 @@ enum Phase : std::int64_t { kOpening, kClosing };
 struct Memory {
   ArmMove move;
   double bucket_before = 0;  // commanded angle of the bucket at the start [rad]
+
+  void visit(Archive& a) {
+    a("move", move);
+    a("bucket_before", bucket_before);
+  }
 };
 
 // Open, hold, close; it does not look at what the bucket still holds.

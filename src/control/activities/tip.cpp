@@ -19,6 +19,11 @@ constexpr double kSlowRate = radians(1);  // [rad/s] slowest bed that is still w
 struct Memory {
   double standing = 0;  // [s] since the bed has arrived or was given up; 0 before
   double way = 0;       // to turn at the start [rad]
+
+  void visit(Archive& a) {
+    a("standing", standing);
+    a("way", way);
+  }
 };
 
 class Tipping final : public ActivityWith<Memory> {

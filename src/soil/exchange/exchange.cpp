@@ -2,9 +2,11 @@
 #include "soil/exchange/exchange.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
+#include "core/archive.h"
 #include "core/log.h"
 #include "soil/exchange/deposit.h"
 #include "soil/exchange/exchange_index.h"
@@ -21,7 +23,8 @@ constexpr double kRestAfterDeposit = 1.0;
 /// Tiles of changed ground looked at per check; the others wait, so that one check stays cheap. tuned: 48 tiles of flat
 /// ground cost about a millisecond.
 constexpr std::size_t kTilesPerCheck = 48;
-constexpr std::uint32_t kStateVersion = 1;
+/// No site has tiles beyond: it has at most 2^30 columns a side. Zones of tools may lie a little off the site.
+constexpr int kFarthestTile = (1 << 30) / SlumpScan::kTile;
 
 // Squared distance in plan from a column to a tool's box [columns^2]. Squares order distances as well as the roots do,
 // and stay exact.
@@ -60,6 +63,7 @@ struct Exchange::State {
   void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
                Result& result);
   int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
+  void visit(Archive& a);
 
   heightfield::Ground& ground;
   PlanGrid grid;
@@ -297,84 +301,24 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
   return born;
 }
 
-void Exchange::hash(StateHash& hash) const {
-  // The order is that of save() below; a value added here has to be added there and in load().
-  const State& s = *state_;
-  const auto times = [&](const std::map<PlanKey, double>& map) {
-    hash.value(map.size());
-    for (const auto& [key, time] : map) {
-      hash.value(key.first);
-      hash.value(key.second);
-      hash.value(time);
-    }
-  };
-  times(s.rest);
-  times(s.deposited);
-  hash.value(s.pending.size());
-  for (const PlanKey& key : s.pending) {
-    hash.value(key.first);
-    hash.value(key.second);
-  }
-  hash.value(s.next_pending.first);
-  hash.value(s.next_pending.second);
-  hash.value(s.seen);
-  hash.value(s.over_budget);
-  s.standing.hash(hash);
-  s.slump.hash(hash);
+void Exchange::State::visit(Archive& a) {
+  a("rest", rest);
+  a("deposited", deposited);
+  a("pending", pending);
+  a("next_pending", next_pending);
+  a("seen", seen);
+  a("over_budget", over_budget);
+  a("standing", standing);
+  a("slump", slump);
+  // Times that are no numbers would keep blocks awake or at rest for ever.
+  for (const auto& [block, time] : rest) a.require(std::isfinite(time), "rest", "must be finite");
+  for (const auto& [block, time] : deposited) a.require(std::isfinite(time), "deposited", "must be finite");
+  const auto near = [](int tile) { return tile >= -kFarthestTile && tile <= kFarthestTile; };
+  for (const PlanKey& tile : pending) a.require(near(tile.first) && near(tile.second), "pending", "lies off any site");
 }
 
-void Exchange::save(StateWriter& writer) const {
-  const State& s = *state_;
-  const auto times = [&](const std::map<PlanKey, double>& map) {
-    writer.value(static_cast<std::uint64_t>(map.size()));
-    for (const auto& [key, time] : map) {
-      writer.value(key.first);
-      writer.value(key.second);
-      writer.value(time);
-    }
-  };
-  writer.begin("soil-exchange", kStateVersion);
-  times(s.rest);
-  times(s.deposited);
-  writer.value(static_cast<std::uint64_t>(s.pending.size()));
-  for (const PlanKey& key : s.pending) {
-    writer.value(key.first);
-    writer.value(key.second);
-  }
-  writer.value(s.next_pending.first);
-  writer.value(s.next_pending.second);
-  writer.value(s.seen);
-  writer.value(static_cast<std::uint8_t>(s.over_budget));
-  s.standing.save(writer);
-  s.slump.save(writer);
-  writer.end();
-}
-
-void Exchange::load(StateReader& reader) {
-  // Nothing is checked here but what the reader checks: lengths against the bytes that are left.
-  State& s = *state_;
-  const auto key = [&] {
-    const int y = reader.value<int>(), x = reader.value<int>();
-    return PlanKey{y, x};
-  };
-  const auto times = [&](std::map<PlanKey, double>& map) {
-    map.clear();
-    for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
-      const PlanKey block = key();
-      map[block] = reader.value<double>();
-    }
-  };
-  reader.begin("soil-exchange", kStateVersion);
-  times(s.rest);
-  times(s.deposited);
-  s.pending.clear();
-  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) s.pending.insert(key());
-  s.next_pending = key();
-  s.seen = reader.value<std::uint64_t>();
-  s.over_budget = reader.value<std::uint8_t>() != 0;
-  s.standing.load(reader);
-  s.slump.load(reader);
-  reader.end();
+void Exchange::visit(Archive& a) {
+  a.section("soil-exchange", 2, [&] { state_->visit(a); });
 }
 
 }  // namespace navvy::soil

@@ -7,13 +7,15 @@
 #include <span>
 #include <vector>
 
-#include "core/hash.h"
 #include "core/math.h"
-#include "core/state_io.h"
 #include "heightfield/ground.h"
 #include "scene/world.h"
 #include "soil/particles/particle.h"
 #include "soil/tools/tool_motion.h"
+
+namespace navvy {
+class Archive;
+}
 
 namespace navvy::soil {
 
@@ -47,12 +49,9 @@ class Exchange {
   std::vector<Particle> wake(const heightfield::CellRect& rect, double z_bottom,
                              std::span<const Particle> resting = {});
 
-  /// The state between checks: equal hashes go on alike with equal ground and particles.
-  void hash(StateHash& hash) const;
-  /// One section, "soil-exchange". Loading needs an exchange made for the same scene. @throws InputError when the bytes
-  /// are of another version or cut short.
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// The state between checks, in one section, "soil-exchange": equal ones go on alike with equal ground and particles.
+  /// Loading needs an exchange made for the same scene. @throws InputError for times and places that cannot be.
+  void visit(Archive& a);
 
  private:
   struct State;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/archive.h"
+
 namespace navvy::soil {
 namespace {
 
@@ -89,37 +91,16 @@ void Slump::forget_still() {
   std::erase_if(sliding_, [](const auto& entry) { return entry.second.still >= kMostStill; });
 }
 
-void Slump::hash(StateHash& hash) const {
-  hash.value(debt_);
-  for (const auto& [key, sliding] : sliding_) {
-    hash.value(key.first);
-    hash.value(key.second);
-    hash.value(sliding.base);
-    hash.value(sliding.still);
-  }
+void Slump::Sliding::visit(Archive& a) {
+  a("base", base);
+  a.ranged("still", still, 0, kMostStill);
 }
 
-void Slump::save(StateWriter& writer) const {
-  writer.value(debt_);
-  writer.value(static_cast<std::uint64_t>(sliding_.size()));
-  for (const auto& [key, sliding] : sliding_) {
-    writer.value(key.first);
-    writer.value(key.second);
-    writer.value(sliding.base);
-    writer.value(sliding.still);
-  }
-}
-
-void Slump::load(StateReader& reader) {
-  sliding_.clear();
-  debt_ = reader.value<double>();
-  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
-    const int iy = reader.value<int>(), ix = reader.value<int>();
-    Sliding sliding;
-    sliding.base = reader.value<double>();
-    sliding.still = reader.value<std::int32_t>();
-    sliding_.emplace(PlanKey{iy, ix}, sliding);
-  }
+void Slump::visit(Archive& a) {
+  a.ranged("debt", debt_, 0, 1);
+  a("sliding", sliding_);
+  for (const auto& [key, sliding] : sliding_)
+    a.require(ground_.contains(key.second, key.first), "sliding", "a column is outside the site");
 }
 
 }  // namespace navvy::soil

@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
 #include "soil/exchange/slump_scan.h"
 
 namespace navvy::soil {
@@ -37,15 +35,15 @@ class Slump {
   bool idle() const { return sliding_.empty(); }
 
   /// What slides and how far, in the order of the columns. The owner opens the section that these are part of.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// @throws InputError for columns outside the site.
+  void visit(Archive& a);
 
  private:
   // A column that gives soil away while it is steep. A few sweeps without motion end it.
   struct Sliding {
     double base = 0;         ///< soil above this W height slides [m]
     std::int32_t still = 0;  ///< sweeps since it last moved
+    void visit(Archive& a);
   };
   /// Whole sweeps that are due. Carries the rest of a sweep on; drops it while nothing slides.
   int due(double elapsed);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/archive.h"
+
 namespace navvy::soil {
 namespace {
 
@@ -44,30 +46,7 @@ bool StandingHeights::find(int ix, int iy, double& height) const {
   return true;
 }
 
-void StandingHeights::hash(StateHash& hash) const {
-  for (const auto& [key, heights] : blocks_) {
-    hash.value(key.first);
-    hash.value(key.second);
-    hash.bytes(heights.data(), sizeof heights);
-  }
-}
-
-void StandingHeights::save(StateWriter& writer) const {
-  writer.value(static_cast<std::uint64_t>(blocks_.size()));
-  for (const auto& [key, heights] : blocks_) {
-    writer.value(key.first);
-    writer.value(key.second);
-    writer.value(heights);
-  }
-}
-
-void StandingHeights::load(StateReader& reader) {
-  blocks_.clear();
-  for (auto count = reader.value<std::uint64_t>(); count > 0; --count) {
-    const int y = reader.value<int>(), x = reader.value<int>();
-    blocks_[{y, x}] = reader.value<std::array<float, kBlockCells * kBlockCells>>();
-  }
-}
+void StandingHeights::visit(Archive& a) { a("blocks", blocks_); }
 
 bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const {
   double high = 0, low = 0;

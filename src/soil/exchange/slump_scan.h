@@ -7,9 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
-
 #include "soil/exchange/slump_table.h"
 #include "soil/exchange/wake_rules.h"
 
@@ -39,9 +36,7 @@ class StandingHeights {
   bool find(int ix, int iy, double& height) const;
 
   /// Saved with the exchange, and hashed: two runs that differ in it wake other columns.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   PlanGrid grid_;

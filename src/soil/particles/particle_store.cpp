@@ -6,8 +6,10 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <span>
 #include <utility>
 
+#include "core/archive.h"
 #include "soil/particles/buffers.h"
 
 namespace navvy::soil {
@@ -82,6 +84,60 @@ Particle empty_lane() {
   return p;
 }
 
+/// No site has blocks beyond: it has at most 2^30 columns a side.
+constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
+
+/// The particles of one home as they are hashed and saved: words as on the device, field after field, which are not
+/// copied: that alone would take a quarter of the time that hashing them takes.
+class HomeWords {
+ public:
+  void visit(Archive& a) {
+    a("block", block);
+    for (std::size_t f = 0; f < FIELD_COUNT; ++f)
+      a.item(f, [&] { a.loading() ? a("words", loaded_[f]) : a("words", fields_[f]); });
+  }
+  BlockKey key() const { return {block[0], block[1], block[2]}; }
+  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive the visit.
+  void take(const float* first, std::size_t capacity, std::size_t count) {
+    for (std::size_t f = 0; f < FIELD_COUNT; ++f) fields_[f] = {first + f * capacity, count};
+  }
+  /// Particles of one home on the host.
+  void take(std::span<const Particle> particles);
+  /// Appends the particles that were loaded, checked.
+  void give(Archive& a, std::vector<Particle>& particles, std::size_t soils);
+
+  std::array<std::int32_t, 3> block{};
+
+ private:
+  std::array<std::span<const float>, FIELD_COUNT> fields_;
+  std::array<std::vector<float>, FIELD_COUNT> loaded_;
+  std::vector<float> words_;  // of particles on the host
+};
+
+void HomeWords::take(std::span<const Particle> particles) {
+  std::copy(std::begin(particles.front().block), std::end(particles.front().block), block.begin());
+  words_.resize(FIELD_COUNT * particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) put_record(particles[i], words_.data(), particles.size(), i);
+  take(words_.data(), particles.size(), particles.size());
+}
+
+// Numbers that are not finite are let in: the snapshot of a run that broke shows where it did.
+void HomeWords::give(Archive& a, std::vector<Particle>& particles, std::size_t soils) {
+  const auto near = [](std::int32_t b) { return b >= -kFarthestBlock && b <= kFarthestBlock; };
+  a.require(std::all_of(block.begin(), block.end(), near), "block", "lies off any site");
+  const std::size_t count = loaded_[0].size();
+  words_.clear();
+  for (const std::vector<float>& field : loaded_) {
+    a.require(count > 0 && field.size() == count, "words", "must be those of as many particles in every field");
+    words_.insert(words_.end(), field.begin(), field.end());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Particle& p = particles.emplace_back(get_record(words_.data(), count, i));
+    std::copy(block.begin(), block.end(), std::begin(p.block));
+    a.require(p.soil < soils, "words", "a particle is of a soil that the scene does not have");
+  }
+}
+
 }  // namespace
 
 ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
@@ -126,11 +182,10 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   return tile;
 }
 
-std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, bool homes_given) {
-  if (!homes_given)
-    for (Particle& p : particles) find_home(p);
-  // By cell inside a home, as a re-bin does; a snapshot keeps the order it was taken in. Sorted are small keys: moving
-  // whole particles about takes three times as long.
+std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
+  for (Particle& p : particles) find_home(p);
+  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about takes three times as
+  // long.
   struct Place {
     BlockKey home;
     int cell;
@@ -138,7 +193,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles, boo
   };
   std::vector<Place> places(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
-    places[i] = {key_of(particles[i]), homes_given ? 0 : cell_of(particles[i]), static_cast<std::uint32_t>(i)};
+    places[i] = {key_of(particles[i]), cell_of(particles[i]), static_cast<std::uint32_t>(i)};
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     if (!(a.home == b.home)) return a.home < b.home;
     return a.cell != b.cell ? a.cell < b.cell : a.from < b.from;
@@ -157,8 +212,7 @@ void ParticleStore::make_room(int side, int slots, int wanted) {
   capacity_[side] = capacity;
 }
 
-void ParticleStore::assign(const std::vector<Particle>& particles, bool homes_given) {
-  const std::vector<Particle> sorted = ParticleStore::sorted(particles, homes_given);
+void ParticleStore::place(const std::vector<Particle>& sorted) {
   std::vector<BlockKey> keys;
   std::vector<int> counts;
   for (const Particle& p : sorted) {
@@ -320,17 +374,52 @@ std::vector<Particle> ParticleStore::rebin() {
   return {};
 }
 
-// Words as they stand on the device, in stored order; padding and room to spare are not state.
-void ParticleStore::hash(StateHash& hash) const {
+// Read where they lie: particle by particle it would take twice as long.
+void ParticleStore::visit(Archive& a) {
+  if (a.loading()) {
+    std::vector<Particle> records;
+    visit(a, records, soil_rows_.size());
+    place(records);
+    return;
+  }
+  a.size("homes", homes_.size());
+  if (homes_.empty()) return;
   const auto view = state_[now_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
+  HomeWords home;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
-    hash.value(table_.homes[h].x);
-    hash.value(table_.homes[h].y);
-    hash.value(table_.homes[h].z);
-    hash.value(homes_[h].count);
-    for (std::size_t f = 0; f < FIELD_COUNT; ++f)
-      hash.bytes(view.data() + f * static_cast<std::size_t>(capacity_[now_]) + homes_[h].start,
-                 sizeof(float) * static_cast<std::size_t>(homes_[h].count));
+    home.block = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z};
+    home.take(view.data() + homes_[h].start, capacity, static_cast<std::size_t>(homes_[h].count));
+    a.item(h, [&] { home.visit(a); });
+  }
+}
+
+void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_t soils) {
+  const auto end_of_home = [&](std::size_t from) {
+    std::size_t to = from;
+    while (to < records.size() && key_of(records[to]) == key_of(records[from])) ++to;
+    return to;
+  };
+  std::uint64_t homes = 0;
+  for (std::size_t from = 0; from < records.size(); from = end_of_home(from)) ++homes;
+  homes = a.size("homes", homes);
+  if (a.loading()) records.clear();
+  HomeWords home;
+  BlockKey before;
+  std::size_t from = 0;
+  for (std::uint64_t h = 0; h < homes; ++h) {
+    if (!a.loading()) {
+      const std::size_t to = end_of_home(from);
+      home.take(std::span(records).subspan(from, to - from));
+      from = to;
+    }
+    a.item(h, [&] {
+      home.visit(a);
+      // Tables are built from keys that are sorted and unique.
+      a.require(h == 0 || before < home.key(), "block", "homes must ascend");
+      before = home.key();
+      if (a.loading()) home.give(a, records, soils);
+    });
   }
 }
 

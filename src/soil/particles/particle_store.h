@@ -6,14 +6,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/hash.h"
 #include "core/math.h"
-#include "core/state_io.h"
 #include "device/buffer.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/rebin.h"
+
+namespace navvy {
+class Archive;
+}
 
 namespace navvy::soil {
 
@@ -33,10 +35,13 @@ class ParticleStore {
   /// `site` = x and y of its lower left and its upper right corner in G [cells]; `soils` the constant table.
   ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<SoilRow>& soils);
 
-  /// Replaces everything. `homes_given`: Particle::block is the home to keep (a snapshot), else homes are found.
-  void assign(const std::vector<Particle>& particles, bool homes_given = false);
+  /// Replaces everything; finds homes and sorts.
+  void assign(const std::vector<Particle>& particles) { place(sorted(particles)); }
+  /// The same of particles that lie as `sorted` and `records` give them: Particle::block is the home to keep, homes
+  /// ascend, and the order inside them stays.
+  void place(const std::vector<Particle>& sorted);
   /// The order in which `assign` stores.
-  static std::vector<Particle> sorted(std::vector<Particle> particles, bool homes_given = false);
+  static std::vector<Particle> sorted(std::vector<Particle> particles);
   /// All particles in stored order; Particle::block is the home.
   std::vector<Particle> records() const;
   /// The homes that reach into a box of G [cells]: all particles in it, and neighbours.
@@ -61,8 +66,11 @@ class ParticleStore {
   device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
   device::Buffer<Surface>& home_surface() { return home_surface_; }
 
-  /// Feeds block keys and every word of every particle.
-  void hash(StateHash& hash) const;
+  /// Home by home the block and every word of every particle as it stands on the device; padding and room to spare are
+  /// not state. @throws InputError for homes that do not ascend or a soil that the scene does not have.
+  void visit(Archive& a);
+  /// The same of particles on the host: `records` are sorted by home, as from `sorted` or `records()`.
+  static void visit(Archive& a, std::vector<Particle>& records, std::size_t soils);
 
  private:
   int lay_out(const std::vector<int>& counts);

@@ -17,6 +17,10 @@
 #include "soil/tools/shell_geometry.h"
 #include "soil/tools/tool_motion.h"
 
+namespace navvy {
+class Archive;
+}
+
 namespace navvy::soil {
 
 /// Lengths in cells [docs/tools.md, contact weights].
@@ -48,7 +52,7 @@ class Contact {
   /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
   /// lays out tiles again (near_homes, near_slot).
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
-  /// Builds the near lists for the poses they were last built for (after `load`).
+  /// Builds the near lists for the poses they were last built for (after `visit` has loaded).
   void list_near(const BlockTable& table);
   const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
   const std::vector<int>& near_slot() const { return near_slot_; }
@@ -65,8 +69,9 @@ class Contact {
   /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
   void book(std::span<ToolImpulse> impulses);
 
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// Near lists hang on where tools were when they were made: that is state, the lists follow from it (`list_near`).
+  /// @throws InputError for another number of tools than are registered, or a pose that is none.
+  void visit(Archive& a);
 
  private:
   /// Results of contact_apply and shell_nodes, mapped for the host.
@@ -83,6 +88,7 @@ class Contact {
     Pose X_listed = Pose::Identity();  ///< where it was then
     Pose X = Pose::Identity();
     BlockKey window;  ///< block its float coordinates count from
+    void visit(Archive& a);
   };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/archive.h"
 #include "soil/particles/buffers.h"
 #include "soil/tools/contact.h"
 
@@ -12,6 +13,10 @@ namespace {
 
 /// Cells a particle may have drifted from its home's base range [0.5, 4.5) before a re-bin.
 constexpr double kDrift = 1.0;
+/// How far a pose that is loaded may be from a rigid one: turns gather rounding over a run.
+constexpr double kRigid = 1e-6;
+/// Where a tool may be at most [m]: sites end far before, and so does the range of block numbers.
+constexpr double kFarthest = 1e7;
 
 void put(float (&out)[3], const Vec3& v) {
   for (int a = 0; a < 3; ++a) out[a] = static_cast<float>(v[a]);
@@ -222,27 +227,16 @@ void Contact::classify(ParticleStore& store, Transfer& transfer) {
   shells_.enqueue(store, transfer, nodes_, settings_.band, settings_.longest_push);
 }
 
-// Near lists hang on where tools were when they were made: that is state, the lists follow from it.
-void Contact::save(StateWriter& writer) const {
-  writer.value(static_cast<std::uint32_t>(tools_.size()));
-  for (const Registered& tool : tools_) {
-    writer.value(static_cast<std::uint8_t>(tool.listed));
-    writer.pose(tool.X_listed);
-  }
+// A pose that is none would make boxes of candidates larger than any memory.
+void Contact::Registered::visit(Archive& a) {
+  a("listed", listed);
+  a("X_listed", X_listed);
+  const Mat3 R = X_listed.linear();
+  a.require(X_listed.matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) &&
+                X_listed.translation().norm() < kFarthest,
+            "X_listed", "must be a rigid pose on the site");
 }
 
-void Contact::load(StateReader& reader) {
-  if (reader.value<std::uint32_t>() != tools_.size()) {
-    Fault fault;
-    fault.element = "snapshot/soil/tools";
-    fault.value = "another number of tools";
-    fault.rule = "the same tools must be registered before a snapshot is loaded";
-    throw InputError(fault);
-  }
-  for (Registered& tool : tools_) {
-    tool.listed = reader.value<std::uint8_t>() != 0;
-    tool.X_listed = reader.pose();
-  }
-}
+void Contact::visit(Archive& a) { a.fixed("tools", tools_); }
 
 }  // namespace navvy::soil

@@ -380,49 +380,51 @@ void TreeBody::place_colliders() {
   body_->updateCollisionObjectWorldTransforms(turns, places);
 }
 
-void TreeBody::hash(StateHash& hash) const {
-  // Joint coordinates and generalised velocities say all; poses in W follow from them.
+std::vector<double> TreeBody::coordinates() const {
   const btVector3 p = body_->getBasePos();
   const btQuaternion q = body_->getWorldToBaseRot();
-  for (int a = 0; a < 3; ++a) hash.value(p[a]);
-  for (int a = 0; a < 4; ++a) hash.value(q[a]);
+  std::vector<double> all = {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
   for (int k = 0; k < body_->getNumLinks(); ++k)
-    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) hash.value(body_->getJointPosMultiDof(k)[i]);
-  for (int i = 0; i < 6 + body_->getNumDofs(); ++i) hash.value(body_->getVelocityVector()[i]);
+    all.insert(all.end(), body_->getJointPosMultiDof(k),
+               body_->getJointPosMultiDof(k) + body_->getLink(k).m_posVarCount);
+  return all;
 }
 
-void TreeBody::save(StateWriter& writer) const {
-  const btVector3 p = body_->getBasePos();
-  const btQuaternion q = body_->getWorldToBaseRot();
-  for (int a = 0; a < 3; ++a) writer.value(p[a]);
-  for (int a = 0; a < 4; ++a) writer.value(q[a]);
-  for (int k = 0; k < body_->getNumLinks(); ++k)
-    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) writer.value(body_->getJointPosMultiDof(k)[i]);
-  for (int i = 0; i < 6 + body_->getNumDofs(); ++i) writer.value(body_->getVelocityVector()[i]);
+std::vector<double> TreeBody::velocities() const {
+  const btScalar* first = body_->getVelocityVector();
+  return {first, first + 6 + body_->getNumDofs()};
 }
 
-void TreeBody::load(StateReader& reader) {
-  btVector3 p(0, 0, 0), w(0, 0, 0), v(0, 0, 0);
-  btQuaternion q;
-  for (int a = 0; a < 3; ++a) p[a] = reader.value<double>();
-  for (int a = 0; a < 4; ++a) q[a] = reader.value<double>();
-  body_->setBasePos(p);
-  body_->setWorldToBaseRot(q);
+void TreeBody::place(const std::vector<double>& coordinates, const std::vector<double>& velocities) {
+  const double* q = coordinates.data();
+  body_->setBasePos(btVector3(q[0], q[1], q[2]));
+  body_->setWorldToBaseRot(btQuaternion(q[3], q[4], q[5], q[6]));
+  // Angular before linear, both in W.
+  const double* qd = velocities.data();
+  body_->setBaseOmega(btVector3(qd[0], qd[1], qd[2]));
+  body_->setBaseVel(btVector3(qd[3], qd[4], qd[5]));
+  q += 7;
+  qd += 6;
   for (int k = 0; k < body_->getNumLinks(); ++k) {
-    btScalar position[7] = {};
-    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) position[i] = reader.value<double>();
+    // Arrays of Bullet's own sizes: what it copies depends on its version and kind of joint.
+    btScalar position[7] = {}, rate[6] = {};
+    for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) position[i] = *q++;
+    for (int d = 0; d < body_->getLink(k).m_dofCount; ++d) rate[d] = *qd++;
     body_->setJointPosMultiDof(k, position);
-  }
-  for (int a = 0; a < 3; ++a) w[a] = reader.value<double>();
-  for (int a = 0; a < 3; ++a) v[a] = reader.value<double>();
-  // Omega and velocity are in W, as getVelocityVector has them: angular first.
-  body_->setBaseOmega(w);
-  body_->setBaseVel(v);
-  for (int k = 0; k < body_->getNumLinks(); ++k) {
-    btScalar rate[6] = {};
-    for (int d = 0; d < body_->getLink(k).m_dofCount; ++d) rate[d] = reader.value<double>();
     body_->setJointVelMultiDof(k, rate);
   }
+}
+
+void TreeBody::visit(Archive& a) {
+  // Coordinates and generalised velocities say all; poses in W follow from them.
+  std::vector<double> q = coordinates(), qd = velocities();
+  a.fixed("coordinates", q);
+  a.fixed("velocities", qd);
+  if (!a.loading()) return;
+  const auto finite = [](double v) { return std::isfinite(v); };
+  a.require(std::all_of(q.begin(), q.end(), finite), "coordinates", "a machine has no finite place");
+  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
+  place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();

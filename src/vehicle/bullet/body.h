@@ -7,8 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/machine.h"
 #include "vehicle/engine.h"
 
@@ -75,9 +74,7 @@ class TreeBody {
   void place_colliders();
 
   /// Base pose, joint positions, velocities: all the tree's state between two steps.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   struct Frame {
@@ -88,6 +85,10 @@ class TreeBody {
   /// Links outward from the base, in the order of the joints.
   void build(const scene::Machine& machine);
   void add_joint(const scene::Machine& machine, int joint, int bullet);
+  /// Base place and turn, then every joint's coordinates; the generalised velocity, as getVelocityVector has it.
+  std::vector<double> coordinates() const;
+  std::vector<double> velocities() const;
+  void place(const std::vector<double>& coordinates, const std::vector<double>& velocities);
   /// Poses and velocities of all links, and the articulated inertias, each once after a change.
   void update_kinematics() const;
   void update_factors() const;

@@ -115,4 +115,9 @@ void MachineDrive::brake(MachineWheel& wheel, double torque, double dt) {
   joints_.servo(wheel.spin_joint).command(back, -torque * dt, torque * dt);
 }
 
+void MachineDrive::visit(Archive& a) {
+  a("line", *line_);
+  a("input", input_);
+}
+
 }  // namespace navvy::vehicle

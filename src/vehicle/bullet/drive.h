@@ -23,15 +23,13 @@ class MachineDrive {
   /// A new command; joints that were taken over are the drive's again.
   void set(const DriveInput& input);
   /// The command that is followed now.
-  DriveInput& input() { return input_; }
   const DriveInput& input() const { return input_; }
 
   /// Before the joints' part of a step: commands of steering and axles, torque or brake of the wheels.
   void begin_step(double dt);
 
-  /// Memory of the drive line's governors.
-  DriveLine& line() { return *line_; }
-  const DriveLine& line() const { return *line_; }
+  /// The command, and the memory of the drive line's governors.
+  void visit(Archive& a);
 
  private:
   /// Joints between chassis and wheels that neither spin nor steer.

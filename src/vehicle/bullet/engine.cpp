@@ -24,7 +24,7 @@ constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyt
 constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 // The broad phase is a plain list of this size: a few dozen shapes are never worth a tree.
 constexpr int kMostShapes = 4096;
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 class BulletEngine final : public Engine {
  public:
@@ -125,21 +125,11 @@ class BulletEngine final : public Engine {
   Vec3 ground_impulse(int machine) const override { return at(machine).ground_impulse(); }
   Vec3 external_impulse(int machine) const override { return at(machine).external_impulse(); }
 
-  void hash(StateHash& hash) const override {
-    for (const auto& machine : machines_) machine->hash(hash);
-  }
-  void save(StateWriter& writer) const override {
-    writer.begin("bullet", kVersion);
-    writer.value(static_cast<std::uint32_t>(machines_.size()));
-    for (const auto& machine : machines_) machine->save(writer);
-    writer.end();
-  }
-  void load(StateReader& reader) override {
-    reader.begin("bullet", kVersion);
-    if (reader.value<std::uint32_t>() != machines_.size())
-      throw SimulationError("vehicle: the snapshot holds another number of machines");
-    for (auto& machine : machines_) machine->load(reader);
-    reader.end();
+  void visit(Archive& a) override {
+    a.section("bullet", kVersion, [&] {
+      a.constant("machines", machines_.size(), "the snapshot holds another number of machines than the scene");
+      for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
+    });
   }
 
  private:

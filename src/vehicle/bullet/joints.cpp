@@ -78,7 +78,7 @@ double MachineJoints::share_oil(double dt) {
     if (cylinder < 0 || !constraints_[j]) continue;
     demands_.push_back(hydraulics_.demand(cylinder, a.opened, a.effort, a.servo.flows()));
   }
-  return pump().share(machine_.pump, demands_, dt);
+  return hydraulics_.pump().share(machine_.pump, demands_, dt);
 }
 
 void MachineJoints::begin_step(double dt) {
@@ -129,7 +129,7 @@ void MachineJoints::end_step(double dt) {
     if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0) oil += hydraulics_.oil(cylinder, qd);
   }
   // What the valves let through may be less than what they asked for: told after the step.
-  pump().settle(oil);
+  hydraulics_.pump().settle(oil);
 }
 
 JointState MachineJoints::state(int joint) const {
@@ -154,6 +154,23 @@ JointState MachineJoints::state(int joint) const {
   }
   state.stalled = a.servo.stalled();
   return state;
+}
+
+void Actuator::visit(Archive& a) {
+  a("servo", servo);
+  a("driven", driven);
+  a("effort", effort);
+  // The drive turns a wheel without its servo, which then goes by what it last had. Others get theirs in every step.
+  if (!spins_wheel) return;
+  a("limits", limits);
+  a("opened", opened);
+}
+
+void MachineJoints::visit(Archive& a) {
+  a.fixed("joints", actuators_);
+  a("pump", hydraulics_.pump());
+  a("work", work_);
+  if (a.loading()) placed();
 }
 
 }  // namespace navvy::vehicle

@@ -22,6 +22,8 @@ struct Actuator {
   double opened = 0;  // velocity that the valve lets through with oil enough
   double effort = 0;  // in the last step
   double speed_before = 0;
+
+  void visit(Archive& a);
 };
 
 /// Turns commands into rows of the solver and its answer into efforts, work and oil.
@@ -35,15 +37,11 @@ class MachineJoints {
 
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
   const Actuator& operator[](int joint) const { return actuators_.at(static_cast<std::size_t>(joint)); }
-  /// All, in the order of scene::Machine.
-  std::vector<Actuator>& all() { return actuators_; }
-  const std::vector<Actuator>& all() const { return actuators_; }
   /// By joint, null where it is fixed or a ball.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
   /// Of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
   /// The machine's, idle where it has none.
-  Pump& pump() { return hydraulics_.pump(); }
   const Pump& pump() const { return hydraulics_.pump(); }
   /// Fastest turning of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
@@ -54,15 +52,17 @@ class MachineJoints {
   void begin_step(double dt);
   /// After it, positions moved: efforts, work, oil taken, and the linkages at their new place.
   void end_step(double dt);
-  /// Positions came from elsewhere (a snapshot): the linkages follow.
-  void placed();
 
   /// As told by the last step; limits are those at the present place.
   JointState state(int joint) const;
-  double& work() { return work_; }  ///< mechanical, done since the start [J]
-  double work() const { return work_; }
+  double work() const { return work_; }  ///< mechanical, done since the start [J]
+
+  /// Visit the tree before: linkages follow its positions.
+  void visit(Archive& a);
 
  private:
+  /// Puts the linkages to where the joints are.
+  void placed();
   /// What effort and speed are to be had in this step.
   JointLimits limits(int joint) const;
   /// Share of its oil that every function gets.

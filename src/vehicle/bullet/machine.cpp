@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/bullet/machine.h"
 
-#include <type_traits>
+#include <algorithm>
 
 #include "vehicle/bullet/refuse.h"
 
@@ -98,67 +98,26 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
   joints_.end_step(dt);
 }
 
-/// Everything beside tree, servos, rock, pump and governors that a step reads or an output shows, in a fixed order.
-template <class Visit>
-void BulletMachine::visit_state(Visit visit) {
-  for (Actuator& a : joints_.all()) {
-    visit(a.driven);
-    visit(a.effort);
-  }
-  for (MachineWheel& wheel : wheels_.all()) {
-    for (Vec2& bristle : wheel.tyre.bristle) {
-      visit(bristle.x());
-      visit(bristle.y());
-    }
-    for (int i = 0; i < 3; ++i) {
-      visit(wheel.force.force_W[i]);
-      visit(wheel.force.moment_W[i]);
-    }
-    visit(wheel.force.slip);
-    visit(wheel.force.sinkage);
-    visit(wheel.force.deflection);
-    visit(wheel.held_spin);
-    visit(wheel.braked);
-  }
-  visit(drive_.input().speed);
-  visit(drive_.input().steer);
-  visit(drive_.input().brake);
-  visit(joints_.work());
-  for (int i = 0; i < 3; ++i) {
-    visit(ground_impulse_[i]);
-    visit(external_impulse_[i]);
-  }
+void BulletMachine::Push::visit(Archive& a) {
+  a("link", link);
+  a("f_W", f_W);
+  a("p_W", p_W);
 }
 
-// The three walk the same parts in the same order, which is that of a snapshot's bytes.
-void BulletMachine::hash(StateHash& hash) const {
-  tree_.hash(hash);
-  for (const Actuator& a : joints_.all()) a.servo.hash(hash);
-  for (const auto& rock : rock_) rock->hash(hash);
-  joints_.pump().hash(hash);
-  drive_.line().hash(hash);
-  const_cast<BulletMachine*>(this)->visit_state([&](auto& v) { hash.value(v); });
-}
-
-void BulletMachine::save(StateWriter& writer) const {
-  tree_.save(writer);
-  for (const Actuator& a : joints_.all()) a.servo.save(writer);
-  for (const auto& rock : rock_) rock->save(writer);
-  joints_.pump().save(writer);
-  drive_.line().save(writer);
-  const_cast<BulletMachine*>(this)->visit_state([&](auto& v) { writer.value(v); });
-}
-
-void BulletMachine::load(StateReader& reader) {
-  tree_.load(reader);
-  for (Actuator& a : joints_.all()) a.servo.load(reader);
-  for (const auto& rock : rock_) rock->load(reader);
-  joints_.pump().load(reader);
-  drive_.line().load(reader);
-  visit_state([&](auto& v) { v = reader.value<std::decay_t<decltype(v)>>(); });
-  // The tree moved: what follows from its positions is worked out anew.
-  joints_.placed();
-  pushes_.clear();
+/// The tree first: parts that follow from its positions are worked out as they are loaded.
+void BulletMachine::visit(Archive& a) {
+  a("tree", tree_);
+  a("joints", joints_);
+  a.fixed("wheels", wheels_.all());
+  a("drive", drive_);
+  for (std::size_t r = 0; r < rock_.size(); ++r) a.item(r, [&] { a("rock", *rock_[r]); });
+  // Told between two steps, to act in the next.
+  a("pushes", pushes_);
+  const auto links = static_cast<int>(machine_.links.size());
+  a.require(std::all_of(pushes_.begin(), pushes_.end(), [&](const Push& p) { return p.link >= 0 && p.link < links; }),
+            "pushes", "the machine has no such link");
+  a("ground_impulse", ground_impulse_);
+  a("external_impulse", external_impulse_);
 }
 
 }  // namespace navvy::vehicle

@@ -59,23 +59,19 @@ class BulletMachine {
   const Vec3& ground_impulse() const { return ground_impulse_; }      ///< of the last step [N s]
   const Vec3& external_impulse() const { return external_impulse_; }  ///< since the start [N s]
 
-  /// All state between two steps, in one order. A loaded machine steps on as the saved one did.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// All state between two steps. A loaded machine steps on as the saved one did.
+  void visit(Archive& a);
 
  private:
   /// What add_force left for the next step.
   struct Push {
-    int link;
-    Vec3 f_W, p_W;
+    int link = 0;
+    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+    void visit(Archive& a);
   };
   /// Collision shapes of the links, and a contact of every shell with the rock.
   void add_colliders();
   void add_rock();
-  /// Every number that no part hashes by itself.
-  template <class Visit>
-  void visit_state(Visit visit);
 
   // In the order in which each needs the ones before it.
   scene::Machine machine_;

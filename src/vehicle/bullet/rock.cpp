@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-
-#include "core/error.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -76,26 +73,10 @@ void RockContact::settle() {
   }
 }
 
-void RockContact::hash(StateHash& hash) const {
-  // The corners' normal impulses bound the next step's friction: they are state.
-  for (const double n : normal_) hash.value(n);
-  for (int a = 0; a < 3; ++a) hash.value(impulse_[a]);
-}
-
-void RockContact::save(StateWriter& writer) const {
-  writer.vector(normal_);
-  writer.vec3(impulse_);
-}
-
-void RockContact::load(StateReader& reader) {
-  std::vector<double> normal = reader.vector<double>();
-  if (normal.size() != normal_.size())
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "bullet", "",
-                           "the snapshot has a shell of " + std::to_string(normal.size()) +
-                               " corners, the scene's has " + std::to_string(normal_.size()),
-                           "use the machine it was made with"});
-  normal_ = std::move(normal);
-  impulse_ = reader.vec3();
+void RockContact::visit(Archive& a) {
+  // The corners' normal impulses bound the next step's friction. Another number of corners is another shell.
+  a.fixed("normal", normal_);
+  a("impulse", impulse_);
 }
 
 }  // namespace navvy::vehicle

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "vehicle/bullet/body.h"
 #include "vehicle/bullet/world_constraint.h"
 
@@ -29,9 +28,7 @@ class RockContact final : public WorldConstraint {
   const Vec3& impulse() const { return impulse_; }
 
   /// The corners' normal impulses and the sum: state, as the next step's friction reads them.
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;

@@ -91,4 +91,11 @@ WheelState MachineWheels::state(int i) const {
   return state;
 }
 
+void MachineWheel::visit(Archive& a) {
+  a("tyre", tyre);
+  a("force", force);
+  a("held_spin", held_spin);
+  a("braked", braked);
+}
+
 }  // namespace navvy::vehicle

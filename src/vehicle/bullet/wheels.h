@@ -20,6 +20,8 @@ struct MachineWheel {
   terramechanics::TyreForce force;  // of the last step
   double held_spin = 0;             // angle at which the brake holds [rad]
   bool braked = false;
+
+  void visit(Archive& a);
 };
 
 /// Tyres push on the tree once a step, by terramechanics' law; the tree's links are rigid, their contacts with the

@@ -2,6 +2,8 @@
 // The command of a drive, the same for every kind and every engine.
 #pragma once
 
+#include "core/archive.h"
+
 namespace navvy::vehicle {
 
 /// Held until replaced. What `steer` means is the drive's: a bicycle angle [rad] of an Ackermann drive, a yaw rate
@@ -12,6 +14,8 @@ struct DriveInput {
   double speed = 0;   ///< forward [m/s]
   double steer = 0;   ///< [rad] or [rad/s], as said
   bool brake = true;  ///< hold the place; speed and steer of wheels that turn to steer aside, nothing else acts
+
+  void visit(Archive& a);
 };
 
 }  // namespace navvy::vehicle

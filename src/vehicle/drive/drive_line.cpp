@@ -80,16 +80,10 @@ void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& t
   }
 }
 
-void DriveLine::hash(StateHash& hash) const {
-  for (const Group& group : groups_) group.governor.hash(hash);
-}
-
-void DriveLine::save(StateWriter& writer) const {
-  for (const Group& group : groups_) group.governor.save(writer);
-}
-
-void DriveLine::load(StateReader& reader) {
-  for (Group& group : groups_) group.governor.load(reader);
+void DriveLine::visit(Archive& a) {
+  // A snapshot of another kind of drive has another number of them.
+  a.constant("governors", groups_.size(), "the drive has another number of governors than the scene's");
+  for (std::size_t g = 0; g < groups_.size(); ++g) a.item(g, [&] { a("governor", groups_[g].governor); });
 }
 
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine) {

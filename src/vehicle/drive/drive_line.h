@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/machine.h"
 #include "vehicle/drive/drive_input.h"
 #include "vehicle/drive/governor.h"
@@ -60,9 +59,8 @@ class DriveLine {
   void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
                std::vector<double>& torque);
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  /// The governors' memory.
+  void visit(Archive& a);
 
  protected:
   /// Wheels that one governor turns.

@@ -40,19 +40,9 @@ void SpeedGovernor::reset(double speed) {
   integral_ = 0;
 }
 
-void SpeedGovernor::hash(StateHash& hash) const {
-  hash.value(asked_);
-  hash.value(integral_);
-}
-
-void SpeedGovernor::save(StateWriter& writer) const {
-  writer.value(asked_);
-  writer.value(integral_);
-}
-
-void SpeedGovernor::load(StateReader& reader) {
-  asked_ = reader.value<double>();
-  integral_ = reader.value<double>();
+void SpeedGovernor::visit(Archive& a) {
+  a("asked", asked_);
+  a("integral", integral_);
 }
 
 }  // namespace navvy::vehicle

@@ -2,8 +2,7 @@
 // The speed governor of a hydrostatic drive. Knows no engine and no kind of drive.
 #pragma once
 
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 #include "scene/drive.h"
 
 namespace navvy::vehicle {
@@ -29,9 +28,7 @@ class SpeedGovernor {
   /// Brakes are on at this speed [m/s]: the governor starts afresh from it.
   void reset(double speed);
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   double asked_ = 0;     // [m/s] after the ramp

@@ -13,7 +13,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Body {
   scene::Machine machine;
@@ -112,47 +112,28 @@ class KinematicEngine final : public Engine {
   double work(int) const override { return 0; }
   Vec3 ground_impulse(int) const override { return Vec3::Zero(); }
 
-  // One walk for the three, so that none forgets what another has.
-  void hash(StateHash& hash) const override {
-    for (const Body& body : bodies_) visit(const_cast<Body&>(body), [&](auto& v) { hash.value(v); });
-  }
-  void save(StateWriter& writer) const override {
-    writer.begin("kinematic", kVersion);
-    writer.value(static_cast<std::uint32_t>(bodies_.size()));
-    for (const Body& body : bodies_) visit(const_cast<Body&>(body), [&](auto& v) { writer.value(v); });
-    writer.end();
-  }
-  void load(StateReader& reader) override {
-    reader.begin("kinematic", kVersion);
-    if (reader.value<std::uint32_t>() != bodies_.size())
-      throw SimulationError("vehicle: the snapshot holds another number of kinematic machines");
-    for (Body& body : bodies_) {
-      visit(body, [&](auto& v) { v = reader.value<std::decay_t<decltype(v)>>(); });
-      update_links(body);
-    }
-    reader.end();
+  void visit(Archive& a) override {
+    a.section("kinematic", kVersion, [&] {
+      a.constant("machines", bodies_.size(), "the snapshot holds another number of kinematic machines than the scene");
+      for (std::size_t b = 0; b < bodies_.size(); ++b) a.item(b, [&] { visit_body(bodies_[b], a); });
+    });
   }
 
  private:
   Body& at(int machine) { return bodies_.at(index(machine)); }
   const Body& at(int machine) const { return bodies_.at(index(machine)); }
 
-  /// Every number of a body's state in a fixed order.
-  template <class Visit>
-  static void visit(Body& body, Visit visit) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 4; ++c) visit(body.X_WB.matrix()(r, c));
-    for (int i = 0; i < 3; ++i) visit(body.v_W[i]);
-    for (int i = 0; i < 3; ++i) visit(body.w_W[i]);
-    for (std::size_t j = 0; j < body.q.size(); ++j) {
-      visit(body.q[j]);
-      visit(body.qd[j]);
-      visit(body.input[j].mode);
-      visit(body.input[j].target);
-    }
-    visit(body.drive.speed);
-    visit(body.drive.steer);
-    visit(body.drive.brake);
+  static void visit_body(Body& body, Archive& a) {
+    a("X_WB", body.X_WB);
+    a("v_W", body.v_W);
+    a("w_W", body.w_W);
+    a.fixed("q", body.q);
+    a.fixed("qd", body.qd);
+    a.fixed("input", body.input);
+    a("drive", body.drive);
+    a.require(body.X_WB.matrix().allFinite(), "X_WB", "a machine has no finite place");
+    // Poses of all links follow from base and joints.
+    if (a.loading()) update_links(body);
   }
 
   static void move_joints(Body& body, double dt) {

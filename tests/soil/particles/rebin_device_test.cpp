@@ -21,7 +21,7 @@ TEST(Rebin, SortsParticlesWhereTheHostWouldHavePutThem) {
     std::vector<Particle> drifted = store.records();
     for (std::size_t i = 0; i < drifted.size(); ++i)
       for (int a = 0; a < 3; ++a) drifted[i].x[a] += 0.7f * std::sin(static_cast<float>(7 * i) + static_cast<float>(a));
-    store.assign(drifted, true);
+    store.place(drifted);
     const std::vector<Particle> before = store.records();
     EXPECT_TRUE(store.rebin().empty());
     const std::vector<Particle> after = store.records(), expected = ParticleStore::sorted(before);

@@ -136,31 +136,31 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
   return {};
 }
 
-void DigPlan::hash(StateHash& hash) const {
-  hash.value(length_);
-  hash.value(scoop_volume_);
-  hash.bytes(deepest_.data(), deepest_.size() * sizeof(double));
-  hash.bytes(start_.data(), start_.size() * sizeof(double));
+void TrenchLine::visit(Archive& a) {
+  a("near", near);
+  a("far", far);
+  a("near_reach", near_reach);
+  a("far_reach", far_reach);
+  a("swing", swing);
+  a("offset", offset);
 }
 
-void DigPlan::save(StateWriter& writer) const {
-  // The order is the one of `load`.
-  for (const Vec2& p : {dig_.from, dig_.to, dig_.dump_at, line_.near, line_.far}) writer.vec3(Vec3(p.x(), p.y(), 0));
-  for (const double v : {dig_.depth, dig_.width, dig_.dump_height, dig_.pass_depth, line_.near_reach, line_.far_reach,
-                         line_.swing, line_.offset, scoop_volume_})
-    writer.value(v);
-  writer.vector(start_);
-  writer.vector(deepest_);
-}
-
-void DigPlan::load(StateReader& reader) {
-  for (Vec2* p : {&dig_.from, &dig_.to, &dig_.dump_at, &line_.near, &line_.far}) *p = reader.vec3().head<2>();
-  for (double* v : {&dig_.depth, &dig_.width, &dig_.dump_height, &dig_.pass_depth, &line_.near_reach, &line_.far_reach,
-                    &line_.swing, &line_.offset, &scoop_volume_})
-    *v = reader.value<double>();
-  start_ = reader.vector<double>();
-  deepest_ = reader.vector<double>();
-  if (!start_.empty()) derive();  // a plan that was never made stays so
+void DigPlan::visit(Archive& a) {
+  // The trench as it was ordered when the dig began: a scene that has changed since does not bend a plan half done.
+  a("from", dig_.from);
+  a("to", dig_.to);
+  a("dump_at", dig_.dump_at);
+  a("depth", dig_.depth);
+  a("width", dig_.width);
+  a("dump_height", dig_.dump_height);
+  a("pass_depth", dig_.pass_depth);
+  a("line", line_);
+  a("scoop_volume", scoop_volume_);
+  a("start", start_);
+  a("deepest", deepest_);
+  // One of each a sample, and two samples at least: or none at all, where no plan has been made.
+  a.require(deepest_.size() == start_.size() && start_.size() != 1, "deepest", "has not one depth for each sample");
+  if (a.loading() && !start_.empty()) derive();
 }
 
 }  // namespace navvy::control

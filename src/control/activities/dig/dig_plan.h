@@ -6,8 +6,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/surface.h"
-#include "core/hash.h"
-#include "core/state_io.h"
+#include "core/archive.h"
 
 namespace navvy::control {
 
@@ -17,6 +16,8 @@ struct TrenchLine {
   double near_reach = 0, far_reach = 0;          ///< from the axis, along the line [m]
   double swing = 0;                              ///< angle of the swing joint over the line [rad]
   double offset = 0;                             ///< distance of the line from the swing axis [m]
+
+  void visit(Archive& a);
 };
 
 /// The trench seen from a machine whose frame S of the swing axis is X_WS.
@@ -56,9 +57,7 @@ class DigPlan {
   /// Of the trench as ordered [m3].
   double design_volume() const { return length_ * dig_.width * dig_.depth; }
 
-  void hash(StateHash& hash) const;
-  void save(StateWriter& writer) const;
-  void load(StateReader& reader);
+  void visit(Archive& a);
 
  private:
   double fill_end(const SurfaceView& surface, int start, double level) const;

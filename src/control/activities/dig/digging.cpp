@@ -7,7 +7,6 @@
 #include <string>
 
 #include "control/dig_pose.h"
-#include "core/error.h"
 #include "core/log.h"
 
 namespace navvy::control {
@@ -260,23 +259,32 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
   return false;
 }
 
-void Digging::hash(StateHash& hash) const {
-  ActivityWith::hash(hash);
-  plan_.hash(hash);
+void DiggingMemory::visit(Archive& a) {
+  a("move", move);
+  a("stance", stance);
+  a("tip", tip);
+  a("first_cycle", first_cycle);
+  a("empty_scoops", empty_scoops);
+  a("clean_ups", clean_ups);
+  a("cleaning", cleaning);
+  a("scoop_start", scoop_start);
+  a("scoop_end", scoop_end);
+  a("scoop_level", scoop_level);
+  a("s", s);
+  a("progress", progress);
+  a("curl_angle", curl_angle);
+  a("curl_z", curl_z);
+  a("scoop_volume", scoop_volume);
+  a("full_mass", full_mass);
+  a("held", held);
+  a("held_since", held_since);
 }
 
-void Digging::save(StateWriter& writer) const {
-  ActivityWith::save(writer);
-  plan_.save(writer);
-}
-
-void Digging::load(StateReader& reader) {
-  ActivityWith::load(reader);
+void Digging::visit(Archive& a) {
+  ActivityWith::visit(a);
   // The phase picks a name out of a table.
-  if (phase_index() < kReturn || phase_index() > kLook)
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "operator/dig", std::to_string(phase_index()),
-                           "no phase of a dig", "the snapshot is damaged"});
-  plan_.load(reader);
+  a.require(phase_index() >= kReturn && phase_index() <= kLook, "phase", "no phase of a dig");
+  a("plan", plan_);
 }
 
 }  // namespace navvy::control

@@ -26,6 +26,8 @@ struct DiggingMemory {
   double curl_angle = 0, curl_z = 0;                       ///< of the tip path when the curl began [rad], [m]
   double scoop_volume = 0, full_mass = 0;                  ///< of a full bucket: bank volume [m3], mass [kg]
   double held = 0, held_since = 0;  ///< payload after the lift when it last fell [kg], and when [s]
+
+  void visit(Archive& a);
 };
 
 /// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump, until the plan finds nothing more;
@@ -37,10 +39,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Takes how the machine stands and the surface before the dig, and goes to the first scoop.
   void begin(const Observation& seen) override;
   const char* phase() const override;
-  // Memory and plan.
-  void hash(StateHash& hash) const override;
-  void save(StateWriter& writer) const override;
-  void load(StateReader& reader) override;
+  /// Memory and plan.
+  void visit(Archive& a) override;
 
  private:
   // In the order of a cycle; kLook ends the dig.

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the exchange keeps from step to step: tools' forces, ruts and the ground that rigid bodies meet.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "control/step_kinds.h"
+#include "core/error.h"
+#include "core/saved_state.h"
+#include "device/device.h"
+#include "flip_bytes.h"
+#include "scene_io/loader.h"
+#include "sim/world.h"
+#include "sim/world_parts.h"
+
+namespace navvy::coupling {
+namespace {
+
+/// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of which is flipped.
+scene::World coarse_site() {
+  scene::World world = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
+  world.solver.cell = 0.4;
+  world.machines.at(0).program = {};
+  return world;
+}
+
+class CouplingState : public ::testing::Test {
+ protected:
+  CouplingState() : world_(coarse_site(), device_), other_(coarse_site(), device_) {
+    world_.command(world_.machine(0), {0.8, 0, false});
+    // Longer than between two looks at the ground and two presses of ruts.
+    for (int i = 0; i < 40; ++i) world_.step();
+  }
+  Coupling& coupling() { return sim::parts(world_).coupling; }
+  Coupling& target() { return sim::parts(other_).coupling; }
+  std::string fault_of(const std::vector<char>& bytes) {
+    try {
+      load_saved(bytes, target());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  }
+
+  device::Device device_;
+  sim::World world_, other_;
+};
+
+TEST_F(CouplingState, HashesEveryByteItSaves) {
+  ByteMap map;
+  saved(coupling(), &map);
+  std::size_t ruts = 0;
+  for (const ByteMap::Field& field : map.fields) ruts += field.path.find("memory[") != std::string::npos;
+  EXPECT_GT(ruts, 0u) << "the machine stands in no ruts";
+  EXPECT_EQ(test::flip_every_byte(coupling(), target()), "");
+}
+
+TEST_F(CouplingState, IsLoadedAsItWasSaved) {
+  const std::vector<char> bytes = saved(coupling());
+  load_saved(bytes, target());
+  EXPECT_EQ(saved(target()), bytes);
+  ASSERT_FALSE(target().tools().empty());
+  for (std::size_t t = 0; t < target().tools().size(); ++t) {
+    EXPECT_EQ(target().tools()[t].force_W, coupling().tools()[t].force_W);
+    EXPECT_EQ(target().tools()[t].tool, coupling().tools()[t].tool);
+  }
+}
+
+TEST_F(CouplingState, RefusesAPatchThatCannotBe) {
+  ByteMap map;
+  const std::vector<char> bytes = saved(coupling(), &map);
+  const auto overwritten = [&](const std::string& path, bool last, auto value) {
+    std::vector<char> out = bytes;
+    for (const ByteMap::Field& field : map.fields)
+      if (field.path == path && (!last || field.size > sizeof(std::uint64_t)))
+        std::memcpy(out.data() + field.offset, &value, sizeof value);
+    return fault_of(out);
+  };
+  const auto says = [](const std::string& fault, const std::string& text) {
+    EXPECT_NE(fault.find(text), std::string::npos) << fault;
+  };
+  says(overwritten("coupling/patch_x1", false, 1 << 30), "patch_x1: is out of its range");
+  says(overwritten("coupling/patch_y1", false, -(1 << 28)), "patch_y1: is out of its range");
+  says(overwritten("coupling/patch_y1", false, 1 << 28), "does not fill the patch");
+  says(overwritten("coupling/patch_height", true, std::numeric_limits<float>::infinity()), "must be finite");
+}
+
+}  // namespace
+}  // namespace navvy::coupling

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an engine saves between two steps: no more than it hashes, no less than the next step needs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "core/error.h"
+#include "core/saved_state.h"
+#include "flip_bytes.h"
+#include "vehicle/drive/drive_line.h"
+#include "vehicle/joint_servo.h"
+#include "vehicle/machines.h"
+
+namespace navvy::vehicle {
+namespace {
+
+using testing::digest;
+using testing::flat;
+using testing::run;
+
+constexpr double kStep = 1.0 / 600;
+
+std::unique_ptr<Engine> engine_of(const std::string& name) {
+  return name == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
+}
+
+class EngineState : public ::testing::TestWithParam<std::string> {
+ protected:
+  /// The shipped excavator beside a robot: cylinders, pump, shells and both kinds of drive.
+  std::unique_ptr<Engine> build() const {
+    auto engine = engine_of(GetParam());
+    engine->add_machine(testing::ew180(), Pose::Identity());
+    engine->add_machine(testing::robot(), make_pose(0, 6, 0));
+    engine->set_rock(-0.5);
+    return engine;
+  }
+};
+
+TEST_P(EngineState, HashesEveryByteItSavesAndRefusesEveryByteOfAnotherScene) {
+  const auto engine = build(), target = build();
+  engine->set_drive(0, {0.8, 0.2, false});
+  engine->set_joint(0, testing::ew180().joint_index("boom_joint"), {JointMode::kVelocity, -0.2});
+  run(*engine, flat(), 0.2, kStep);
+  engine->add_force(1, 0, Vec3(1, 2, 3), Vec3(0, 6, 0.2));
+  EXPECT_EQ(test::flip_every_byte(*engine, *target), "");
+}
+
+TEST_P(EngineState, HoldsAForceThatActsInTheNextStepOnly) {
+  const auto engine = build(), resumed = build();
+  run(*engine, flat(), 0.1, kStep);
+  const std::uint64_t before = digest(*engine);
+  engine->add_force(1, 0, Vec3(0, 0, 20), Vec3(0, 6, 0.2));
+  // An engine without forces swallows it.
+  EXPECT_EQ(digest(*engine) == before, GetParam() == "Kinematic");
+  load_saved(saved(*engine), *resumed);
+  for (Engine* each : {engine.get(), resumed.get()}) each->step(kStep, flat());
+  EXPECT_EQ(digest(*resumed), digest(*engine));
+}
+
+TEST_P(EngineState, IsRefusedByOtherMachines) {
+  const std::vector<char> bytes = saved(*build());
+  auto fewer = engine_of(GetParam());
+  fewer->add_machine(testing::ew180(), Pose::Identity());
+  EXPECT_THROW(load_saved(bytes, *fewer), InputError);
+  auto other = engine_of(GetParam());
+  other->add_machine(testing::ew180(), Pose::Identity());
+  other->add_machine(testing::cart(), Pose::Identity());
+  EXPECT_THROW(load_saved(bytes, *other), InputError);
+}
+
+TEST_P(EngineState, WithoutAFinitePlaceIsRefusedByName) {
+  const auto engine = build();
+  ByteMap map;
+  std::vector<char> bytes = saved(*engine, &map);
+  // The base's place: the first number of the one engine, the last three of a pose in the other.
+  for (const ByteMap::Field& field : map.fields) {
+    const bool tree = field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
+    if (!tree && field.path != "kinematic[1]/X_WB") continue;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::memcpy(bytes.data() + field.offset, &nan, sizeof nan);
+  }
+  try {
+    load_saved(bytes, *engine);
+    FAIL() << "a machine without a place was loaded";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, EngineState, ::testing::Values("Bullet", "Kinematic"),
+                         [](const auto& each) { return each.param; });
+
+/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how long it is stuck,
+/// by the limits it had then.
+TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
+  scene::Machine cart = testing::cart();
+  const int rear = cart.joint_index(cart.wheels[2].joint);
+  cart.joints[static_cast<std::size_t>(rear)].velocity = 0.5;
+  const auto build = [&] {
+    auto engine = engine_of("Bullet");
+    engine->add_machine(cart, Pose::Identity());
+    return engine;
+  };
+  for (const double direction : {1.0, -1.0}) {
+    const auto whole = build(), resumed = build();
+    const auto ground = testing::slope(radians(6));
+    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at all.
+    whole->set_joint(0, rear, {JointMode::kVelocity, 0.015 * direction});
+    run(*whole, ground, 0.5, kStep);
+    whole->set_drive(0, {0, 0, true});
+    run(*whole, ground, 0.1, kStep);
+    load_saved(saved(*whole), *resumed);
+    for (Engine* engine : {whole.get(), resumed.get()}) run(*engine, ground, 0.2, kStep);
+    EXPECT_EQ(digest(*resumed), digest(*whole)) << direction;
+  }
+}
+
+TEST(JointServo, HashesEveryByteItSaves) {
+  JointServo servo, target;
+  servo.set({JointMode::kVelocity, 0.3});
+  servo.open({}, {}, 0, 0, kStep);
+  EXPECT_EQ(test::flip_every_byte(servo, target), "");
+  // A mode beyond the last is no command.
+  std::vector<char> bytes = saved(servo);
+  bytes[0] = 4;
+  EXPECT_THROW(load_saved(bytes, target), InputError);
+}
+
+TEST(DriveLine, IsRefusedByAnotherKindOfDrive) {
+  const auto ackermann = make_drive_line(testing::cart()), differential = make_drive_line(testing::robot());
+  const auto same = make_drive_line(testing::robot());
+  EXPECT_EQ(test::flip_every_byte(*differential, *same), "");
+  EXPECT_THROW(load_saved(saved(*ackermann), *differential), InputError);
+}
+
+}  // namespace
+}  // namespace navvy::vehicle
