@@ -37,6 +37,8 @@ class SeenSurface final : public control::SurfaceView {
     }
     return *view_;
   }
+  /// The next question takes a new view.
+  void forget() { view_.reset(); }
 
  private:
   const sim::World& world_;
@@ -327,10 +329,13 @@ void Session::set(const std::string& input, double value) { set(state_->world.in
 
 // Handles say which machine they are of.
 void Session::command(const sim::JointHandle& joint, const vehicle::JointInput& input) {
+  // First what may refuse: a refused command must not end the program.
+  state_->world.require_valid(joint, input);
   state_->take_over(joint.machine());
   state_->world.command(joint, input);
 }
 void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInput& input) {
+  state_->world.require_valid(machine, input);
   state_->take_over(machine.index());
   state_->world.command(machine, input);
 }
@@ -400,6 +405,8 @@ void ForceStatistics::visit(Archive& a) {
 void Session::visit(Archive& a) {
   a("world", state_->world);
   state_->visit(a);
+  // Another state may have the same number of steps: what the operators saw is not what is there.
+  if (a.loading()) state_->surface.forget();
 }
 
 std::string Session::state_hash() const { return hash_of(*this).hex(); }

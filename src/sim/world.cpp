@@ -13,6 +13,20 @@
 #include "sim/world_parts.h"
 
 namespace navvy::sim {
+namespace {
+
+// Commands come from clients, also over a line of text: what an engine cannot use stops here.
+void require_machine(int machine, int count) {
+  if (machine >= 0 && machine < count) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(machine),
+                         "the handle is of no machine of this world", "take handles from the same world"});
+}
+void require_finite(const std::string& what, double value) {
+  if (std::isfinite(value)) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, what, std::to_string(value), "must be finite", ""});
+}
+
+}  // namespace
 
 /// The parts are whole before the first channel is made: channels hold handles into them.
 World::World(scene::World description, device::Device& device)
@@ -117,12 +131,28 @@ std::vector<ToolHandle> World::tools() const {
 }
 
 /// Both engines count machines on their own: the exchange knows which engine has the machine, and its index there.
+void World::require_valid(const JointHandle& joint, const vehicle::JointInput& input) const {
+  require_machine(joint.machine(), machine_count());
+  const auto& joints = parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.joints;
+  if (joint.index() < 0 || joint.index() >= static_cast<int>(joints.size()))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(joint.index()),
+                           "the handle is of no joint of this machine", "take handles from the same world"});
+  require_finite("command of joint '" + joints[static_cast<std::size_t>(joint.index())].name + "'", input.target);
+}
+void World::require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const {
+  require_machine(machine.index(), machine_count());
+  require_finite("speed of the drive", input.speed);
+  require_finite("steering of the drive", input.steer);
+}
+
 void World::command(const JointHandle& joint, const vehicle::JointInput& input) {
+  require_valid(joint, input);
   const int m = joint.machine();
   parts_->coupling.engine(m).set_joint(parts_->coupling.index(m), joint.index(), input);
 }
 /// The drive of a machine without one takes no notice.
 void World::command(const MachineHandle& machine, const vehicle::DriveInput& input) {
+  require_valid(machine, input);
   const int m = machine.index();
   parts_->coupling.engine(m).set_drive(parts_->coupling.index(m), input);
 }

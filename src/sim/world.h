@@ -77,8 +77,12 @@ class World {
   /// Every shell of every machine, machine by machine.
   std::vector<ToolHandle> tools() const;
   /// Held until replaced. A joint that a drive also moves is the drive's again with the drive's next command.
+  /// @throws InputError for a handle of no machine of this world, or a value that is not finite; nothing changes then.
   void command(const JointHandle& joint, const vehicle::JointInput& input);
   void command(const MachineHandle& machine, const vehicle::DriveInput& input);
+  /// Only what `command` refuses. @throws InputError likewise.
+  void require_valid(const JointHandle& joint, const vehicle::JointInput& input) const;
+  void require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const;
 
   /// The resting ground.
   const heightfield::Ground& ground() const;

@@ -117,6 +117,20 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
+TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
+  const scene::World description = load("two_excavators.sdf");
+  const auto session = make(description);
+  run_to(*session, 0.2);
+  const std::string phase = session->phase(0);
+  const double nan = std::nan("");
+  const sim::MachineHandle machine = session->world().machine(0);
+  EXPECT_THROW(session->command(machine.joint(0), {vehicle::JointMode::kVelocity, nan}), InputError);
+  EXPECT_THROW(session->command(machine, {nan, 0, false}), InputError);
+  EXPECT_THROW(session->command(sim::MachineHandle(), {0, 0, true}), InputError);
+  EXPECT_THROW(session->command(sim::JointHandle(), {vehicle::JointMode::kVelocity, 0}), InputError);
+  EXPECT_EQ(session->phase(0), phase);
+}
+
 TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   // Both excavators drive and dig; the first one is stopped on its way and keeps the pose it had.
   const scene::World description = load("two_excavators.sdf");
