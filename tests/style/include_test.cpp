@@ -147,8 +147,8 @@ std::vector<std::string> check(const SourceFile& file) {
 
 /// Clients of a world: they see it through handles, channels and samplers.
 const Names& clients() {
-  static const Names table = {"src/record",  "src/session", "src/cli",  "src/sensor",
-                              "src/planner", "src/python",  "src/link", "examples"};
+  static const Names table = {"src/record",  "src/session", "src/control", "src/cli", "src/sensor",
+                              "src/planner", "src/python",  "src/link",    "examples"};
   return table;
 }
 
