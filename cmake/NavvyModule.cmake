@@ -61,6 +61,15 @@ function(navvy_module name)
   set_property(GLOBAL APPEND PROPERTY NAVVY_MODULES navvy_${name})
 endfunction()
 
+# Where a test or bench finds its tree (tests/paths.h); made once, by whoever comes first.
+function(navvy_paths)
+  if(NOT TARGET navvy_paths)
+    configure_file(${PROJECT_SOURCE_DIR}/tests/paths.cpp.in ${PROJECT_BINARY_DIR}/paths.cpp @ONLY)
+    add_library(navvy_paths STATIC ${PROJECT_BINARY_DIR}/paths.cpp)
+    target_include_directories(navvy_paths PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+  endif()
+endfunction()
+
 # Programs with label host, which run under sanitizers too, and fuzz targets.
 add_custom_target(navvy_host_tests)
 add_custom_target(navvy_fuzzers)
@@ -91,12 +100,10 @@ function(navvy_tests name)
     set_tests_properties(${name}_on_gpu PROPERTIES LABELS "device" ENVIRONMENT "NAVVY_TEST_DEVICE=gpu" TIMEOUT 900
                          SKIP_REGULAR_EXPRESSION "^.  SKIPPED . no OpenCL device")
   endif()
-  target_link_libraries(${name} PRIVATE navvy_flags ${T_LIBS} GTest::gtest ${main})
+  target_link_libraries(${name} PRIVATE navvy_flags ${T_LIBS} navvy_paths GTest::gtest ${main})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   # An EXPECT that is the whole branch of an if is no ambiguity to a reader; the macro's inner else makes it one to GCC.
   target_compile_options(${name} PRIVATE -Wno-dangling-else)
-  target_compile_definitions(${name} PRIVATE NAVVY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                             NAVVY_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(T_LABEL STREQUAL "host")
     add_dependencies(navvy_host_tests ${name})
   endif()

@@ -9,6 +9,7 @@
 
 #include "bench.h"
 #include "core/stopwatch.h"
+#include "paths.h"
 #include "render/renderer.h"
 #include "trench_scene.h"
 
@@ -83,7 +84,7 @@ int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : "";
   render::RenderOptions options;
   options.samples = argc > 2 ? std::atoi(argv[2]) : 1;
-  const std::string meshes = std::string(NAVVY_SOURCE_DIR) + "/vehicles/ew180/meshes";
+  const std::string meshes = navvy::source_dir() + "/vehicles/ew180/meshes";
   const std::vector<Row> rows = {{"side", render::look_from({6.5, -12.0, 4.6}, {1.6, 0.6, 1.55})},
                                  {"front", render::look_from({11.5, -7.0, 4.6}, {2.2, 0.9, 1.3})},
                                  {"close", render::look_from({7.6, -3.6, 2.6}, {4.4, 0.2, 0.5})},

@@ -10,6 +10,7 @@
 #include "bench.h"
 #include "control/step_kinds.h"
 #include "core/stopwatch.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
 
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
     }
     std::vector<std::string> files;
     for (int i = 2; i < argc; ++i) files.emplace_back(argv[i]);
-    const std::string folder = std::string(NAVVY_SOURCE_DIR) + "/scenarios/";
+    const std::string folder = navvy::source_dir() + "/scenarios/";
     if (files.empty())
       for (const char* name : {"block_collapse", "bucket_path", "trench"}) files.push_back(folder + name + ".sdf");
     device::Device device;

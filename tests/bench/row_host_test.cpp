@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/row.h"
 #include "folder.h"
+#include "paths.h"
 
 #include <gtest/gtest.h>
 
@@ -89,8 +90,7 @@ TEST(BenchCompare, PrintsTheRatioAndMarksAnotherHash) {
   std::ofstream(a) << csv_header() << "\n" << csv_line(example()) << "\n";
   std::ofstream(b) << csv_header() << "\n" << csv_line(other) << "\n";
   const std::string out = folder / "compare.txt";
-  const std::string command =
-      "python3 " + std::string(NAVVY_SOURCE_DIR) + "/bench/compare.py " + a + " " + b + " >" + out;
+  const std::string command = "python3 " + navvy::source_dir() + "/bench/compare.py " + a + " " + b + " >" + out;
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::string text, line;
   for (std::ifstream file(out); std::getline(file, line);) text += line + "\n";

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "paths.h"
 #include "process.h"
 
 namespace navvy {
@@ -35,12 +36,12 @@ class Program : public testing::Test {
  protected:
   void SetUp() override {
     directory_ =
-        fs::path(NAVVY_BINARY_DIR) / "test-cli" / testing::UnitTest::GetInstance()->current_test_info()->name();
+        fs::path(navvy::build_dir()) / "test-cli" / testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(directory_);
     fs::create_directories(directory_);
   }
   std::string out() const { return (directory_ / "out").string(); }
-  static std::string scene(const std::string& name) { return NAVVY_SOURCE_DIR "/scenarios/" + name; }
+  static std::string scene(const std::string& name) { return navvy::source_dir() + "/scenarios/" + name; }
 
   /// Starts navvy; stdin holds `input`, stdout and stderr go to files.
   pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
@@ -99,7 +100,7 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
                           "time_share", "cycles", "bank_volume_m3", "loose_volume_m3", "payload_kg", "energy_j",
                           "bucket_force_peak_n", "bucket_force_mean_n", "particles_peak", "state_hash"})
     EXPECT_TRUE(summary.contains(key)) << key;
-  const std::string documented = text_of(NAVVY_SOURCE_DIR "/scenarios/README.md");
+  const std::string documented = text_of(navvy::source_dir() + "/scenarios/README.md");
   for (const auto& [key, value] : summary.items())
     EXPECT_NE(documented.find("`" + key), std::string::npos) << key << " is not in scenarios/README.md";
   for (const char* name : {"telemetry.csv", "terrain_start.tif", "terrain_end.tif", "scene.sdf", "run.json"})
@@ -160,7 +161,7 @@ TEST_F(Program, TellsBadInputByStatusAndMessage) {
 // machine on it: every broken/NAME.sdf is refused with all the lines of broken/NAME.txt.
 TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   int files = 0;
-  for (const auto& entry : fs::directory_iterator(NAVVY_SOURCE_DIR "/tests/cli/broken")) {
+  for (const auto& entry : fs::directory_iterator(navvy::source_dir() + "/tests/cli/broken")) {
     if (entry.path().extension() != ".sdf") continue;
     ++files;
     EXPECT_EQ(run({"check", entry.path().string()}), 2) << entry.path();
@@ -169,7 +170,7 @@ TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
       EXPECT_NE(said().find(fragment), std::string::npos) << "'" << fragment << "' not found in:\n" << said();
   }
   EXPECT_GE(files, 2);
-  const std::string unreachable = NAVVY_SOURCE_DIR "/tests/cli/broken/dig_out_of_reach.sdf";
+  const std::string unreachable = navvy::source_dir() + "/tests/cli/broken/dig_out_of_reach.sdf";
   run({"check", unreachable});
   const std::string checked = said();
   EXPECT_EQ(run({"run", unreachable, "--no-render", "--quiet", "--out", out()}), 2);

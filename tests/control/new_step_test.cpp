@@ -16,6 +16,7 @@
 #include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/saved_state.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 
 namespace navvy::control::testing {
@@ -101,7 +102,7 @@ scene::World load(const std::string& first, const std::string& second, const sce
   const std::string text = "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>" +
                            std::string("<navvy:ground><size_m>60 20</size_m></navvy:ground>\n") +
                            machine("first", "-15", first) + machine("second", "15", second) + "</world></sdf>";
-  return scene_io::load_world_from_string(text, NAVVY_SOURCE_DIR "/scenarios/mine.sdf", kinds);
+  return scene_io::load_world_from_string(text, navvy::source_dir() + "/scenarios/mine.sdf", kinds);
 }
 
 std::string failure(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {

@@ -10,6 +10,7 @@
 #include "core/saved_state.h"
 #include "device/device.h"
 #include "flip_bytes.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
 #include "sim/world_parts.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of which is flipped.
 scene::World coarse_site() {
-  scene::World world = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
+  scene::World world = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.solver.cell = 0.4;
   world.machines.at(0).program = {};
   return world;

@@ -6,6 +6,7 @@
 
 #include "control/step_kinds.h"
 #include "device/device.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
 #include "values.h"
@@ -14,7 +15,7 @@ namespace navvy::coupling {
 namespace {
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
-  scene::World scene = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
+  scene::World scene = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   scene.ground.depth = 0.4;
   scene.machines.at(0).program = {};
   device::Device device;

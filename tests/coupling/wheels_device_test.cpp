@@ -7,6 +7,7 @@
 
 #include "control/step_kinds.h"
 #include "device/device.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "sim/world.h"
 
@@ -18,7 +19,7 @@ constexpr double kWheelRadius = 0.525;
 /// The shipped site with these shapes instead of its own; excavators side by side with their rear axles at x = -9,
 /// 6 m apart to the left, without programs.
 scene::World yard(const std::vector<scene::GroundFeature>& features, int machines = 1) {
-  scene::World world = scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds());
+  scene::World world = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.ground.features = features;
   world.machines.at(0).program = {};
   for (int m = 1; m < machines; ++m) {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "paths.h"
 #include "process.h"
 
 namespace navvy::determinism {
@@ -49,13 +50,13 @@ struct HashedRun {
 /// Runs `scene` with `options` on the CPU; files go below the build tree, into `name`.
 inline HashedRun hashed_run(const std::string& name, const std::string& scene, std::vector<std::string> options,
                             const Environment& environment) {
-  const std::filesystem::path directory = std::filesystem::path(NAVVY_BINARY_DIR) / "test-determinism" /
+  const std::filesystem::path directory = std::filesystem::path(navvy::build_dir()) / "test-determinism" /
                                           testing::UnitTest::GetInstance()->current_test_info()->name() / name;
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   const std::string out = (directory / "out").string();
   std::vector<std::string> arguments{"run",
-                                     std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + scene,
+                                     navvy::source_dir() + "/scenarios/" + scene,
                                      "--no-render",
                                      "--hash-every",
                                      "1",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The small sibling of the minute of digging: one scoop, 1 and 2 threads, snapshot and resume.
 #include "determinism/hashed_run.h"
+#include "paths.h"
 
 namespace navvy::determinism {
 namespace {
@@ -21,7 +22,7 @@ TEST(Threads, OneAndTwoThreadsScoopTheSameBits) {
 }
 
 TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
-  const std::string snapshot = std::string(NAVVY_BINARY_DIR) + "/test-determinism/resume.snapshot";
+  const std::string snapshot = navvy::build_dir() + "/test-determinism/resume.snapshot";
   const HashedRun whole =
       hashed_run("whole", kScene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.5"}, {});
   const HashedRun resumed = hashed_run("resumed", kScene, {"--duration", "4", "--resume", snapshot}, {});

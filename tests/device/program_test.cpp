@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/program.h"
 #include "folder.h"
+#include "paths.h"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +78,7 @@ TEST(Program, NamesTheLineOfAnIncludeThatIsNotThere) {
 
 TEST(Program, EmbedsEveryKernelFile) {
   std::vector<std::string> on_disk;
-  const std::filesystem::path root = std::filesystem::path(NAVVY_SOURCE_DIR) / "kernels";
+  const std::filesystem::path root = std::filesystem::path(navvy::source_dir()) / "kernels";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension();
     if (extension == ".cl" || extension == ".h") on_disk.push_back(entry.path().lexically_relative(root));

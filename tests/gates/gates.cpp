@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gates/gates.h"
+#include "paths.h"
 
 #include <cmath>
 #include <cstdio>
@@ -68,7 +69,7 @@ struct Table {
 
 Table& table() {
   static Table shared = [] {
-    std::ifstream file(std::string(NAVVY_SOURCE_DIR) + "/" + kTable);
+    std::ifstream file(navvy::source_dir() + "/" + kTable);
     std::stringstream text;
     text << file.rdbuf();
     return Table{parse_known_misses(text.str()), {}};

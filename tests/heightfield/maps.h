@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "folder.h"
+#include "paths.h"
 #include "scene/world.h"
 
 namespace navvy::heightfield::testing {
@@ -89,7 +90,7 @@ inline scene::World map_world(const std::string& file, double cell, Vec2 size) {
 
 inline std::string shared_data() {
   const char* given = std::getenv("NAVVY_SHARED_DATA");
-  return given != nullptr ? given : std::string(NAVVY_SOURCE_DIR) + "/../shared/data";
+  return given != nullptr ? given : navvy::source_dir() + "/../shared/data";
 }
 
 }  // namespace navvy::heightfield::testing

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "folder.h"
+#include "paths.h"
 #include "record/run_info.h"
 #include "record/summary.h"
 #include "scene_io/loader.h"
@@ -18,7 +19,7 @@
 namespace navvy::record {
 namespace {
 
-const std::string kKept = std::string(NAVVY_SOURCE_DIR) + "/tests/record/run_1";
+const std::string kKept = navvy::source_dir() + "/tests/record/run_1";
 
 std::string text_of(const std::string& file) {
   const std::vector<char> bytes = read_file(kKept + "/" + file);

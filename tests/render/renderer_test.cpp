@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "folder.h"
+#include "paths.h"
 #include "trench_scene.h"
 
 namespace navvy::render {
@@ -252,7 +253,7 @@ TEST_F(RendererTest, MachinesThrowAShadow) {
 
 TEST_F(RendererTest, TheSameFrameGivesTheSameBytes) {
   TrenchScene scene;
-  make_trench_scene(scene, std::string(NAVVY_SOURCE_DIR) + "/vehicles/ew180/meshes", 200);
+  make_trench_scene(scene, navvy::source_dir() + "/vehicles/ew180/meshes", 200);
   const scene::FrameCamera camera = small_camera({9, -7, 4}, {1.5, 0, 1});
   Renderer renderer;
   const Image first = renderer.render(scene.frame, camera);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/math.h"
+#include "paths.h"
 
 namespace navvy::scene {
 namespace {
@@ -46,7 +47,7 @@ TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
 
 TEST(SoilValues, ThePageOfScenesSaysTheSame) {
   std::map<std::string, std::string> ranges, defaults;
-  std::ifstream page(NAVVY_SOURCE_DIR "/scenarios/README.md");
+  std::ifstream page(navvy::source_dir() + "/scenarios/README.md");
   for (std::string line; std::getline(page, line);) {
     if (line.rfind("| `", 0) != 0) continue;
     std::vector<std::string> cells;

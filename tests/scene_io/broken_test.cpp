@@ -8,12 +8,13 @@
 
 #include "control/step_kinds.h"
 #include "core/file.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
 namespace {
 
-const std::filesystem::path kBroken = std::filesystem::path(NAVVY_SOURCE_DIR) / "tests/scene_io/broken";
+const std::filesystem::path kBroken = std::filesystem::path(navvy::source_dir()) / "tests/scene_io/broken";
 
 std::string text_of(const std::filesystem::path& file) {
   const std::vector<char> bytes = read_file(file.string());

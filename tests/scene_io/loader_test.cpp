@@ -12,11 +12,12 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "folder.h"
+#include "paths.h"
 
 namespace navvy::scene_io {
 namespace {
 
-const std::string kScene = std::string(NAVVY_SOURCE_DIR) + "/scenarios/mine.sdf";  // named only, never written
+const std::string kScene = navvy::source_dir() + "/scenarios/mine.sdf";  // named only, never written
 
 std::string world_text(const std::string& body) {
   return "<sdf version=\"1.9\" xmlns:navvy=\"navvy\">\n<world name=\"w\">\n" + body + "\n</world>\n</sdf>\n";
@@ -148,7 +149,7 @@ TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
 <axis><xyz expressed_in="__model__">0 0 1</xyz><limit><lower>-1</lower><upper>2</upper><effort>50</effort></limit></axis></joint>
 <joint name="turn" type="continuous"><parent>base</parent><child>arm</child><axis><xyz>0 0 5</xyz></axis></joint>
 </model></sdf>)";
-  const std::string file = std::string(NAVVY_BINARY_DIR) + "/order_model.sdf";
+  const std::string file = navvy::build_dir() + "/order_model.sdf";
   write_file_atomically(file, text);
   const scene::Machine machine = load_machine(file);
   ASSERT_EQ(machine.links.size(), 3u);
@@ -294,7 +295,7 @@ TEST(Overrides, SeedDurationRenderTerrainAndSize) {
   overrides.seed = 7;
   overrides.duration = 12.5;
   overrides.render = false;
-  overrides.terrain = std::string(NAVVY_SOURCE_DIR) + "/LICENSE";  // any file: the loader does not open maps
+  overrides.terrain = navvy::source_dir() + "/LICENSE";  // any file: the loader does not open maps
   overrides.at = Vec2(410000.25, 5100000.5);
   overrides.size = Vec2(30, 26);
   const scene::World world = load(kBody, overrides);

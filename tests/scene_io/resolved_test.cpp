@@ -9,13 +9,14 @@
 
 #include "core/file.h"
 #include "folder.h"
+#include "paths.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
 namespace {
 
-const std::string kShipped = std::string(NAVVY_SOURCE_DIR) + "/scenarios";
+const std::string kShipped = navvy::source_dir() + "/scenarios";
 /// No file of this folder exists: nothing in the text may count from where it lies.
 const std::string kElsewhere = "/no_such_folder/scene.sdf";
 
@@ -91,7 +92,7 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
     EXPECT_EQ(text, again) << "written out once more it is the same text";
     EXPECT_EQ(text.find("<include>"), std::string::npos);
     EXPECT_EQ(text.find(" ref=\""), std::string::npos);
-    EXPECT_EQ(text.find(NAVVY_SOURCE_DIR "/vehicles"), std::string::npos) << "shipped files go by model://";
+    EXPECT_EQ(text.find(navvy::source_dir() + "/vehicles"), std::string::npos) << "shipped files go by model://";
     ++scenes;
   }
   EXPECT_GT(scenes, 5);
@@ -130,7 +131,7 @@ TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
 
 TEST(Resolved, AFileThatChangedSinceIsTold) {
   const test::Folder folder;
-  std::filesystem::copy(NAVVY_SOURCE_DIR "/vehicles/test_bucket", folder.path() / "mine",
+  std::filesystem::copy(navvy::source_dir() + "/vehicles/test_bucket", folder.path() / "mine",
                         std::filesystem::copy_options::recursive);
   std::string text;
   load_world_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>

@@ -8,13 +8,14 @@
 
 #include "control/step_kinds.h"
 #include "core/file.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = NAVVY_SOURCE_DIR;
+const fs::path kRoot = navvy::source_dir();
 
 void expect_clean(const fs::path& file) {
   for (const Fault& fault : check(file.string(), control::step_kinds())) ADD_FAILURE() << fault.text();
@@ -97,7 +98,7 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
 TEST(ShippedFiles, TheListingsOfTheTutorialLoad) {
   const auto bytes = read_file((kRoot / "scenarios/README.md").string());
   const std::string text(bytes.begin(), bytes.end());
-  const std::string directory = std::string(NAVVY_BINARY_DIR) + "/tutorial";
+  const std::string directory = navvy::build_dir() + "/tutorial";
   fs::create_directories(directory);
   int count = 0;
   for (std::size_t at = text.find("```xml\n<sdf"); at != std::string::npos; at = text.find("```xml\n<sdf", at + 1)) {

@@ -6,6 +6,7 @@
 
 #include "control/step_kinds.h"
 #include "device/device.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
 #include "session/soil_mass.h"
@@ -23,7 +24,7 @@ scene::World short_haul() {
        {"solver.cell_m=0.2", "machine[dumper].load.mass_kg=2000", "machine[dumper].program.drive_to[1].target_m=-8 0",
         "machine[dumper].program.drive_to[2].target_m=-4 0"})
     overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/haul.sdf", control::step_kinds(), overrides);
+  return scene_io::load_world(navvy::source_dir() + "/scenarios/haul.sdf", control::step_kinds(), overrides);
 }
 
 TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {

@@ -5,6 +5,7 @@
 #include "control/step_kinds.h"
 #include "core/file.h"
 #include "device/device.h"
+#include "paths.h"
 #include "record/summary.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
@@ -21,7 +22,7 @@ void replace(std::string& text, const std::string& what, const std::string& with
 
 /// bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the scoop and half its width.
 scene::World patched_scene() {
-  const std::string path = std::string(NAVVY_SOURCE_DIR) + "/scenarios/bucket_path.sdf";
+  const std::string path = navvy::source_dir() + "/scenarios/bucket_path.sdf";
   const std::vector<char> file = read_file(path);
   std::string text(file.begin(), file.end());
   replace(text, R"(<navvy:soil ref="loam"/>)",

@@ -13,6 +13,7 @@
 #include "core/saved_state.h"
 #include "device/device.h"
 #include "folder.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "sim/height_grid.h"
 #include "sim/snapshot.h"
@@ -25,7 +26,7 @@ scene::World load(const std::string& name, const std::vector<std::string>& setti
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
+  return scene_io::load_world(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 /// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.

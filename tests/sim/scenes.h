@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "control/step_kinds.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 
 namespace navvy::sim::testing {
@@ -14,7 +15,7 @@ inline scene::World load(const std::string& name, const std::vector<std::string>
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
+  return scene_io::load_world(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 }  // namespace navvy::sim::testing

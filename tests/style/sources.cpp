@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "style/sources.h"
+#include "paths.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,7 +24,7 @@ std::string SourceFile::extension() const { return fs::path(path).extension(); }
 
 std::vector<SourceFile> sources(const std::string& folder, const std::vector<std::string>& endings) {
   std::vector<SourceFile> files;
-  const fs::path root(NAVVY_SOURCE_DIR);
+  const fs::path root(navvy::source_dir());
   if (!fs::exists(root / folder)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
     if (!entry.is_regular_file()) continue;
@@ -40,11 +41,11 @@ std::vector<SourceFile> sources(const std::string& folder, const std::vector<std
 }
 
 SourceFile read_source(const std::string& path) {
-  std::ifstream stream(fs::path(NAVVY_SOURCE_DIR) / path, std::ios::binary);
+  std::ifstream stream(fs::path(navvy::source_dir()) / path, std::ios::binary);
   return {path, std::string(std::istreambuf_iterator<char>(stream), {})};
 }
 
-bool exists(const std::string& path) { return fs::exists(fs::path(NAVVY_SOURCE_DIR) / path); }
+bool exists(const std::string& path) { return fs::exists(fs::path(navvy::source_dir()) / path); }
 
 std::vector<Include> includes(const std::string& text) {
   static const std::regex include(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"].*$)re");

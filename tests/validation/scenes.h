@@ -7,6 +7,7 @@
 
 #include "control/step_kinds.h"
 #include "device/device.h"
+#include "paths.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
 
@@ -17,7 +18,7 @@ inline scene::World load_scene(const std::string& name, const std::vector<std::s
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(std::string(NAVVY_SOURCE_DIR) + "/scenarios/" + name, control::step_kinds(), overrides);
+  return scene_io::load_world(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 /// Kernels build once.

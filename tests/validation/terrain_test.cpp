@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "control/step_kinds.h"
+#include "paths.h"
 #include "record/summary.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
@@ -28,7 +29,7 @@ const Spot kSpots[] = {{"Hummocks", "lidar_hummocky_1m.tif", Vec2(200, 200)},
 /// Path of a map, empty when it is not on this machine.
 std::string map_file(const std::string& name) {
   const char* given = std::getenv("NAVVY_TEST_DATA");
-  const std::filesystem::path folder = given != nullptr ? given : NAVVY_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path folder = given != nullptr ? given : navvy::source_dir() + "/../shared/data";
   const std::filesystem::path path = folder / "terrain" / name;
   return std::filesystem::exists(path) ? path.string() : "";
 }
@@ -46,7 +47,7 @@ TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
   overrides.at_is_local = true;
   overrides.set.push_back(scene_io::parse_setting("machine.program.dig.to_m=3.25 0"));
   const scene::World description =
-      scene_io::load_world(NAVVY_SOURCE_DIR "/scenarios/trench.sdf", control::step_kinds(), overrides);
+      scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds(), overrides);
   session::Session session(description, shared_device());
   const heightfield::Ground& ground = session.world().ground();
   double fastest = 0, deepest = 0;
