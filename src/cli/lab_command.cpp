@@ -214,6 +214,8 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     if (q.has_gate()) out["gate"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
     if (q.missed()) out["missed"].push_back(name);
+    // Of a gate that says nothing here: what it holds for.
+    if (!q.in_range) out["not_judged"][name] = q.range;
   }
   for (const lab::Series& s : report.series) {
     nlohmann::json& values = out["series"][key(s.name, s.unit)] = nlohmann::json::array();
@@ -231,15 +233,18 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 /// Empty where there is no number.
 std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_text(value); }
 
-/// Results for a person: five digits, misses marked, how the run went in one line below.
+/// Results for a person: five digits, misses marked, how the run went in the lines below. A gate that holds for other
+/// setups only is told with what it holds for.
 void print_table(const lab::Report& report) {
   std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "gate", "source");
   for (const lab::Quantity& q : report.results) {
     const std::string gate = q.has_gate() ? text_of(q.low) + " .. " + text_of(q.high) : "";
     std::printf("%-40s %14s %12s %-22s %s\n", (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
                 (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(), text_of(q.expected).c_str(),
-                (gate + (q.missed() ? "  MISS" : "")).c_str(), q.source.c_str());
+                (gate + (q.missed() ? "  MISS" : q.in_range ? "" : "  not judged")).c_str(), q.source.c_str());
   }
+  for (const lab::Quantity& q : report.results)
+    if (!q.in_range) std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());
   std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n", report.particles_peak,
               static_cast<unsigned long long>(report.steps), report.simulated_time, report.wall_time,
               static_cast<long long>(report.ledger_error), report.state_hash.c_str());
@@ -255,7 +260,7 @@ std::function<void(double)> progress_line(bool quiet) {
   };
 }
 
-/// Runs the experiment; a missed gate is a result, not a failure of the command.
+/// Runs the experiment. A missed gate is a result like any other, but scripts want to know: it has a status of its own.
 int run_rig(const LabOptions& options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
   // Before the run, which may take an hour.
@@ -270,7 +275,7 @@ int run_rig(const LabOptions& options) {
   std::printf("%s: %s\n", rig.name.c_str(), rig.summary.c_str());
   print_table(report);
   if (!options.json.empty()) write_file_atomically(options.json, to_json(rig, setup, report).dump(1) + "\n");
-  return kOk;
+  return report.missed() ? kGateMissed : kOk;
 }
 
 /// Names an option that the rig does not have, with the nearest that it has.

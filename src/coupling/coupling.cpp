@@ -114,12 +114,14 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
 }
 
 void Coupling::press_ruts(double dt) {
+  // All at once: what one wheel does not bear another may.
+  std::vector<LoadedTyre> tyres;
   for (std::size_t m = 0; m < homes_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w)
-      ruts_.press(machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w)),
-                  kSinkSpeed * kRutInterval * dt);
+      tyres.push_back({machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w))});
   }
+  ruts_.press(tyres, kSinkSpeed * kRutInterval * dt);
 }
 
 void Coupling::update_ground_patch() {

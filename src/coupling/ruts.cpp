@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupling/ground_view.h"
 #include "terramechanics/plate.h"
@@ -35,7 +36,13 @@ void Ruts::press_column(int ix, int iy, double pressure, double width, double mo
   memory.height = ground_.height(ix, iy);
 }
 
-void Ruts::press(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most) {
+void Ruts::press(const std::vector<LoadedTyre>& tyres, double most) {
+  under_.clear();
+  for (const LoadedTyre& one : tyres) press_wheel(one.tyre, one.wheel, most);
+  ground_.hold(std::exchange(under_, {}));
+}
+
+void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most) {
   const Pose& X = wheel.X_WWheel;
   // The soil under the wheel's middle decides the size of the patch; each column then sinks by its own.
   const terramechanics::SoilState under =
@@ -61,6 +68,7 @@ void Ruts::press_patch(const terramechanics::TyrePatch& patch, const scene::Soil
       const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - center.head<2>();
       const double x = d.dot(along);
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > 0.5 * patch.width) continue;
+      under_.insert(static_cast<std::int64_t>(iy) * ground_.nx() + ix);
       // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
       const double tread = terramechanics::plate_pressure(soil, patch.tread_depth(x), patch.width);
       press_column(ix, iy, std::min(patch.pressure, tread), patch.width, most);

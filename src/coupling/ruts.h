@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/archive.h"
@@ -15,20 +16,26 @@
 
 namespace navvy::coupling {
 
+/// One wheel, referred to, and how it stands.
+struct LoadedTyre {
+  const scene::Wheel& tyre;
+  vehicle::WheelState wheel;
+};
+
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
-/// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises.
+/// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises. Columns that
+/// bear a tyre are held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, tyres on soil].
 class Ruts {
  public:
   /// The ground must outlive it.
   explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
 
-  /// Presses the contact patch of one wheel that carries `wheel.force_W`; tyres of a twin pair each carry half. No
-  /// column sinks by more than `most` [m] at a time: ground that gives way at once lets the wheel fall, and what it
-  /// hits with presses deeper than its load would.
-  void press(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
-             double most = std::numeric_limits<double>::infinity());
+  /// Presses the contact patches of all wheels of the world, each of which carries its `wheel.force_W`; tyres of a twin
+  /// pair each carry half. Their columns are held until the next call. No column sinks by more than `most` [m] at a
+  /// time: ground that gives way at once lets the wheel fall, and what it hits with presses deeper than its load would.
+  void press(const std::vector<LoadedTyre>& tyres, double most = std::numeric_limits<double>::infinity());
 
   void visit(Archive& a);
 
@@ -38,6 +45,7 @@ class Ruts {
     double height = 0;    ///< surface it left behind [m]
     void visit(Archive& a);
   };
+  void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most);
   /// One tyre's patch, its middle `left` [m] of the wheel's centre; `soil` is the one under the wheel.
   void press_patch(const terramechanics::TyrePatch& patch, const scene::Soil& soil, const Pose& X_WWheel, double left,
                    double most);
@@ -45,6 +53,7 @@ class Ruts {
   void press_column(int ix, int iy, double pressure, double width, double most);
 
   heightfield::Ground& ground_;
+  std::set<std::int64_t> under_;  ///< columns under the tyres pressed so far in this call
   std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
 };
 

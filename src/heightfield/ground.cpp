@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "core/archive.h"
 #include "core/error.h"
@@ -77,6 +78,7 @@ struct Ground::State {
   explicit State(const std::shared_ptr<const StartSite>& site) : tiles(site) {}
   Tiles tiles;
   ChangeLog changes;
+  std::set<std::int64_t> held;  // iy * nx + ix
   std::mutex view;  // views may be taken from several threads
 };
 
@@ -165,6 +167,22 @@ void Ground::compact_to(int ix, int iy, double height_wanted, float min_specific
   changed(ix, iy);
 }
 
+void Ground::hold(std::set<std::int64_t> columns) {
+  const auto place = [&](std::int64_t key) { return Vec2i(static_cast<int>(key % nx()), static_cast<int>(key / nx())); };
+  // Keys ascend, so the first and the last tell of all.
+  if (!columns.empty() && (*columns.begin() < 0 || *columns.rbegin() >= static_cast<std::int64_t>(nx()) * ny()))
+    throw Error("Ground::hold: a column is outside the site of " + std::to_string(nx()) + " x " + std::to_string(ny()));
+  // Nothing of them has changed but what may happen to them; whoever looks at changes asks for no more.
+  for (const std::int64_t key : state_->held)
+    if (columns.count(key) == 0) state_->changes.add(place(key).x(), place(key).y());
+  sequence_ = state_->changes.sequence();
+  state_->held = std::move(columns);
+}
+
+bool Ground::held(int ix, int iy) const {
+  return !state_->held.empty() && state_->held.count(static_cast<std::int64_t>(iy) * nx() + ix) != 0;
+}
+
 std::vector<std::int64_t> Ground::mass_change() const {
   // Exact integers: the ledger of a run must come out at zero, not near it.
   std::vector<std::int64_t> sum = state_->tiles.start_mass();
@@ -204,7 +222,7 @@ CellRect Ground::touched_rect() const {
 
 void Ground::visit(Archive& a) {
   const Setup& s = setup();
-  a.section("ground", 2, [&] {
+  a.section("ground", 3, [&] {
     constexpr const char* kRule = "the site has another size or datum";
     a.constant("nx", s.nx, kRule);
     a.constant("ny", s.ny, kRule);
@@ -212,6 +230,10 @@ void Ground::visit(Archive& a) {
     a.constant("datum", s.datum, kRule);
     // Layers only: heights and start columns follow from them and from the source.
     a("tiles", state_->tiles);
+    a("held", state_->held);
+    const std::int64_t columns = static_cast<std::int64_t>(nx()) * ny();
+    a.require(state_->held.empty() || (*state_->held.begin() >= 0 && *state_->held.rbegin() < columns), "held",
+              "a column lies beside the site");
     // Number and list of edits as well, so that who continues the run sees the same changes as who never stopped.
     a("changes", state_->changes);
     a.require(state_->changes.lies_in(site_rect()), "changes", "an edit is outside the site");

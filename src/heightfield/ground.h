@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "heightfield/layer.h"
@@ -52,6 +53,12 @@ class Ground final : public Terrain {
   /// not below `min_specific_volume`.
   void compact_to(int ix, int iy, double height, float min_specific_volume = 0.85f);
 
+  /// The columns that something stands on just now, by iy * nx + ix; they replace those held until now. Soil neither
+  /// leaves them nor slides onto them by itself. Columns let go count as changed, so that who waited looks again.
+  /// @throws Error for a column outside the site; nothing has changed then.
+  void hold(std::set<std::int64_t> columns);
+  bool held(int ix, int iy) const;
+
   /// Sum over the touched tiles of mass now minus mass at the start, per soil, recounted from the columns.
   std::vector<std::int64_t> mass_change() const;
   /// Sum over the touched tiles of (height now - height at start) x cell^2, positive part and negative part [m3].
@@ -65,7 +72,7 @@ class Ground final : public Terrain {
   CellRect touched_rect() const;
 
   std::size_t touched_tiles() const;
-  /// Changed columns and the log of edits; the untouched site comes from the scene and is compared in size only. A
+  /// Changed columns, the held ones and the log of edits; the untouched site comes from the scene and is compared in size only. A
   /// ChangeFollower sees what loading changed.
   /// @throws InputError for a site of another size or columns that cannot be.
   void visit(Archive& a);

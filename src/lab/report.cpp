@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvy::lab {
@@ -8,20 +9,25 @@ namespace navvy::lab {
 bool Quantity::has_gate() const { return !std::isnan(low) || !std::isnan(high); }
 
 bool Quantity::missed() const {
-  if (!has_gate()) return false;
+  if (!judged()) return false;
   // Written so that a measured NaN misses.
   const bool above = std::isnan(low) || measured >= low, below = std::isnan(high) || measured <= high;
   return !(above && below) || std::isnan(measured);
 }
 
-void Report::add(const std::string& name, double measured, const std::string& unit, double expected, double low,
-                 double high, const std::string& source) {
+Quantity& Report::add(const std::string& name, double measured, const std::string& unit, double expected, double low,
+                      double high, const std::string& source) {
   // Order of adding is order of printing.
   results.push_back({name, measured, unit, expected, low, high, source});
+  return results.back();
 }
 
 void Report::note(const std::string& name, double measured, const std::string& unit, const std::string& source) {
   results.push_back({name, measured, unit, kNone, kNone, kNone, source});
+}
+
+bool Report::missed() const {
+  return std::any_of(results.begin(), results.end(), [](const Quantity& q) { return q.missed(); });
 }
 
 const Quantity* Report::find(const std::string& name) const {

@@ -19,11 +19,17 @@ struct Quantity {
   std::string unit;  ///< "" for a pure number
   double expected = kNone;
   double low = kNone, high = kNone;  ///< either may be kNone: an open side
-  std::string source;  ///< of expected and gate: a reference as in docs/bibliography.md, a heading of docs/, or words
+  std::string source;      ///< of expected and gate: a reference as in docs/bibliography.md, a heading of docs/, words
+  std::string range = "";  ///< what the gate holds for, in words; empty where it holds for every setup of the rig
+  bool in_range = true;    ///< whether this setup lies there
 
   bool has_gate() const;
-  /// Outside the gate, or not a number; false without a gate.
+  /// Whether the gate says anything about this setup.
+  bool judged() const { return has_gate() && in_range; }
+  /// Judged, and outside the gate or not a number.
   bool missed() const;
+  /// Limits the gate to what its source speaks of. Of a setup outside it nothing can be missed.
+  void holds_for(const std::string& where, bool here) { range = where, in_range = here; }
 };
 
 /// A recorded curve; series of one report have one length unless their names say otherwise.
@@ -42,12 +48,13 @@ struct Report {
   std::int64_t ledger_error = 0;             ///< [kMassQuantum]; 0 = mass closed
   std::string state_hash;                    ///< of the soil at the end, repeatable on one device
 
-  /// Adds a result with a gate around the expected value.
-  void add(const std::string& name, double measured, const std::string& unit, double expected, double low, double high,
+  /// Adds a result with a gate around the expected value. What it returns is good until the next is added.
+  Quantity& add(const std::string& name, double measured, const std::string& unit, double expected, double low, double high,
            const std::string& source);
   /// Adds a result without gate.
   void note(const std::string& name, double measured, const std::string& unit, const std::string& source = "");
   const Quantity* find(const std::string& name) const;  ///< null when there is none
+  bool missed() const;                                  ///< any of the results
 };
 
 }  // namespace navvy::lab

@@ -198,6 +198,27 @@ TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
   EXPECT_EQ(said(), "") << "the rig ran";
 }
 
+TEST_F(Program, LabEndsWithAStatusOfItsOwnWhenItMissesAGate) {
+  // Dropped from 0.2 m the plate stands off by more than a cell [docs/validation.md, buckets and carried loads].
+  const std::string json = (directory_ / "light.json").string();
+  ASSERT_EQ(run({"lab", "light-tool", "--height", "0.2", "--quiet", "--json", json}), 7) << complained();
+  EXPECT_NE(said().find("MISS"), std::string::npos) << said();
+  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 1u);
+}
+
+TEST_F(Program, LabJudgesNothingByAGateThatHoldsForOtherSetups) {
+  // A plane less steep than the soil's friction on it: nothing slides, and there is no acceleration to hold it against.
+  const std::string json = (directory_ / "slide.json").string();
+  run({"lab", "slide", "--tilt-deg", "10", "--time", "0.1", "--quiet", "--json", json});
+  const auto result = nlohmann::json::parse(text_of(json));
+  for (const char* name : {"soil_block__acceleration_m_s2", "rigid_plate__acceleration_m_s2"}) {
+    EXPECT_TRUE(result.at("not_judged").contains(name)) << result.dump(1);
+    EXPECT_FALSE(result.contains("missed") && result.at("missed").dump().find(name) != std::string::npos);
+  }
+  EXPECT_NE(said().find("not judged: soil block, acceleration; its gate holds for a plane so steep"), std::string::npos)
+      << said();
+}
+
 TEST_F(Program, LabWritesEveryNumberOfItsSoil) {
   const std::string json = (directory_ / "light.json").string();
   ASSERT_EQ(run({"lab", "light-tool", "--delta-deg", "12", "--set", "opening_strain=0.02", "--set",

@@ -93,6 +93,17 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
   expect_good(measured);
 }
 
+TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
+  // Its front wheels sink by 0.22 m after the dig has begun: 4.7 deg, for good.
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0, 0, radians(4.7), 0));
+  rig.settled_at = 0.5;
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  const TrenchMeasure measured = measure(rig.ground, trench());
+  report(rig, measured);
+  expect_good(measured);
+  EXPECT_LE(rig.cycles.size(), 9u);  // as many as a level machine may take
+}
+
 TEST(Dig, GivesWayToRockAndFinishesTheRest) {
   // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
   Lines log;

@@ -238,6 +238,7 @@ TEST(Ground, EverySavedByteIsHashedOrRefused) {
   Random random(13);
   std::vector<Layer> taken;
   work(ground, random, 60, taken);
+  ground.hold({5, 100, 101});
   EXPECT_EQ(test::flip_every_byte(ground, target), "");
 }
 
@@ -360,6 +361,29 @@ TEST(Ground, CopiesHeightsOfAnyRectangle) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix)
       ASSERT_EQ(heights[(iy - rect.y0) * 83 + ix - rect.x0], static_cast<float>(ground.height(ix, iy)));
+}
+
+TEST(Ground, HoldsTheColumnsLastNamedAndCountsThoseLetGoAsChanged) {
+  Ground ground(wavy_setup());
+  const auto key = [&](int ix, int iy) { return static_cast<std::int64_t>(iy) * ground.nx() + ix; };
+  ground.hold({key(3, 4), key(5, 4)});
+  EXPECT_TRUE(ground.held(3, 4));
+  EXPECT_FALSE(ground.held(4, 3));
+  const std::uint64_t before = ground.sequence();
+  ground.hold({key(5, 4), key(6, 4)});
+  EXPECT_FALSE(ground.held(3, 4));
+  EXPECT_TRUE(ground.held(6, 4));
+  const CellRect let_go = ground.changed_since(before);
+  EXPECT_EQ(let_go.x0, 3);
+  EXPECT_EQ(let_go.x1, 4);
+  EXPECT_EQ(let_go.y0, 4);
+  EXPECT_EQ(ground.touched_tiles(), 0u);  // no column was made
+  const std::uint64_t same = ground.sequence();
+  ground.hold({key(5, 4), key(6, 4)});
+  EXPECT_EQ(ground.sequence(), same);
+  EXPECT_THROW(ground.hold({-1}), Error);
+  EXPECT_THROW(ground.hold({key(0, ground.ny())}), Error);
+  EXPECT_TRUE(ground.held(5, 4));
 }
 
 TEST(Ground, RefusesNonsense) {

@@ -119,6 +119,14 @@ TEST(Quantity, MissesOutsideItsGateAndWhenItIsNoNumber) {
   EXPECT_TRUE((Quantity{"a", 2.2, "", 2, 1.9, 2.1, ""}.missed()));
   EXPECT_TRUE((Quantity{"a", kNone, "", 2, 1.9, kNone, ""}.missed()));
   EXPECT_TRUE((Quantity{"a", 1, "", kNone, kNone, 0.5, ""}.missed()));
+  Report report;
+  report.add("a", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", false);
+  EXPECT_FALSE(report.missed());
+  EXPECT_TRUE(report.results[0].has_gate());
+  EXPECT_FALSE(report.results[0].judged());
+  EXPECT_EQ(report.results[0].range, "sand");
+  report.add("b", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", true);
+  EXPECT_TRUE(report.missed());
 }
 
 }  // namespace

@@ -15,10 +15,10 @@ using gates::expect_between;
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Every gated result of a rig, and the ledger.
+/// Every result of a rig that its gate judges, and the ledger.
 inline void expect_gates(const lab::Report& report) {
   for (const lab::Quantity& q : report.results)
-    if (q.has_gate())
+    if (q.judged())
       expect_between(q.name + (q.unit.empty() ? "" : " [" + q.unit + "]"), q.measured,
                      std::isnan(q.low) ? -kNoLimit : q.low, std::isnan(q.high) ? kNoLimit : q.high, q.source,
                      q.expected);

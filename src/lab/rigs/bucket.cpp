@@ -148,7 +148,8 @@ Report run_bucket(const Setup& setup) {
   const double volume = loose_volume(setup.soil, coarse.payload);
   report.note("mean horizontal force of the drag", coarse.force, "N");
   report.note("load", coarse.payload, "kg");
-  report.add("held force over the load's weight", coarse.held, "", 1, 0.98, 1.02, "held bucket, grains may fall");
+  report.add("held force over the load's weight", coarse.held, "", 1, 0.98, 1.02,
+             std::string("held bucket, grains may fall ") + kSource);
   report.note("loose volume over struck volume", volume / setup["volume"], "");
   // An upright blade as wide and as deep as the drag.
   const BladeCase wedge{setup.soil.friction_angle,
@@ -225,12 +226,13 @@ Report run_scrape(const Setup& setup) {
   report.note("vertical force while pressing, mean", pressing.z(), "N");
   report.note("vertical force, second half of the drag", dragging.z(), "N");
   // Three times the bucket's own speed: grains may roll, not be shot.
-  report.add("fastest soil when the bucket lifts off", fastest, "m/s", speed, kNone, 3 * speed, "no energy gain");
+  report.add("fastest soil when the bucket lifts off", fastest, "m/s", speed, kNone, 3 * speed,
+             std::string("no energy gain ") + kSource);
   report.add("ground outside the path", 1000 * change_outside(site.ground(), bucket.width, drag), "mm", 0, kNone,
              1000 * setup.cell, std::string("one cell ") + kSource);
   report.note("soil in the bucket at the end of the drag", load, "kg");
   report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
-  report.add("ledger", static_cast<double>(site.solver().ledger().error()), "quanta", 0, 0, 0, "closed");
+  report.add("ledger", static_cast<double>(site.solver().ledger().error()), "quanta", 0, 0, 0, "closed [docs/exchange.md, ledger]");
   driver.write(report, speed / (2 * setup.cell));
   site.finish(report);
   return report;
@@ -282,7 +284,7 @@ Report run_cycle(const Setup& setup) {
              std::string("moist loam 1.00 .. 1.10 with an operator's path ") + kSource);
   report.note("first cycle", volumes.values.front(), "");
   report.note("last cycle", volumes.values.back(), "");
-  report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0, "exact: mass is counted in whole quanta");
+  report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0, "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
   report.note("wakes", static_cast<double>(site.solver().stats().wakes), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");

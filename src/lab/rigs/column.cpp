@@ -97,7 +97,7 @@ void judge_height(const Column& c, double height, Report& report) {
              std::string("a, then a^(2/5) [Lube 2005] ") + kChapter);
 }
 
-void judge(const Column& c, double run_out, double height, Report& report) {
+void judge(const Setup& setup, const Column& c, double run_out, double height, Report& report) {
   const std::string source = std::string(c.axisymmetric ? "[Lube 2004] " : "[Lube 2005] ") + kChapter;
   const double expected = c.axisymmetric ? lube_axisymmetric_run_out(c.a) : lube_plane_run_out(c.a);
   // Bands around the law, as published runs scatter; wider for tall columns.
@@ -106,7 +106,11 @@ void judge(const Column& c, double run_out, double height, Report& report) {
   if (!c.axisymmetric && c.a == 5) low = 1.6 * std::pow(5, 2.0 / 3), high = 2.7 * std::pow(5, 2.0 / 3);
   if (c.axisymmetric && c.a == 1) low = 1.0, high = 1.5;
   if (c.axisymmetric && c.a == 3) low = 2.49, high = 3.81;
-  report.add("run-out over L0", run_out, "", expected, low, high, source);
+  const double phi = degrees(setup.soil.friction_angle);
+  const bool known = !std::isnan(low) && std::abs(phi - 33) < 0.5 && !(setup.soil.cohesion > 0);
+  report.add("run-out over L0", run_out, "", expected, low, high, source)
+      .holds_for(std::string("a of 1 or ") + (c.axisymmetric ? "3" : "5") + ", phi 33, no cohesion, 30 cells along L0",
+                 known && c.length > 29.999 * setup.cell);
   judge_height(c, height, report);
 }
 
@@ -136,7 +140,7 @@ Report run(const Setup& setup) {
   Report report;
   // The height is read from the surface a ball rolls on: the topmost grain stands above what carries others.
   const Surface surface = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
-  judge(column, front.values.back(), surface.highest(), report);
+  judge(setup, column, front.values.back(), surface.highest(), report);
   const FrontTimes times = times_of(time.values, front.values);
   report.add("front accelerates until", times.accelerates, "tau", 0.8, kNone, kNone,
              std::string("[Lube 2004] [Lube 2005] ") + kChapter);

@@ -75,11 +75,14 @@ Report run(const Setup& setup) {
   const Outcome low = stand(setup, phi + setup["stands"], report), high = stand(setup, phi + setup["slides"], report);
   // What was built is read like what is left: the lattice makes steps of the flank.
   report.note("lower heap, angle built", low.before, "deg");
-  report.add("lower heap, angle lost", low.before - low.after, "deg", 0, kNone, 1, std::string("stands ") + kSource);
+  report.add("lower heap, angle lost", low.before - low.after, "deg", 0, kNone, 1, std::string("stands ") + kSource)
+      .holds_for("phi - 2 or less", setup["stands"] < -1.999);
   report.note("lower heap, farthest motion (99 %)", 1000 * low.moved, "mm");
   report.note("steeper heap, angle built", high.before, "deg");
-  report.add("steeper heap, angle lost", high.before - high.after, "deg", kNone, 1.5, kNone,
-             std::string("slides ") + kSource);
+  report
+      .add("steeper heap, angle lost", high.before - high.after, "deg", kNone, 1.5, kNone,
+           std::string("slides ") + kSource)
+      .holds_for("phi + 3 or more, no cohesion", setup["slides"] > 2.999 && !(setup.soil.cohesion > 0));
   report.note("steeper heap, angle at the end", high.after, "deg");
   report.note("steeper heap, farthest motion (99 %)", 1000 * high.moved, "mm");
   return report;

@@ -94,15 +94,18 @@ void judge(const Setup& setup, double pressure, Report& report) {
     if (std::abs(degrees(phi) - 20) < 0.01) low = 5.3, high = 6.7;
     if (std::abs(degrees(phi) - 30) < 0.01) low = 11.7, high = 19.3;
     const double nq = (pressure - c * bearing_nc(phi)) / q, d = davis_angle(phi);
-    report.add("Nq", nq, "", bearing_nq(phi), low, high, std::string("[Reissner 1924], associated flow ") + kSource);
+    report.add("Nq", nq, "", bearing_nq(phi), low, high, std::string("[Reissner 1924], associated flow ") + kSource)
+        .holds_for("phi 20 or 30", !std::isnan(low));
     report.add("Nq against Davis", nq, "", bearing_nq(d), kNone, kNone, "[Davis 1968], zero dilatancy");
     return;
   }
   // Only this case has a solution without assumptions; with friction weight or flow rule come in.
   const bool exact = phi < 1e-6 && setup.is("weightless", "yes");
   const double nc = bearing_nc(phi);
-  report.add("Nc = pressure / c", pressure / c, "", nc, exact ? 0.92 * nc : kNone, exact ? 1.08 * nc : kNone,
-             std::string("[Prandtl 1920] ") + kSource);
+  report
+      .add("Nc = pressure / c", pressure / c, "", nc, exact ? 0.92 * nc : kNone, exact ? 1.08 * nc : kNone,
+           std::string("[Prandtl 1920] ") + kSource)
+      .holds_for("phi 0, weightless soil, a breadth of 20 cells", exact && setup["breadth"] > 19.999 * setup.cell);
 }
 
 /// Presses the strip in at constant speed; the factor is read where the load no longer grows.

@@ -107,7 +107,7 @@ Report run_hold(const Setup& setup) {
   Report report;
   report.add("mean vertical force over the load's weight", -force.z() / weight, "", 1, 0.99, 1.01, kSource);
   report.add("horizontal force over the weight", std::hypot(force.x(), force.y()) / weight, "", 0, kNone, 0.01,
-             "statics");
+             std::string("statics ") + kSource);
   report.add("largest step's deviation", 100 * most, "% of weight", 0, kNone, kNone, "after the first fifth");
   report.add("load lost", load - held, "kg", 0, kNone, 0.01 * load, std::string("no drift ") + kSource);
   report.note("load lost after the first fifth", before - held, "kg");
@@ -166,7 +166,7 @@ Report run_light(const Setup& setup) {
   // An explicit exchange of impulses pushes a light plate away faster than it came.
   report.add("highest energy over the energy at the start", most / first, "", 1, kNone, 1.01,
              std::string("no growth ") + kSource);
-  report.add("speed at the end", tool.motion.v_WT.norm(), "m/s", 0, kNone, 0.02, "at rest");
+  report.add("speed at the end", tool.motion.v_WT.norm(), "m/s", 0, kNone, 0.02, std::string("at rest ") + kSource);
   report.note("mass of the plate", tool.mass, "kg");
   // Its lower face, half a thickness under the middle, is what stands off.
   const double z = tool.motion.X_WT.translation().z();

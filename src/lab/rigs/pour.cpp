@@ -117,8 +117,11 @@ Report run(const Setup& setup) {
   }
   // Between the angle at which flow stops and the friction angle itself, with the reading's own error of a degree.
   const double phi = degrees(setup.soil.friction_angle), flow = degrees(flow_angle(setup.soil.friction_angle));
-  report.add("repose after pouring", at_first, "deg", flow, flow - 1.5, phi + 1, kSource);
-  report.add("repose after rest", angle.values.back(), "deg", flow, flow - 1.5, phi + 1, kSource);
+  const char* const range = "soil without cohesion";
+  const bool here = !(setup.soil.cohesion > 0);
+  report.add("repose after pouring", at_first, "deg", flow, flow - 1.5, phi + 1, kSource).holds_for(range, here);
+  report.add("repose after rest", angle.values.back(), "deg", flow, flow - 1.5, phi + 1, kSource)
+      .holds_for(range, here);
   report.add("angle lost at rest", at_first - angle.values.back(), "deg", 0, -0.5, 0.5,
              std::string("no creep ") + kSource);
   report.note("rms speed at the end", 1000 * rms_speed(site), "mm/s",

@@ -120,7 +120,7 @@ Report run(const Setup& setup) {
     if (!std::isnan(layers.values[k])) above += layers.values[k], count += 1;
   // Resting ground holds nodes up to a quarter of a cell above it: the lowest layer stands off by that much.
   report.add("the same without the lowest layer", 8 * count / above, "", swell, 0.95 * swell, 1.05 * swell,
-             "8 particles a cell in the bank over those in the layers above it");
+             std::string("8 particles a cell in the bank over those in the layers above it ") + kSource);
   report.add("particles a cell inside the heap", got.crowding, "", 8 / swell, kNone, kNone, "8 in the bank");
   report.note("particles that lie about singly", 100 * got.loose_share, "%", "not in the surface's volume");
   report.note("left in the bucket", left, "kg");

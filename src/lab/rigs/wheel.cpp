@@ -185,7 +185,8 @@ Report run(const Setup& setup) {
   report.add("drawbar pull", mean.force.x(), "N", expected(law.drawbar), kNone, kNone, source);
   report.add("sinkage", 1000 * (wheel.radius - mean.height), "mm", expected(1000 * law.sinkage), kNone, kNone, source);
   report.add("torque", -mean.moment.y(), "N m", expected(law.torque), kNone, kNone, source);
-  report.add("vertical force over the load", mean.force.z() / wheel.load, "", 1, 0.95, 1.05, "statics");
+  report.add("vertical force over the load", mean.force.z() / wheel.load, "", 1, 0.95, 1.05,
+             "statics [docs/validation.md, Wheels]");
   report.note("torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
               "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
                   " bears at most about this");
@@ -196,7 +197,7 @@ Report run(const Setup& setup) {
   report.note("first touched above the ground by", 1000 * (carriage.touched() - wheel.radius), "mm",
               "where it bore a fiftieth of the load: contact reaches a cell");
   report.add("particles through the wheel", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
-             "none may pass; summed over steps");
+             "none may pass; summed over steps [docs/validation.md, Wheels]");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);
   // Low-passed like the forces: facets of 7.5 degrees ring.

@@ -219,6 +219,8 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
     case kApproach:
       if (!move(seen)) break;
       enter(kPenetrate);
+      // What the ground under the wheels has done so far is not the bucket's doing.
+      m.stance.settle();
       m.clean_ups += m.cleaning;
       tell(CycleEvent::kScoopStart);
       break;
