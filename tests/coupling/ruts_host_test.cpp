@@ -140,8 +140,8 @@ class SandBed {
   int slumped = 0;
 
  private:
-  static scene::World world() {
-    scene::World out;
+  static scene::Scene world() {
+    scene::Scene out;
     out.soils = {dry_sand()};
     return out;
   }

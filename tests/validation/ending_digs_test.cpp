@@ -54,7 +54,7 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : c.settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  const scene::World description =
+  const scene::Scene description =
       scene_io::load_world(navvy::source_dir() + "/tests/validation/digs/" + c.file, control::step_kinds(), overrides);
   session::Session session(description, shared_device());
   ScoopWatch watch;
