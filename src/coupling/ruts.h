@@ -26,7 +26,7 @@ struct LoadedTyre {
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
 /// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises. Columns that
-/// bear a tyre are held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, tyres on soil].
+/// bear a tyre are held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, ruts].
 class Ruts {
  public:
   /// The ground must outlive it.

@@ -38,6 +38,14 @@ class Lines {
   }
 };
 
+/// A figure of a step's account by name.
+double figure(const StepReport& step, const std::string& name) {
+  for (const Figure& one : step.figures)
+    if (one.name == name) return one.value;
+  ADD_FAILURE() << "no figure " << name;
+  return std::nan("");
+}
+
 void report(const DigRig& rig, const TrenchMeasure& trench_measure) {
   std::printf("removed %.3f (%.2f m3), over-dug %.3f, floor %.3f, centre %.3f m, cycles %zu, %.1f s, tilt %.3f rad\n",
               trench_measure.removed_share, trench_measure.removed, trench_measure.overdug_share,
@@ -132,7 +140,12 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
   ASSERT_TRUE(rig.run(400)) << rig.op.phase();
   report(rig, measure(rig.ground, trench()));
   EXPECT_LE(rig.cycles.size(), 8u);  // 8: the kinematic rock gives way by some steps' travel, three empty ones end it
-  EXPECT_NE(log.text().find("empty scoops"), std::string::npos);
+  const StepReport end = rig.op.reports().back();
+  EXPECT_EQ(end.state, StepState::kStalled) << end.reason;
+  EXPECT_NE(end.reason.find("empty scoops"), std::string::npos) << end.reason;
+  EXPECT_GT(figure(end, "volume_left_m3"), 0.7 * figure(end, "design_volume_m3"));
+  EXPECT_LT(figure(end, "depth_reached_m"), 0.4);
+  EXPECT_EQ(figure(end, "depth_m"), 0.8);
 }
 
 TEST(Dig, StopsAtItsLargestNumberOfCycles) {
@@ -141,6 +154,26 @@ TEST(Dig, StopsAtItsLargestNumberOfCycles) {
   DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(200));
   EXPECT_EQ(rig.cycles.size(), 2u);
+  const StepReport end = rig.op.reports().back();
+  // As ordered, so the program goes on; what it left is told.
+  EXPECT_EQ(end.state, StepState::kDone) << end.reason;
+  EXPECT_NE(end.reason.find("made its 2 cycles; "), std::string::npos) << end.reason;
+  EXPECT_EQ(figure(end, "cycles"), 2);
+  EXPECT_GT(figure(end, "volume_left_m3"), 1);
+}
+
+TEST(Dig, AccountsForWhatItDug) {
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(rig.run(400));
+  const StepReport end = rig.op.reports().back();
+  const TrenchMeasure measured = measure(rig.ground, trench());
+  EXPECT_EQ(end.state, StepState::kDone) << end.reason;
+  EXPECT_EQ(end.reason, "");
+  EXPECT_EQ(figure(end, "cycles"), static_cast<double>(rig.cycles.size()));
+  EXPECT_DOUBLE_EQ(figure(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
+  // The operator looks at the middle of the cut every 0.1 m, the measure at every column.
+  EXPECT_NEAR(figure(end, "volume_left_m3"), (1 - measured.removed_share) * 3.2 * 1.05 * 0.8, 0.15);
+  EXPECT_NEAR(figure(end, "depth_reached_m"), 0.8, 0.05);
 }
 
 TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {

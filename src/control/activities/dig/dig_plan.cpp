@@ -109,6 +109,19 @@ double DigPlan::volume_above(const SurfaceView& surface, double level) const {
   return sum;
 }
 
+TrenchState DigPlan::state(const SurfaceView& surface) const {
+  TrenchState out;
+  std::vector<double> depths;
+  for (int i = 0; i < samples(); ++i) depths.push_back(start_[static_cast<std::size_t>(i)] - height(surface, at(i)));
+  // The first sample has no piece before it, as in volume_above.
+  const double piece = dig_.width * length_ / (samples() - 1);
+  for (std::size_t i = 1; i < depths.size(); ++i) out.left += std::clamp(dig_.depth - depths[i], 0.0, dig_.depth) * piece;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  out.depth = *middle;
+  return out;
+}
+
 double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
   // What the slice still holds goes into equal loads: a short last scoop wears the walls as much as a long one.
   const double rest = volume_above(surface, level);
