@@ -118,7 +118,7 @@ std::string Operator::phase() const {
   return state_->active ? state_->active->phase() : "idle";
 }
 int Operator::cycles() const { return static_cast<int>(state_->place.handover.cycles); }
-Progress Operator::progress() const {
+ProgramProgress Operator::progress() const {
   return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size()), state_->failed()};
 }
 CycleEvent Operator::event() const { return state_->event; }

@@ -21,7 +21,7 @@ const scene::MachineInWorld& placed(const sim::World& world, int machine) {
 
 const heightfield::Terrain& SeenSurface::terrain() const {
   if (!view_ || seen_step_ != world_.steps()) {
-    view_ = sim::terrain_view(world_, heightfield::Surface::kWithLooseSoil);
+    view_ = sim::terrain_view(world_, heightfield::SurfaceKind::kWithLooseSoil);
     seen_step_ = world_.steps();
   }
   return *view_;

@@ -34,7 +34,7 @@ class SeenSurface final : public control::SurfaceView {
 /// One machine's operator with the handles to look through, and the cycle and tip that are not over yet.
 class OperatedMachine {
  public:
-  using Programs = std::map<std::string, control::Progress>;
+  using Programs = std::map<std::string, control::ProgramProgress>;
 
   /// What operators see beside their own machine is shared; all references must outlive it.
   OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs);

@@ -14,7 +14,7 @@ namespace navvy::session {
 /// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket.
 /// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
 struct Cycle {
-  int machine = 0;  ///< as in scene::World::machines
+  int machine = 0;  ///< as in scene::Scene::machines
   double start = 0, lift_out = 0, dump_start = 0, end = 0;
   double payload_lift_out = 0, payload_dump = 0;
   double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
@@ -46,7 +46,7 @@ struct ForceStatistics {
 
 /// How the program of one machine stands, or ended.
 struct ProgramReport {
-  int machine = 0;     ///< as in scene::World::machines
+  int machine = 0;     ///< as in scene::Scene::machines
   int steps = 0;       ///< of the program
   bool taken = false;  ///< by inputs, which drive the machine since then
   /// Of every step that is over, and of the one that runs: its state is that of the program.

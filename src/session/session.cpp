@@ -26,7 +26,7 @@ constexpr double kLongestRest = 6;
 
 // The world first: everything else looks through handles into it.
 struct Session::State {
-  State(scene::World description, device::Device& device)
+  State(scene::Scene description, device::Device& device)
       : world(std::move(description), device),
         surface(world),
         device_name(device.info().name),
@@ -103,7 +103,7 @@ void Session::State::visit(Archive& a) {
   });
 }
 
-Session::Session(scene::World description, device::Device& device)
+Session::Session(scene::Scene description, device::Device& device)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;

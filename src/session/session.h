@@ -21,7 +21,7 @@ class Session {
  public:
   /// @throws InputError listing every target of a program that is out of reach, before anything moves;
   /// device::DeviceError for the device.
-  Session(scene::World description, device::Device& device);
+  Session(scene::Scene description, device::Device& device);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

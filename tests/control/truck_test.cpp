@@ -85,7 +85,7 @@ TEST(Truck, ABedThatSticksEndsTheProgramAsStalled) {
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   for (const int steps : {2, 0}) {
     Operator op(truck(), program({WaitFor{"digger", steps, 100}}));
-    std::map<std::string, Progress> programs{{"digger", {1, 4}}};
+    std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
     Observation seen;
     seen.joints.resize(1);
     seen.programs = &programs;
@@ -103,7 +103,7 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
 
 TEST(Truck, WaitsAsLongAsItIsToldAndSaysForWhat) {
   Operator op(truck(), program({WaitFor{"digger", 0, 3}}), "dumper 7");
-  std::map<std::string, Progress> programs{{"digger", {1, 4}}};
+  std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;
   seen.programs = &programs;
   seen.X_WB.translation() = Vec3(5, -2, 0.3);
@@ -119,7 +119,7 @@ TEST(Truck, WaitsAsLongAsItIsToldAndSaysForWhat) {
 
 TEST(Truck, DoesNotWaitForWhatCannotCome) {
   Operator op(truck(), program({WaitFor{"digger", 3}}));
-  std::map<std::string, Progress> programs{{"digger", {1, 4}}};
+  std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;
   seen.joints.resize(1);
   seen.programs = &programs;
