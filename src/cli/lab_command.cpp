@@ -241,7 +241,11 @@ void print_table(const lab::Report& report) {
     const std::string gate = q.has_gate() ? text_of(q.low) + " .. " + text_of(q.high) : "";
     std::printf("%-40s %14s %12s %-22s %s\n", (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
                 (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(), text_of(q.expected).c_str(),
-                (gate + (q.missed() ? "  MISS" : q.in_range ? "" : "  not judged")).c_str(), q.source.c_str());
+                (gate + (q.missed()   ? "  MISS"
+                         : q.in_range ? ""
+                                      : "  not judged"))
+                    .c_str(),
+                q.source.c_str());
   }
   for (const lab::Quantity& q : report.results)
     if (!q.in_range) std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());

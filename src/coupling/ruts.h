@@ -53,7 +53,7 @@ class Ruts {
   void press_column(int ix, int iy, double pressure, double width, double most);
 
   heightfield::Ground& ground_;
-  std::set<std::int64_t> under_;  ///< columns under the tyres pressed so far in this call
+  std::set<std::int64_t> under_;           ///< columns under the tyres pressed so far in this call
   std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
 };
 

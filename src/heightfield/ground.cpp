@@ -79,7 +79,7 @@ struct Ground::State {
   Tiles tiles;
   ChangeLog changes;
   std::set<std::int64_t> held;  // iy * nx + ix
-  std::mutex view;  // views may be taken from several threads
+  std::mutex view;              // views may be taken from several threads
 };
 
 Ground::Ground(Setup setup)
@@ -168,7 +168,9 @@ void Ground::compact_to(int ix, int iy, double height_wanted, float min_specific
 }
 
 void Ground::hold(std::set<std::int64_t> columns) {
-  const auto place = [&](std::int64_t key) { return Vec2i(static_cast<int>(key % nx()), static_cast<int>(key / nx())); };
+  const auto place = [&](std::int64_t key) {
+    return Vec2i(static_cast<int>(key % nx()), static_cast<int>(key / nx()));
+  };
   // Keys ascend, so the first and the last tell of all.
   if (!columns.empty() && (*columns.begin() < 0 || *columns.rbegin() >= static_cast<std::int64_t>(nx()) * ny()))
     throw Error("Ground::hold: a column is outside the site of " + std::to_string(nx()) + " x " + std::to_string(ny()));

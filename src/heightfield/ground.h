@@ -72,8 +72,8 @@ class Ground final : public Terrain {
   CellRect touched_rect() const;
 
   std::size_t touched_tiles() const;
-  /// Changed columns, the held ones and the log of edits; the untouched site comes from the scene and is compared in size only. A
-  /// ChangeFollower sees what loading changed.
+  /// Changed columns, the held ones and the log of edits; the untouched site comes from the scene and is compared in
+  /// size only. A ChangeFollower sees what loading changed.
   /// @throws InputError for a site of another size or columns that cannot be.
   void visit(Archive& a);
 

@@ -49,8 +49,8 @@ struct Report {
   std::string state_hash;                    ///< of the soil at the end, repeatable on one device
 
   /// Adds a result with a gate around the expected value. What it returns is good until the next is added.
-  Quantity& add(const std::string& name, double measured, const std::string& unit, double expected, double low, double high,
-           const std::string& source);
+  Quantity& add(const std::string& name, double measured, const std::string& unit, double expected, double low,
+                double high, const std::string& source);
   /// Adds a result without gate.
   void note(const std::string& name, double measured, const std::string& unit, const std::string& source = "");
   const Quantity* find(const std::string& name) const;  ///< null when there is none

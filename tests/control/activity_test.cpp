@@ -248,8 +248,8 @@ TEST(Stance, SettlesWithItsGroundAndTellsWhichWayItTips) {
   Stance stance;
   stance.begin(pitched(0));
   EXPECT_NEAR(stance.rise(pitched(2), arm, 0), radians(2), 1e-12);
-  EXPECT_NEAR(stance.rise(pitched(2), arm, kPi), -radians(2), 1e-12);      // the arm over the rear
-  EXPECT_NEAR(stance.rise(pitched(2), arm, 0.5 * kPi), 0, 1e-12);          // to the side
+  EXPECT_NEAR(stance.rise(pitched(2), arm, kPi), -radians(2), 1e-12);       // the arm over the rear
+  EXPECT_NEAR(stance.rise(pitched(2), arm, 0.5 * kPi), 0, 1e-12);           // to the side
   EXPECT_NEAR(stance.rise(make_pose(0, 0, 1, 0, 0, 2), arm, 0), 0, 1e-12);  // turned and moved only
   // The front wheels have sunk: once it is settled that is how it stands, and only more is tipping.
   EXPECT_EQ(stance.footing(pitched(-4.7)), 0);

@@ -37,7 +37,10 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
     EXPECT_TRUE(q.in_range || !q.range.empty()) << name << ", " << q.name;
     std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, gate %g .. %g %s (%s)\n", name.c_str(),
                 q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high,
-                q.missed() ? "MISS" : q.in_range ? "" : "not judged", q.source.c_str());
+                q.missed()   ? "MISS"
+                : q.in_range ? ""
+                             : "not judged",
+                q.source.c_str());
   }
   std::printf("[ VALUE    ] %-8s cell %g m, %d particles, %.2f s simulated, %.2f s\n", name.c_str(), setup.cell,
               report.particles_peak, report.simulated_time, report.wall_time);

@@ -93,8 +93,7 @@ TEST(DrySand, BearsAnIdleMachineAndLetsItDriveAway) {
   const auto lowest = [&] {
     double out = 0;
     for (int iy = 0; iy < ground.ny(); ++iy)
-      for (int ix = 0; ix < ground.nx(); ++ix)
-        out = std::max(out, ground.start_height(ix, iy) - ground.height(ix, iy));
+      for (int ix = 0; ix < ground.nx(); ++ix) out = std::max(out, ground.start_height(ix, iy) - ground.height(ix, iy));
     return out;
   };
   run_to(session, 3);

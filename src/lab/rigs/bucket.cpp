@@ -232,7 +232,8 @@ Report run_scrape(const Setup& setup) {
              1000 * setup.cell, std::string("one cell ") + kSource);
   report.note("soil in the bucket at the end of the drag", load, "kg");
   report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
-  report.add("ledger", static_cast<double>(site.solver().ledger().error()), "quanta", 0, 0, 0, "closed [docs/exchange.md, ledger]");
+  report.add("ledger", static_cast<double>(site.solver().ledger().error()), "quanta", 0, 0, 0,
+             "closed [docs/exchange.md, ledger]");
   driver.write(report, speed / (2 * setup.cell));
   site.finish(report);
   return report;
@@ -284,7 +285,8 @@ Report run_cycle(const Setup& setup) {
              std::string("moist loam 1.00 .. 1.10 with an operator's path ") + kSource);
   report.note("first cycle", volumes.values.front(), "");
   report.note("last cycle", volumes.values.back(), "");
-  report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0, "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
+  report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0,
+             "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
   report.note("wakes", static_cast<double>(site.solver().stats().wakes), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");

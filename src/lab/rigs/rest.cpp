@@ -93,16 +93,14 @@ Report run(const Setup& setup) {
              std::string("an SPH soil's scatter ") + kSource);
   // The plane-strain cone, sqrt(J2) = p sin phi, under the stress of rest.
   const double yields = std::asin(std::min(1.0, std::sqrt(3.0) * (1 - k0) / (1 + 2 * k0)));
-  const bool bears =
-      setup.is("stressed", "yes") && (setup.soil.friction_angle > yields || setup.soil.cohesion > 0);
+  const bool bears = setup.is("stressed", "yes") && (setup.soil.friction_angle > yields || setup.soil.cohesion > 0);
   const std::string range =
       "soil that bears K0 stress (phi above " + short_text(degrees(yields)) + ", or cohesion), stressed at the start";
   report
       .add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0,
            std::string("nu / (1 - nu), elastic rest ") + kSource)
       .holds_for(range, bears);
-  report.add("farthest motion", 1000 * farthest, "mm", 0, 0, 1, kSource)
-      .holds_for(range, bears);
+  report.add("farthest motion", 1000 * farthest, "mm", 0, 0, 1, kSource).holds_for(range, bears);
   write_profile(site, half, report);
   site.finish(report);
   return report;

@@ -252,8 +252,8 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
 int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
                                double elapsed) {
   // A column moves only while nothing rests on it, nothing is to wake in it and no tool stands in it: particles and
-  // shells would not notice that the ground under them went. Nor does one that bears a tyre: what slid under it would be
-  // pressed again, for ever.
+  // shells would not notice that the ground under them went. Nor does one that bears a tyre: what slid under it would
+  // be pressed again, for ever.
   const auto blocked = [&](int ix, int iy) {
     if (ground.held(ix, iy)) return true;
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;

@@ -30,7 +30,7 @@ constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
 constexpr double kRest = 2.0;                                      // [s] for loose soil to come to rest before the end
-constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
+constexpr int kMostCycles = 60;                                    // of a dig that was ordered no number of them
 // Of the design volume: with more left a trench is not done [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
 constexpr int kMostCleanUps = 2;
