@@ -5,10 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/crash.h"
 #include "cli/exit_code.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -71,6 +73,10 @@ int guarded(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::install_crash_report();
+  // A reader that went away and a file that grew past its limit are errors of the call that writes, told like others.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   // The first lines of the help are what a newcomer types.
   CLI::App app(
       "Navvy: terrain and excavation simulator on OpenCL.\n"
@@ -80,7 +86,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
-      "written, 5 the simulation stopped itself (failed.snapshot is left), 130 interrupted.\n"
+      "written, 5 the simulation stopped itself (failed.snapshot is left), 130 interrupted (Ctrl-C, SIGTERM, SIGHUP,\n"
+      "a controller that went away); above 130 a crash of Navvy's own, which says where.\n"
       "scenarios/README.md explains scene files from the first line on.");
   // Filled by the subcommand that was typed.
   cli::Action action;

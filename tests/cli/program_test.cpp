@@ -363,13 +363,6 @@ TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
   EXPECT_NEAR(time, 10 / 50.0, 0.01);
 }
 
-TEST_F(Program, NamesTheLineOfABadControlMessage) {
-  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--out", out()},
-                "{\"inputs\": {}}\n{\"inputs\": {\"bucket/slyde_x/velocity\": 1}}\n"),
-            2);
-  EXPECT_NE(complained().find("bucket/slide_x/velocity"), std::string::npos) << complained();
-}
-
 TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   const std::string snapshot = (directory_ / "middle.snapshot").string();
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out", out(), "--snapshot",
