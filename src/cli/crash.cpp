@@ -5,8 +5,11 @@
 #include <execinfo.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 
@@ -33,39 +36,67 @@ bool is_driver(const char* file) {
 
 /// These pass on what their callers did.
 bool is_between(const char* file) {
-  return holds_any(file, {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux", "libasan", "linux-vdso"});
+  return holds_any(file,
+                   {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux", "libasan", "linux-vdso"});
 }
 
-extern "C" void on_crash(int signal) {
-  // The second crash, in what follows, ends the process as the system does.
-  for (const int one : kCrashes) ::signal(one, SIG_DFL);
+/// Where this was called from, as a text for people: "abort inside the OpenCL driver, in libpocl.so.2". True when that
+/// is the driver.
+bool blame(const char* what, int signal, char* text, std::size_t size) {
   Dl_info own{};
-  dladdr(reinterpret_cast<void*>(&on_crash), &own);
+  dladdr(reinterpret_cast<void*>(&blame), &own);
   void* frames[64];
   const int count = backtrace(frames, 64);
   const char* where = nullptr;  // innermost that is not between
   bool driver = false;
-  // From the inside out, without this function; other libraries work for the driver (LLVM compiles for it) as long as
-  // none of our own code lies between.
-  for (int i = 1; i < count && !driver; ++i) {
+  bool handler = true;  // our frames that come first are this function's and its callers'
+  // From the inside out; other libraries work for the driver (LLVM compiles for it) as long as none of our own code
+  // lies between.
+  for (int i = 0; i < count && !driver; ++i) {
     Dl_info info;
-    if (dladdr(frames[i], &info) == 0 || info.dli_fname == nullptr || is_between(info.dli_fname)) continue;
+    const bool known = dladdr(frames[i], &info) != 0 && info.dli_fname != nullptr;
+    handler = handler && known && info.dli_fbase == own.dli_fbase;
+    if (handler || !known || is_between(info.dli_fname)) continue;
     if (where == nullptr) where = info.dli_fname;
     driver = is_driver(info.dli_fname);
     if (info.dli_fbase == own.dli_fbase) break;
   }
   const char* slash = where == nullptr ? nullptr : std::strrchr(where, '/');
   const char* name = slash != nullptr ? slash + 1 : where != nullptr ? where : "an unknown place";
-  char text[512];
-  std::snprintf(text, sizeof text, "%s inside %s%s (signal %d)%s", signal == SIGABRT ? "abort" : "crash",
-                driver ? "the OpenCL driver, in " : "", name, signal,
-                driver ? "; its cause stands above if it told one; check disk, memory and the driver's version" : "");
+  std::snprintf(text, size, "%s inside %s%s", what, driver ? "the OpenCL driver, in " : "", name);
+  const std::size_t used = std::strlen(text);
+  if (signal != 0) std::snprintf(text + used, size - used, " (signal %d)", signal);
+  if (driver)
+    std::strncat(text, "; it may have told its cause above; check disk, memory and the driver's version",
+                 size - std::strlen(text) - 1);
+  return driver;
+}
+
+void tell(const char* text) {
   record::leave_last_words("failed", text);
   const char* const parts[] = {"error: ", text, "\n"};
   for (const char* part : parts)
     if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+}
+
+extern "C" void on_crash(int signal) {
+  // The second crash, in what follows, ends the process as the system does.
+  for (const int one : kCrashes) ::signal(one, SIG_DFL);
+  char text[512];
+  const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
+  tell(text);
   if (driver) _exit(kDevice);
   raise(signal);
+}
+
+std::atomic<bool> exit_expected{false};
+
+extern "C" void on_exit_of_others() {
+  if (exit_expected) return;
+  char text[512];
+  const bool driver = blame("end of the process", 0, text, sizeof text);
+  tell(text);
+  _exit(driver ? kDevice : kInternal);
 }
 
 }  // namespace
@@ -82,6 +113,9 @@ void install_crash_report() {
   action.sa_handler = on_crash;
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   for (const int one : kCrashes) sigaction(one, &action, nullptr);
+  std::atexit(on_exit_of_others);
 }
+
+void expect_exit() { exit_expected = true; }
 
 }  // namespace navvy::cli

@@ -70,13 +70,8 @@ int guarded(const cli::Action& action) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  cli::install_crash_report();
-  // A reader that went away and a file that grew past its limit are errors of the call that writes, told like others.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+/// The whole program, from its command line on.
+int run(int argc, char** argv) {
   // The first lines of the help are what a newcomer types.
   CLI::App app(
       "Navvy: terrain and excavation simulator on OpenCL.\n"
@@ -116,5 +111,17 @@ int main(int argc, char** argv) {
   }
   // Only now: parsing says what it has to say by itself.
   install_log_sink();
-  return guarded(action);
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::install_crash_report();
+  // A reader that went away and a file that grew past its limit are errors of the call that writes, told like others.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const int status = guarded([&] { return run(argc, argv); });
+  cli::expect_exit();
+  return status;
 }

@@ -22,7 +22,7 @@ namespace {
 const std::string kHead = "navvy run folder 1";
 const std::string kMoving = kHead + " moving";
 /// What runs write: a file of one of these names that no list knows is somebody's own.
-const char* const kNames[] = {"scene.sdf",         "run.json",        "summary.json",    "telemetry.csv", "hashes.csv",
+const char* const kNames[] = {"scene.sdf",         "run.json",        "summary.json",    "telemetry.csv",  "hashes.csv",
                               "terrain_start.tif", "terrain_end.tif", "failed.snapshot", "summary.reserve"};
 
 /// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
@@ -116,10 +116,10 @@ void RunFolder::require_unread(const Marker& marker, const std::string& folder,
     if (read.empty()) continue;
     for (const std::string& name : marker.names)
       if (fs::equivalent(read, fs::path(folder) / name, code) && !code)
-        refuse(directory_,
-               "this run reads '" + read + "', which would be removed: the results in '" + directory_ +
-                   "' take its place",
-               "choose another folder with --out, or move the file away");
+        refuse(
+            directory_,
+            "this run reads '" + read + "', which would be removed: the results in '" + directory_ + "' take its place",
+            "choose another folder with --out, or move the file away");
   }
 }
 

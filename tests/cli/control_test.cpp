@@ -32,8 +32,10 @@ std::string text_of(const std::string& path) {
 class Control : public testing::Test {
  protected:
   std::vector<std::string> arguments() const {
-    return {"run",    navvy::source_dir() + "/scenarios/bucket_path.sdf", "--no-render", "--control", "stdio",
-            "--out", folder_ / "out"};
+    return {"run",          navvy::source_dir() + "/scenarios/bucket_path.sdf",
+            "--no-render",  "--control",
+            "stdio",        "--out",
+            folder_ / "out"};
   }
   /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to `lines`.
   int drive(const std::string& input, std::vector<json>& lines) {
@@ -86,8 +88,9 @@ TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
   std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})";
   const auto begun = std::chrono::steady_clock::now();
   std::vector<json> lines;
-  ASSERT_EQ(drive(deep + "\n" + wide + "\n" + std::string(100000000, 'y') + "\n" + hidden + "\n{}\n{\"end\": true}", lines),
-            0)
+  ASSERT_EQ(
+      drive(deep + "\n" + wide + "\n" + std::string(100000000, 'y') + "\n" + hidden + "\n{}\n{\"end\": true}", lines),
+      0)
       << complained();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   ASSERT_EQ(lines.size(), 6u);

@@ -105,7 +105,8 @@ TEST(RunFolderLock, WhatTheRunReadsIsNotRemovedUnderIt) {
   {
     RunFolder failed(out);
     failed.begin();
-    for (const char* name : {"summary.json", "failed.snapshot"}) write_file_atomically(failed.path(name), std::string("1"));
+    for (const char* name : {"summary.json", "failed.snapshot"})
+      write_file_atomically(failed.path(name), std::string("1"));
   }
   // From the present results: they are moved, not removed.
   EXPECT_EQ(refusal(out, {out + "/failed.snapshot"}), "");
@@ -124,8 +125,7 @@ TEST(RunFolderLock, AMoveThatWasCutShortIsGoneOnWith) {
   run(out, 1);
   run(out, 2);
   // As a kill leaves it: the list says "moving", one file of three has come.
-  write(out + ".previous/navvy.run",
-        "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
+  write(out + ".previous/navvy.run", "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
   fs::rename(out + "/summary.json", out + ".previous/summary.json");
   fs::remove(out + ".previous/telemetry.csv");
   fs::remove_all(out + ".previous/frames");
