@@ -43,7 +43,7 @@ struct RunOptions {
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
-  void show(const record::Progress& p) {
+  void show(const record::RunProgress& p) {
     // Twice a second: a terminal is slower than a step.
     if (!on_ || watch_.seconds() < 0.5) return;
     watch_.restart();
@@ -65,7 +65,7 @@ class ProgressLine {
 };
 
 /// Named by the scene and not by its file: a scene read from a run's folder goes back there.
-std::string default_out(const scene::World& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
+std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
 
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
 int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
@@ -106,8 +106,22 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // From here on nobody hurries: the files are closed in their order.
   const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
   signals.obeyed();
-  recorder.finish(interrupted ? "interrupted" : "finished", control ? control->gone() : "");
-  return interrupted ? kInterrupted : kOk;
+  const bool complete = session.complete();
+  recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
+  if (interrupted) return kInterrupted;
+  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
+  // failure.
+  const bool cut_as_asked = (options.scene.duration > 0 || control) && !session.fell_short();
+  return complete || cut_as_asked ? kOk : kIncomplete;
+}
+
+/// The programs that did not come to their end, one a line: what a user must not miss.
+void tell_programs(std::FILE* say, const session::Session& session) {
+  for (const session::ProgramReport& report : session.programs()) {
+    if (report.taken || report.last().state == control::StepState::kDone) continue;
+    const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
+    std::fprintf(say, "incomplete: %s\n", session::told(report, name).c_str());
+  }
 }
 
 /// A snapshot that cannot be read is bad input, told before the scene is built.
@@ -128,7 +142,7 @@ int run(const RunOptions& options) {
   // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
   record::Options record_options;
-  const scene::World description = options.scene.load(&record_options.scene_text);
+  const scene::Scene description = options.scene.load(&record_options.scene_text);
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
   // Taken before minutes are spent, emptied when the run begins.
   auto folder = std::make_unique<record::RunFolder>(
@@ -150,6 +164,7 @@ int run(const RunOptions& options) {
   const int code = step_to_the_end(options, session, recorder, signals);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
+  if (code != kInterrupted) tell_programs(say, session);
   std::fprintf(say, "results: %s/summary.json\n", record_options.directory.c_str());
   return code;
 }

@@ -97,7 +97,7 @@ void Recorder::State::write_start() {
   // how it ended.
   write_summary(false);
   // What it was comes next.
-  const scene::World& scene = session.world().description();
+  const scene::Scene& scene = session.world().description();
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
   write_file_atomically(path("run.json"),
                         run_json({kRunFormat, navvy_version(), options.command, scene.file, session.device_name()}));
@@ -231,10 +231,10 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   if (first && status != "failed") std::rethrow_exception(first);
 }
 
-Progress Recorder::progress() const {
+RunProgress Recorder::progress() const {
   const State& s = *state_;
   const sim::World& world = s.session.world();
-  Progress out;
+  RunProgress out;
   out.time = world.time();
   out.duration = world.description().recording.duration;
   // What a resumed run had done before does not count as its own speed.

@@ -68,7 +68,7 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
   };
   std::string input;
   for (const auto& [line, message] : bad) input += line + "\n";
-  input += "{}\n{\"end\": true}\n";
+  input += "{\"inputs\": {\"bucket/slide_x/velocity\": 0}}\n{\"end\": true}\n";
   std::vector<json> lines;
   ASSERT_EQ(drive(input, lines), 0) << complained();
   ASSERT_EQ(lines.size(), bad.size() + 2);
