@@ -17,8 +17,9 @@ namespace navvy::soil::reference {
 
 /// What of the method may be changed; as it stands here it is that of the kernels.
 struct PlaneMethod {
-  /// kFraction: the contact's weight is a share of the impulse, made independent of the step [docs/tools.md, contact
-  /// weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times the plate's speed.
+  /// kFraction: the contact's weight is a share of the impulse, made independent of the step
+  /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times
+  /// the plate's speed.
   enum class Contact { kFraction, kKinematic };
   /// Where particles crowd: kClosing takes it out of J [docs/soil.md, closing]; kShear moves them apart by their
   /// shear rate and leaves J alone; kNone does nothing.

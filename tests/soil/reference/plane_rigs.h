@@ -6,7 +6,7 @@
 
 namespace navvy::soil::reference {
 
-/// An upright plate pushed along; [docs/validation.md, blades].
+/// An upright plate pushed along [docs/validation.md, speed and step].
 struct PlaneBlade {
   double depth = 0.3, speed = 0.15;   ///< [m], [m/s]
   double from = 0.03, travel = 0.07;  ///< forces count from here to there [m]
