@@ -13,7 +13,7 @@ enum ExitCode {
   kSimulation = 5,    ///< the run stopped itself; failed.snapshot was written
   kIncomplete = 6,    ///< the run ended, but a program of it did not come to its end; all results are there
   kGateMissed = 7,    ///< an experiment of the laboratory ended outside a gate that holds for it
-  kInterrupted = 130  ///< Ctrl-C or SIGTERM; results up to then are complete
+  kInterrupted = 130  ///< Ctrl-C, SIGTERM, SIGHUP, or a controller that went away; results up to then are complete
 };
 
 }  // namespace navvy::cli
