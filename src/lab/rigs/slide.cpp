@@ -104,10 +104,14 @@ double slide_plate(const Setup& setup, Report& report) {
   }
   const double bond = setup.soil.adhesion * length * width * 0.5 * setup["time"];
   const double most = bond + std::tan(setup.soil.tool_friction_angle) * normal;
+  const double tilt = radians(setup["tilt-deg"]), rub = std::tan(setup.soil.tool_friction_angle);
+  const bool slides = setup["pressure"] * (std::sin(tilt) - rub * std::cos(tilt)) > setup.soil.adhesion;
   // Without friction and adhesion there is no bound to hold the shear against.
   if (most > 0)
-    report.add("rigid plate, shear over adhesion x area + tan delta x normal force", shear / most, "", 1, 0.95, 1.05,
-               std::string("Coulomb with adhesion") + kSource);
+    report
+        .add("rigid plate, shear over adhesion x area + tan delta x normal force", shear / most, "", 1, 0.95, 1.05,
+             std::string("Coulomb with adhesion") + kSource)
+        .holds_for("a plane so steep that the plate slides", slides);
   report.note("plate, sunk by", 1000 * (0.015 + 0.02 * cell - block.motion.X_WT.translation().z()), "mm");
   report.series.push_back(speed);
   site.finish(report);
