@@ -15,6 +15,7 @@
 namespace navvy::validation {
 namespace {
 
+constexpr const char* kFolder = "tests/validation/digs";
 constexpr const char* kSource = "digs that end [docs/validation.md, Whole digs]";
 
 /// How the machine stood while its bucket was in the ground.
@@ -51,11 +52,7 @@ class EndingDigs : public testing::TestWithParam<DigCase> {};
 
 TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
   const DigCase& c = GetParam();
-  scene_io::Overrides overrides;
-  overrides.render = false;
-  for (const std::string& setting : c.settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  const scene::Scene description =
-      scene_io::load_world(navvy::source_dir() + "/tests/validation/digs/" + c.file, control::step_kinds(), overrides);
+  const scene::Scene description = load_scene(c.file, c.settings, kFolder);
   session::Session session(description, shared_device());
   ScoopWatch watch;
   while (!session.done()) {
@@ -84,11 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Digs, EndingDigs,
 
 TEST(DrySand, BearsAnIdleMachineAndLetsItDriveAway) {
   const char* source = "a machine on dry sand [docs/machines.md, ruts]";
-  scene_io::Overrides overrides;
-  overrides.render = false;
-  session::Session session(scene_io::load_world(navvy::source_dir() + "/tests/validation/digs/sand_drive.sdf",
-                                                control::step_kinds(), overrides),
-                           shared_device());
+  session::Session session(load_scene("sand_drive.sdf", {}, kFolder), shared_device());
   const heightfield::Ground& ground = session.world().ground();
   const auto lowest = [&] {
     double out = 0;
