@@ -18,7 +18,12 @@ void Stance::begin(const Pose& X_WB) {
   const Eigen::Quaterniond q(X_WB.linear());
   const Vec3 p = X_WB.translation();
   base_ = {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-  up_ = {X_WB.linear()(0, 2), X_WB.linear()(1, 2), X_WB.linear()(2, 2)};
+  settle();
+}
+
+void Stance::settle() {
+  const Vec3 up = Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized() * Vec3::UnitZ();
+  up_ = {up.x(), up.y(), up.z()};
 }
 
 void Stance::follow(const Pose& X_WB, double dt) {
@@ -44,8 +49,15 @@ Pose Stance::swing_frame(const Arm& arm) const {
   return X_WB * arm.X_BS();
 }
 
+double Stance::rise(const Pose& X_WB, const Arm& arm, double swing) const {
+  // Sine of the angle between the arm's direction and the plane on which the base stood: turning about the upright
+  // counts nothing, nor does leaning to the arm's side.
+  const Vec3 outward = X_WB.linear() * arm.X_BS().linear() * Vec3(std::cos(swing), std::sin(swing), 0);
+  return std::asin(std::clamp(outward.dot(Vec3(up_[0], up_[1], up_[2])), -1.0, 1.0));
+}
+
 double Stance::footing(const Pose& X_WB) const {
-  // Sine of the angle between the base's upright then and now: turning about it counts nothing.
+  // Sine of the angle between the base's upright then and now, as in rise.
   const double tilt = Vec3(up_[0], up_[1], up_[2]).cross(Vec3(X_WB.linear().col(2))).norm();
   return std::clamp(2 - tilt / kTilt, 0.0, 1.0);
 }

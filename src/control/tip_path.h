@@ -9,20 +9,20 @@ namespace navvy::control {
 
 /// The wanted pose of the bucket's tip in the vertical plane of a point, turned into joint angles every control step.
 ///
-/// Whoever uses it moves `z` and `angle` at speeds times `slow`; held by soil or rock the path waits, then rises. Part
-/// of an activity's memory.
+/// Whoever uses it moves `z` and `angle` at speeds times `slow`; held by soil or rock the path waits, then rises. A
+/// bucket that bears on the ground and lifts the machine's nose is relieved at once. Part of an activity's memory.
 class TipPath {
  public:
   double z = 0;        ///< wanted height of the tip [m] in W, without `lift`
   double angle = 0;    ///< wanted angle of the line pin to tip over the horizontal [rad]
   double reached = 0;  ///< the angle that the arm can give there [rad]
-  double lift = 0;     ///< the path is raised by so much because the machine stalled [m]
+  double lift = 0;     ///< the path is raised by so much because the arm stalled or the machine's nose rose [m]
   double slow = 1;     ///< share of the path's speed that the machine follows
 
   /// Begins at W (p, z), free of any stall; the joint angles of that pose, by the short way round.
   Axes start(const Workplace& place, const Stance& stance, const Vec2& p, double height, double tip_angle);
   /// Commands the tip to W (p, z + lift) and feels how it follows; `dt` [s]. While `curling`, a machine that the bucket
-  /// tips over is not relieved by rising: that would tip it further.
+  /// pulls over is not relieved by rising: that would pull it further.
   void follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt, bool curling);
 
   void visit(Archive& a);

@@ -251,6 +251,52 @@ TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
   EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)), 1e-12);
 }
 
+TEST(Stance, SettlesWithItsGroundAndTellsWhichWayItTips) {
+  const Arm arm(able_machine());
+  const auto pitched = [](double nose_up_deg) { return make_pose(1, 2, 0, 0, -radians(nose_up_deg), 0.3); };
+  Stance stance;
+  stance.begin(pitched(0));
+  EXPECT_NEAR(stance.rise(pitched(2), arm, 0), radians(2), 1e-12);
+  EXPECT_NEAR(stance.rise(pitched(2), arm, kPi), -radians(2), 1e-12);       // the arm over the rear
+  EXPECT_NEAR(stance.rise(pitched(2), arm, 0.5 * kPi), 0, 1e-12);           // to the side
+  EXPECT_NEAR(stance.rise(make_pose(0, 0, 1, 0, 0, 2), arm, 0), 0, 1e-12);  // turned and moved only
+  // The front wheels have sunk: once it is settled that is how it stands, and only more is tipping.
+  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  for (int i = 0; i < 500; ++i) stance.follow(pitched(-4.7), kStep);
+  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  stance.settle();
+  EXPECT_EQ(stance.footing(pitched(-4.7)), 1);
+  EXPECT_NEAR(stance.rise(pitched(-2.7), arm, 0), radians(2), 1e-6);  // 20 time constants of the smoothing
+  EXPECT_EQ(stance.footing(pitched(-1.6)), 0);
+}
+
+TEST(TipPath, RisesWhenTheBucketLiftsTheNoseAndNotWhenItPullsItDown) {
+  Alone alone(Swing(0));
+  Stance stance;
+  stance.begin(Pose::Identity());
+  TipPath tip;
+  const Vec2 p(6.5, 0);
+  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  const auto follow = [&](double nose_up_deg, double seconds) {
+    alone.seen.X_WB = make_pose(0, 0, 0, 0, -radians(nose_up_deg), 0);
+    for (int i = 0; i * kStep < seconds; ++i) {
+      // The arm follows at once: nothing is held, it is the machine that gives way.
+      for (std::size_t k = 0; k < 4; ++k) alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+      tip.follow(alone.place, stance, p, alone.seen, kStep, true);
+    }
+  };
+  follow(1.4, 1);
+  EXPECT_EQ(tip.lift, 0);  // the tyres' own
+  follow(-2.9, 1);
+  EXPECT_EQ(tip.lift, 0);
+  follow(2.6, 0.5);
+  EXPECT_NEAR(tip.lift, 0.25, 0.01);  // 0.5 m/s, one control step of slack
+  EXPECT_GT(tip.slow, 0);             // and the path goes on meanwhile, if slowly
+  EXPECT_LT(tip.slow, 0.3);
+  follow(0, 1);
+  EXPECT_NEAR(tip.lift, 0.15, 0.01);  // back at 0.1 m/s
+}
+
 TEST(TipPath, RisesWhileTheTipIsHeldAndSinksBackWhenFree) {
   Alone alone(Swing(0));
   Stance stance;

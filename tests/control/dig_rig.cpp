@@ -76,6 +76,7 @@ Observation DigRig::look() const {
     seen.joints.back().stalled = stalled_ && j > 0;
   }
   seen.X_WB = engine->link(0, 0).X_WL;
+  if (time < settled_at) seen.X_WB.linear() = Mat3::Identity();
   seen.v_WB = engine->link(0, 0).v_WL;
   seen.ground = &ground;
   seen.payload = payload_;

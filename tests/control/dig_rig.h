@@ -44,6 +44,8 @@ class DigRig {
   /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
   double rock_from = 0, rock_to = 0, rock_top = -100;
   bool hit_rock = false;
+  /// Until then [s] the operator sees the machine stand level, and as it stands from then on: ground that gave way.
+  double settled_at = 0;
   /// What the bucket loses while it is lifted, and how long after the start of the lift.
   double leak_rate = 0, leak_time = 0;    // [kg/s], [s]
   double lift_since = -1, dry_since = 0;  ///< when the last lift and its leak began and ended [s]

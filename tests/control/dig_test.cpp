@@ -38,6 +38,14 @@ class Lines {
   }
 };
 
+/// A figure of a step's account by name.
+double figure(const StepReport& step, const std::string& name) {
+  for (const Figure& one : step.figures)
+    if (one.name == name) return one.value;
+  ADD_FAILURE() << "no figure " << name;
+  return std::nan("");
+}
+
 void report(const DigRig& rig, const TrenchMeasure& trench_measure) {
   std::printf("removed %.3f (%.2f m3), over-dug %.3f, floor %.3f, centre %.3f m, cycles %zu, %.1f s, tilt %.3f rad\n",
               trench_measure.removed_share, trench_measure.removed, trench_measure.overdug_share,
@@ -93,6 +101,17 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
   expect_good(measured);
 }
 
+TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
+  // Its front wheels sink by 0.22 m after the dig has begun: 4.7 deg, for good.
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0, 0, radians(4.7), 0));
+  rig.settled_at = 0.5;
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  const TrenchMeasure measured = measure(rig.ground, trench());
+  report(rig, measured);
+  expect_good(measured);
+  EXPECT_LE(rig.cycles.size(), 9u);  // as many as a level machine may take
+}
+
 TEST(Dig, GivesWayToRockAndFinishesTheRest) {
   // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
   Lines log;
@@ -118,10 +137,16 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
   rig.rock_from = 1;
   rig.rock_to = 6;
   rig.rock_top = -0.01;
-  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  EXPECT_FALSE(rig.run(400));
+  ASSERT_TRUE(rig.op.ended()) << rig.op.phase();
   report(rig, measure(rig.ground, trench()));
   EXPECT_LE(rig.cycles.size(), 8u);  // 8: the kinematic rock gives way by some steps' travel, three empty ones end it
-  EXPECT_NE(log.text().find("empty scoops"), std::string::npos);
+  const StepReport end = rig.op.reports().back();
+  EXPECT_EQ(end.state, StepState::kStalled) << end.reason;
+  EXPECT_NE(end.reason.find("empty scoops"), std::string::npos) << end.reason;
+  EXPECT_GT(figure(end, "volume_left_m3"), 0.7 * figure(end, "design_volume_m3"));
+  EXPECT_LT(figure(end, "depth_reached_m"), 0.4);
+  EXPECT_EQ(figure(end, "depth_m"), 0.8);
 }
 
 TEST(Dig, StopsAtItsLargestNumberOfCycles) {
@@ -130,6 +155,26 @@ TEST(Dig, StopsAtItsLargestNumberOfCycles) {
   DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(200));
   EXPECT_EQ(rig.cycles.size(), 2u);
+  const StepReport end = rig.op.reports().back();
+  // As ordered, so the program goes on; what it left is told.
+  EXPECT_EQ(end.state, StepState::kDone) << end.reason;
+  EXPECT_NE(end.reason.find("made its 2 cycles; "), std::string::npos) << end.reason;
+  EXPECT_EQ(figure(end, "cycles"), 2);
+  EXPECT_GT(figure(end, "volume_left_m3"), 1);
+}
+
+TEST(Dig, AccountsForWhatItDug) {
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(rig.run(400));
+  const StepReport end = rig.op.reports().back();
+  const TrenchMeasure measured = measure(rig.ground, trench());
+  EXPECT_EQ(end.state, StepState::kDone) << end.reason;
+  EXPECT_EQ(end.reason, "");
+  EXPECT_EQ(figure(end, "cycles"), static_cast<double>(rig.cycles.size()));
+  EXPECT_DOUBLE_EQ(figure(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
+  // Between columns the operator's surface is bilinear, the measure counts columns: half a one along both walls.
+  EXPECT_NEAR(figure(end, "volume_left_m3"), (1 - measured.removed_share) * 3.2 * 1.05 * 0.8, 0.1);
+  EXPECT_NEAR(figure(end, "depth_reached_m"), 0.8, 0.05);
 }
 
 TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {

@@ -10,6 +10,7 @@ Dig Dig::read(const scene::StepSource& source) {
   constexpr scene::Range kPlace = {-1e6, 1e6};  // [m]
   Dig step;
   scene::FieldSource& fields = source.fields;
+  int cycles = 0;
   const scene::Machine* machine = source.machine;
   // Who says nothing digs as wide as the bucket cuts.
   if (machine && !machine->buckets.empty()) step.width = machine->buckets[0].width;
@@ -24,8 +25,9 @@ Dig Dig::read(const scene::StepSource& source) {
       .required("dump_at_m")
       .number("dump_height_m", step.dump_height, {0.1, 10})
       .number("pass_depth_m", step.pass_depth, {0.02, 5})
-      .whole("max_cycles", step.max_cycles, {1, 100000})
+      .whole("max_cycles", cycles, {1, 100000})
       .finish();
+  if (cycles > 0) step.max_cycles = cycles;
   // What inverse kinematics needs; the swing joint is asked for by the operator.
   const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() && !machine->arm.stick.empty() &&
                    !machine->arm.bucket.empty();

@@ -109,6 +109,28 @@ double DigPlan::volume_above(const SurfaceView& surface, double level) const {
   return sum;
 }
 
+TrenchState DigPlan::state(const SurfaceView& surface) const {
+  // All of the width, where `height` looks at its middle: what is left is left at the walls as well.
+  constexpr int kStripes = 5;
+  const Vec2 across(-along_.y(), along_.x());
+  // The first sample has no piece before it, as in volume_above.
+  const double piece = dig_.width / kStripes * length_ / (samples() - 1);
+  TrenchState out;
+  std::vector<double> depths;
+  for (int i = 0; i < samples(); ++i) {
+    const double before = start_[static_cast<std::size_t>(i)];
+    depths.push_back(before - height(surface, at(i)));
+    for (int k = 0; i > 0 && k < kStripes; ++k) {
+      const Vec2 p = point(at(i)) + ((k + 0.5) / kStripes - 0.5) * dig_.width * across;
+      out.left += piece * std::clamp(dig_.depth - before + surface.height(p.x(), p.y()), 0.0, dig_.depth);
+    }
+  }
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  out.depth = *middle;
+  return out;
+}
+
 double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
   // What the slice still holds goes into equal loads: a short last scoop wears the walls as much as a long one.
   const double rest = volume_above(surface, level);

@@ -30,6 +30,12 @@ struct Scoop {
   bool any = false;           ///< false: nothing left to dig
 };
 
+/// How far a trench has come.
+struct TrenchState {
+  double left = 0;   ///< soil within the design's outline and above its floor [m3]
+  double depth = 0;  ///< under the surface before the dig that half of the length has reached [m]
+};
+
 /// A straight trench: the surface along its line before the dig, what is left above a slice's floor now.
 class DigPlan {
  public:
@@ -46,6 +52,8 @@ class DigPlan {
   Scoop clean_up() const { return {length_, 0, dig_.depth, true}; }
   /// Soil above depth `level` over the trench's width [m3].
   double volume_above(const SurfaceView& surface, double level) const;
+  /// Against the trench as ordered: soil that was found undiggable counts as left.
+  TrenchState state(const SurfaceView& surface) const;
   /// W height of the surface before the dig at `s` [m].
   double start_height(double s) const;
   /// Highest soil at `s` on both edges of the cut and half a metre beside, at least the height before the dig [m].

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "control/dig_pose.h"
-#include "core/log.h"
+#include "control/reach.h"
 
 namespace navvy::control {
 namespace {
@@ -30,6 +30,9 @@ constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
 constexpr double kRest = 2.0;                                      // [s] for loose soil to come to rest before the end
+constexpr int kMostCycles = 60;                                    // of a dig that was ordered no number of them
+// Of the design volume: with more left a trench is not done [docs/validation.md, whole digs].
+constexpr double kUndone = 0.15;
 constexpr int kMostCleanUps = 2;
 constexpr double kCleanEnough = 0.02;   // share of the design volume that may stay on the floor
 constexpr double kHeapRadius = 0.6;     // around the dump point [m]
@@ -77,7 +80,7 @@ void Digging::begin(const Observation& seen) {
 
 bool Digging::plan_scoop(const Observation& seen) {
   // Nothing is dug for ever: both limits end the dig whatever the plan still sees.
-  if (place_.handover.cycles - m.first_cycle >= dig_.max_cycles || m.empty_scoops >= kMostEmpty) return false;
+  if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty) return false;
   Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.next(surface); });
   m.cleaning = 0;
   // What fell back lies along the whole floor, too thin for a scoop of the plan: it is swept up once or twice.
@@ -139,7 +142,7 @@ void Digging::start_swing(const Observation& seen) {
   ArmAngles q = place_.arm_angles();
   double clearance = 0;
   if (!dump_pose(arm_, m.stance.swing_frame(arm_), dig_.dump_at, heap, dig_.dump_height, q, clearance)) {
-    log_warning("operator: the heap is too high to dump on it, dumping from where the bucket is");
+    place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
     q = place_.arm_angles();
   }
   // The short way round; with limits the only way.
@@ -195,10 +198,35 @@ bool Digging::end_cycle(const Observation& seen) {
     go_to_scoop(kReturn, seen);
     return false;
   }
-  if (m.empty_scoops >= kMostEmpty) log_warning("operator: three empty scoops in a row, the dig ends");
-  if (place_.handover.cycles - m.first_cycle >= dig_.max_cycles)
-    log_warning("operator: the dig ends after its largest number of cycles");
+  return conclude(seen);
+}
+
+bool Digging::conclude(const Observation& seen) {
+  const TrenchState now = with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+  const std::string left = number_text(now.left, "m3") + " of " + number_text(plan_.design_volume(), "m3") +
+                           " are left, half of the length is " + metres(now.depth) + " deep or more of " +
+                           metres(dig_.depth);
+  const bool undone = now.left > kUndone * plan_.design_volume();
+  if (m.empty_scoops >= kMostEmpty && undone)
+    return fall_short(StepState::kStalled, "three empty scoops in a row: nothing more comes into the bucket; " + left);
+  // Whoever orders a number of cycles wants these, not the trench.
+  if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
+    remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
+  } else if (undone && cycles() >= kMostCycles) {
+    return fall_short(StepState::kOutOfTime, "not done after " + std::to_string(kMostCycles) + " cycles; " + left);
+  } else if (undone) {
+    return fall_short(StepState::kBlocked, "what is left could not be dug; " + left);
+  }
   return true;
+}
+
+std::vector<Figure> Digging::account(const Observation& seen) const {
+  const TrenchState now = with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+  return {{"cycles", static_cast<double>(cycles())},
+          {"design_volume_m3", plan_.design_volume()},
+          {"volume_left_m3", now.left},
+          {"depth_m", dig_.depth},
+          {"depth_reached_m", now.depth}};
 }
 
 // In the order of Phase.
@@ -219,6 +247,8 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
     case kApproach:
       if (!move(seen)) break;
       enter(kPenetrate);
+      // What the ground under the wheels has done so far is not the bucket's doing.
+      m.stance.settle();
       m.clean_ups += m.cleaning;
       tell(CycleEvent::kScoopStart);
       break;

@@ -39,6 +39,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Takes how the machine stands and the surface before the dig, and goes to the first scoop.
   void begin(const Observation& seen) override;
   const char* phase() const override;
+  /// Cycles, design volume and what is left of it, depth asked for and reached.
+  std::vector<Figure> account(const Observation& seen) const override;
   /// Memory and plan.
   void visit(Archive& a) override;
 
@@ -70,6 +72,10 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void look_round(const Observation& seen);
   /// After the pause: another scoop (false), or the end (true).
   bool end_cycle(const Observation& seen);
+  /// Why there is no other scoop. Always true.
+  bool conclude(const Observation& seen);
+  /// Made in this dig.
+  std::int64_t cycles() const { return place_.handover.cycles - m.first_cycle; }
   bool move(const Observation& seen) { return m.move.advance(place_, seen, phase_time(), phase()); }
 
   // Tip paths in the vertical plane of the trench.

@@ -7,7 +7,6 @@
 #include "control/activities/dig/digging.h"
 #include "control/dig_pose.h"
 #include "control/profile.h"
-#include "core/log.h"
 
 namespace navvy::control {
 namespace {
@@ -30,7 +29,7 @@ constexpr double kPhaseLimit = 12;       // [s]
 
 bool Digging::overdue(double limit) const {
   if (phase_time() <= limit) return false;
-  log_warning(std::string("operator: ") + phase() + " took more than " + std::to_string(static_cast<int>(limit)) +
+  place_.warn(std::string(phase()) + " took more than " + std::to_string(static_cast<int>(limit)) +
               " s, going on with the cycle");
   return true;
 }
