@@ -28,8 +28,7 @@ class ControlStdio {
   std::string unread_;  ///< what came after the last line
   session::Session& session_;
   const sim::World& world_;
-  /// Exchanges fall on multiples of it.
-  std::uint64_t interval_;  ///< base steps per control step
+  double rate_;  ///< of exchanges [1/s]
   std::uint64_t lines_ = 0;
 };
 

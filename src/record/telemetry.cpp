@@ -21,13 +21,21 @@ Telemetry::Telemetry(const session::Session& session, std::string path) : sessio
   text_ += '\n';
 }
 
+std::string time_stamp(double time) {
+  // Twelve digits tell the shortest steps apart after a million seconds, the longest that a run may last.
+  char text[32];
+  return std::string(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.12g", time)));
+}
+
 void Telemetry::sample() {
   const auto& world = session_.world();
-  // Seven digits resolve a float of a few hundred metres to 0.1 mm; time has six.
+  // The first channel is the time.
+  text_ += time_stamp(world.get(0));
+  // Seven digits resolve a float of a few hundred metres to 0.1 mm.
   char number[32];
   // No stream: formatting is most of a row's cost.
-  for (std::size_t i = 0; i < channels_; ++i) {
-    const int n = std::snprintf(number, sizeof number, i == 0 ? "%.6g" : ",%.7g", world.get(static_cast<int>(i)));
+  for (std::size_t i = 1; i < channels_; ++i) {
+    const int n = std::snprintf(number, sizeof number, ",%.7g", world.get(static_cast<int>(i)));
     text_.append(number, static_cast<std::size_t>(n));
   }
   for (std::size_t m = 0; m < world.description().machines.size(); ++m)

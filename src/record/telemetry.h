@@ -10,6 +10,9 @@
 
 namespace navvy::record {
 
+/// Simulated time [s] as text of at most twelve digits: two steps of one run never share a stamp.
+std::string time_stamp(double time);
+
 /// Collects rows and replaces the file whole, so that a reader (or a kill) finds only complete rows.
 ///
 /// The first line holds the channel names with units in brackets, then machine phases as text. Rewrites come at growing

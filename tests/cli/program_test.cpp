@@ -360,7 +360,32 @@ TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
     ++count;
   }
   EXPECT_EQ(count, 11);  // ten answered, one ended
-  EXPECT_NEAR(time, 10 / 50.0, 0.01);
+  EXPECT_NEAR(time, 10 / 50.0, 1e-9);
+}
+
+TEST_F(Program, IsDrivenAtTheRateAskedFor) {
+  // None of these periods is a whole number of the steps that this scene takes by itself.
+  for (const int rate : {500, 20, 7, 1000}) {
+    const int exchanges = rate < 100 ? 2 : 8;
+    std::string lines;
+    for (int i = 1; i < exchanges; ++i) lines += "{}\n";
+    ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--control-rate",
+                   std::to_string(rate), "--out", out()},
+                  lines + "{\"end\": true}\n"),
+              0)
+        << complained();
+    std::istringstream said_lines(said());
+    std::string line;
+    int n = 0;
+    for (; std::getline(said_lines, line); ++n)
+      EXPECT_NEAR(nlohmann::json::parse(line).at("time").get<double>(), n / static_cast<double>(rate), 1e-9) << rate;
+    EXPECT_EQ(n, exchanges) << rate;
+    EXPECT_NE(complained().find("a whole number of base steps makes up a control step"), std::string::npos)
+        << complained();
+    // The step is part of what repeats the run.
+    EXPECT_NE(text_of(out() + "/scene.sdf").find("control_rate_hz"), std::string::npos);
+  }
+  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--control", "stdio", "--control-rate", "0", "--out", out()}), 2);
 }
 
 TEST_F(Program, NamesTheLineOfABadControlMessage) {
