@@ -4,7 +4,7 @@
 
 #include "core/math.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::coupling {
 

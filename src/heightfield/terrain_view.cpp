@@ -3,7 +3,7 @@
 
 namespace navvy::heightfield {
 
-TerrainView TerrainView::with(const LooseSoil& loose, Surface surface) const {
+TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const {
   TerrainView out = *this;
   out.surface_ = surface;
   for (const LooseSoil::Column& column : loose.columns()) {

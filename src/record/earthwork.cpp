@@ -28,7 +28,7 @@ Earthwork measure_earthwork(const sim::World& world) {
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;
-  const heightfield::TerrainView surface = ground.view(world.time()).with(lying, heightfield::Surface::kMapped);
+  const heightfield::TerrainView surface = ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
   std::map<std::pair<int, int>, std::vector<double>> awake;  // bank volumes on columns [m3]
   for (const heightfield::LooseGrain& grain : lying.grains()) {
     std::vector<double>& volumes = awake[{grain.ix, grain.iy}];

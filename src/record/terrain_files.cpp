@@ -20,7 +20,7 @@ namespace {
 void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
   const bool awake = world.soil_counts().particles > 0;
-  heightfield::write_geotiff(sim::terrain_view(world, heightfield::Surface::kMapped), path,
+  heightfield::write_geotiff(sim::terrain_view(world, heightfield::SurfaceKind::kMapped), path,
                              awake ? kAwake : std::vector<std::string>{});
 #else
   (void)world;

@@ -5,7 +5,7 @@
 
 namespace navvy::sim {
 
-std::vector<Pose> starting_poses(const scene::World& scene, const heightfield::Ground& ground) {
+std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::Ground& ground) {
   std::vector<Pose> X_WB;
   X_WB.reserve(scene.machines.size());
   for (const scene::MachineInWorld& placed : scene.machines)

@@ -44,10 +44,10 @@ AwakeSoil awake_soil(const World& world) {
   return out;
 }
 
-heightfield::TerrainView terrain_view(const World& world, heightfield::Surface surface) {
+heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
-  if (surface == heightfield::Surface::kColumns) return columns;
-  if (surface == heightfield::Surface::kMapped) return columns.with(awake_soil(world).lying, surface);
+  if (surface == heightfield::SurfaceKind::kColumns) return columns;
+  if (surface == heightfield::SurfaceKind::kMapped) return columns.with(awake_soil(world).lying, surface);
   std::vector<heightfield::LooseGrain> grains;
   for (const soil::Particle& p : parts(world).soil.particles()) grains.push_back(grain_of(world, p));
   return columns.with(heightfield::LooseSoil(columns, std::move(grains)), surface);

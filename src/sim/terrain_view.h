@@ -15,7 +15,7 @@ namespace navvy::sim {
 ///
 /// The columns alone cost what was changed since the last view, microseconds; loose soil costs a pass over the
 /// particles.
-heightfield::TerrainView terrain_view(const World& world, heightfield::Surface surface);
+heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
 
 /// Where the soil is that is awake [docs/exchange.md, maps]. Masses by soil of the scene [kMassQuantum]; the three of a
 /// soil sum up to what the ledger calls particles, to the unit.

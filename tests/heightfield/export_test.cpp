@@ -117,7 +117,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   const Ground ground = marked(100, 200, 0);
   const double top = ground.height(5, 6);
   const TerrainView view =
-      ground.view().with(LooseSoil(ground.view(), {{5, 6, top, 0.0015, 0, 1.2f}}), Surface::kMapped);
+      ground.view().with(LooseSoil(ground.view(), {{5, 6, top, 0.0015, 0, 1.2f}}), SurfaceKind::kMapped);
   write_geotiff(view, dir + "awake.tif", {"loose_depth", "awake"});
   const Ground read = make_ground(testing::map_world(dir + "awake.tif", 0.1, Vec2(7.7, 4.5)));
   // 1.5 l on 0.01 m2; half an ulp of a float at 1 m.

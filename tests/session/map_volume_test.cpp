@@ -79,7 +79,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     // The same question asked in another way.
     EXPECT_NEAR(held, world.machine(0).tool(0).payload(), 1e-9);
 
-    const heightfield::TerrainView map = sim::terrain_view(world, heightfield::Surface::kMapped);
+    const heightfield::TerrainView map = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     const MapVolume shown = volume_of(map);
     double lying_volume = 0;
     for (const heightfield::LooseGrain& grain : awake.lying.grains())
@@ -101,7 +101,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     EXPECT_NEAR(moved, held + elsewhere, left_out + 1);
     // The cut on the map is the soil that is gone from there, swollen at most; columns alone show a pit full of soil.
     EXPECT_LE(shown.cut, earth.bank_volume + left_out / loam.bank_density);
-    const MapVolume columns = volume_of(sim::terrain_view(world, heightfield::Surface::kColumns));
+    const MapVolume columns = volume_of(sim::terrain_view(world, heightfield::SurfaceKind::kColumns));
     deepest_columns = std::max(deepest_columns, columns.cut - shown.cut);
     char text[160];
     std::snprintf(text, sizeof text, "map %.4f, columns alone %.4f, dug %.4f; lies %.1f, held %.1f, elsewhere %.1f kg",
