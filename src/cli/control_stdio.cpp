@@ -19,12 +19,10 @@ namespace navvy::cli {
 
 using nlohmann::json;
 
-/// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest step.
+/// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest
+/// step.
 ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop)
-    : stop_(std::move(stop)),
-      session_(session),
-      world_(session.world()),
-      rate_(rate) {}
+    : stop_(std::move(stop)), session_(session), world_(session.world()), rate_(rate) {}
 
 /// The next line without its end; false when the stream ended or `stop` said so.
 bool ControlStdio::read_line(std::string& line) {

@@ -183,7 +183,9 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command->add_option("--out", options->out, "directory of the results");
   command->add_option("--control", options->control,
                       "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
-  command->add_option("--control-rate", options->control_rate, "control steps per simulated second (50); the base step divides their period")
+  command
+      ->add_option("--control-rate", options->control_rate,
+                   "control steps per simulated second (50); the base step divides their period")
       ->check(CLI::Range(0.001, 1e5))
       ->needs("--control");
   command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");

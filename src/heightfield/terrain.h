@@ -18,7 +18,8 @@ namespace navvy::heightfield {
 /// place.
 enum class SurfaceKind : std::uint8_t {
   kColumns,        ///< the resting columns alone
-  kWithLooseSoil,  ///< and what lies on them as particles: what an eye or a lidar sees, also in a bucket near the ground
+  kWithLooseSoil,  ///< and what lies on them as particles: what an eye or a lidar sees, also in a bucket near the
+                   ///< ground
   kMapped          ///< and what lies on them, less what buckets and beds hold: what maps, files and volumes count
 };
 

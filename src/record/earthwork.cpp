@@ -21,9 +21,7 @@ void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vect
 
 }  // namespace
 
-Earthwork measure_earthwork(const sim::World& world) {
-  return measure_earthwork(world, sim::awake_soil(world).lying);
-}
+Earthwork measure_earthwork(const sim::World& world) { return measure_earthwork(world, sim::awake_soil(world).lying); }
 
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
@@ -62,8 +60,8 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained. Spoil that
-      // a wheel pressed may lie lower than the ground was; it has no negative volume.
+      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained. Spoil
+      // that a wheel pressed may lie lower than the ground was; it has no negative volume.
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least) sum.loose_volume += area * std::max(0.0, surface.height(ix, iy) - surface.start_height(ix, iy));
     }

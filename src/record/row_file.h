@@ -33,8 +33,8 @@ class RowFile {
   /// Flushes, and waits until the disk has it. @throws FileError.
   void sync();
 
-  std::uint64_t rows() const { return rows_; }      ///< added, without the header
-  std::uint64_t written() const { return on_disk_; }  ///< [bytes] of the file, header and all
+  std::uint64_t rows() const { return rows_; }             ///< added, without the header
+  std::uint64_t written() const { return on_disk_; }       ///< [bytes] of the file, header and all
   std::size_t waiting() const { return waiting_.size(); }  ///< [bytes] not in the file yet
 
   static constexpr std::size_t kMostWaiting = std::size_t{1} << 20;  ///< [bytes] at which it flushes by itself

@@ -15,8 +15,7 @@ heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
   const auto [ix, iy] = parts(world).soil.grid().column_of(p);
   // Heights of particles are counted in cells from bedrock.
   const double z = ground.datum() + ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
-  const double volume =
-      kilograms(p.mass) * static_cast<double>(p.j0) / world.description().soils[p.soil].bank_density;
+  const double volume = kilograms(p.mass) * static_cast<double>(p.j0) / world.description().soils[p.soil].bank_density;
   return {ix, iy, z, volume, static_cast<std::uint16_t>(p.soil), p.j0, p.mass};
 }
 

@@ -61,7 +61,8 @@ class Program : public testing::Test {
   std::vector<std::pair<std::string, std::string>> environment_;
 };
 
-/// Every file of a run, if it is there at all, is whole; of one that was killed the last row of telemetry may lack its end.
+/// Every file of a run, if it is there at all, is whole; of one that was killed the last row of telemetry may lack its
+/// end.
 void expect_readable(const std::string& out, bool killed = false) {
   const fs::path summary = fs::path(out) / "summary.json", telemetry = fs::path(out) / "telemetry.csv";
   if (fs::exists(summary)) EXPECT_TRUE(nlohmann::json::accept(text_of(summary))) << summary;

@@ -51,8 +51,8 @@ void write(const Terrain& terrain, const CellRect& rect, const std::vector<Band>
                                  nullptr};
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   check(driver != nullptr, "this GDAL cannot write GeoTIFF");
-  std::unique_ptr<GDALDataset> data(driver->Create(
-      part.c_str(), nx, ny, static_cast<int>(bands.size()), GDT_Float32, const_cast<char**>(options)));
+  std::unique_ptr<GDALDataset> data(
+      driver->Create(part.c_str(), nx, ny, static_cast<int>(bands.size()), GDT_Float32, const_cast<char**>(options)));
   check(data != nullptr, "the file cannot be created");
   const GroundSetup& setup = terrain.setup();
   // Row 0 of the file is the northern edge.
