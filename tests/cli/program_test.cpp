@@ -413,6 +413,7 @@ TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   const auto resumed = nlohmann::json::parse(text_of(out() + "2/summary.json"));
   EXPECT_EQ(resumed.at("steps"), whole.at("steps"));
   EXPECT_EQ(resumed.at("state_hash"), whole.at("state_hash"));
+  EXPECT_NE(complained().find("telemetry (100 Hz) takes the nearest step"), std::string::npos) << complained();
   // Its telemetry begins with the state of the snapshot and goes on with the rows of the whole run, byte for byte.
   const std::string all = text_of(out() + "/telemetry.csv"), later = text_of(out() + "2/telemetry.csv");
   const std::string header = all.substr(0, all.find('\n') + 1);
