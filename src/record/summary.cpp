@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "record/earthwork.h"
+#include "record/program_list.h"
 #include "sim/terrain_view.h"
 
 namespace navvy::record {
@@ -112,6 +113,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil_stage_times()) out["soil_stage_s"][stage] = seconds;
   // What the programs came to.
+  out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();

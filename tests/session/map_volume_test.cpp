@@ -30,7 +30,7 @@ double column_volume_change(const sim::World& world) {
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const auto add = [&](double sign) {
         for (const heightfield::Layer& layer : layers)
-          sum += sign * kilograms(layer.mass) * static_cast<double>(layer.j0) /
+          sum += sign * kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                  world.description().soils[layer.soil].bank_density;
       };
       ground.column(ix, iy, layers);
