@@ -399,13 +399,6 @@ TEST_F(Program, IsDrivenAtTheRateAskedFor) {
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--control", "stdio", "--control-rate", "0", "--out", out()}), 2);
 }
 
-TEST_F(Program, NamesTheLineOfABadControlMessage) {
-  EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--control", "stdio", "--out", out()},
-                "{\"inputs\": {}}\n{\"inputs\": {\"bucket/slyde_x/velocity\": 1}}\n"),
-            2);
-  EXPECT_NE(complained().find("bucket/slide_x/velocity"), std::string::npos) << complained();
-}
-
 TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   const std::string snapshot = (directory_ / "middle.snapshot").string();
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out", out(), "--snapshot",
