@@ -71,7 +71,7 @@ json carried(const session::Session& session) {
 }
 
 /// In integers as the books are kept; kilograms are for people.
-json ledger(const session::Session& session, const sim::AwakeSoil& awake) {
+json ledger(const session::Session& session, const sim::AwakePlaces& awake) {
   const sim::MassLedger sums = session.world().mass_ledger();
   json soils = json::array();
   // By soil, under the scene's names.
@@ -92,7 +92,7 @@ json ledger(const session::Session& session, const sim::AwakeSoil& awake) {
 /// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
-  const sim::AwakeSoil awake = sim::awake_soil(world);
+  const sim::AwakePlaces awake = sim::awake_places(world);
   const Earthwork earth = measure_earthwork(world, awake.lying);
   const sim::SoilCounts counts = world.soil_counts();
   json out;

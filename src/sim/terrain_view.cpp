@@ -21,11 +21,11 @@ heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
 
 }  // namespace
 
-AwakeSoil awake_soil(const World& world) {
+AwakePlaces awake_places(const World& world) {
   const std::vector<soil::Particle> particles = parts(world).soil.particles();
   const std::vector<std::uint8_t> held = parts(world).coupling.held(particles);
   const std::size_t soils = world.description().soils.size();
-  AwakeSoil out;
+  AwakePlaces out;
   out.lies.resize(soils);
   out.held.resize(soils);
   out.elsewhere.resize(soils);
@@ -46,7 +46,7 @@ AwakeSoil awake_soil(const World& world) {
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;
-  if (surface == heightfield::SurfaceKind::kMapped) return columns.with(awake_soil(world).lying, surface);
+  if (surface == heightfield::SurfaceKind::kMapped) return columns.with(awake_places(world).lying, surface);
   std::vector<heightfield::LooseGrain> grains;
   for (const soil::Particle& p : parts(world).soil.particles()) grains.push_back(grain_of(world, p));
   return columns.with(heightfield::LooseSoil(columns, std::move(grains)), surface);

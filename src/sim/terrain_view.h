@@ -19,13 +19,13 @@ heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKi
 
 /// Where the soil is that is awake [docs/exchange.md, maps]. Masses by soil of the scene [kMassQuantum]; the three of a
 /// soil sum up to what the ledger calls particles, to the unit.
-struct AwakeSoil {
+struct AwakePlaces {
   heightfield::LooseSoil lying;         ///< on columns: what maps add to them
   std::vector<std::int64_t> lies;       ///< mass of that
   std::vector<std::int64_t> held;       ///< in buckets and beds, where payloads count it
   std::vector<std::int64_t> elsewhere;  ///< in the air, or on a tool above its rim
 };
 /// Costs a pass over the particles.
-AwakeSoil awake_soil(const World& world);
+AwakePlaces awake_places(const World& world);
 
 }  // namespace navvy::sim

@@ -69,7 +69,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     SCOPED_TRACE(stop);
     while (world.time() < stop) session.step();
     const sim::MassLedger ledger = world.mass_ledger();
-    const sim::AwakeSoil awake = sim::awake_soil(world);
+    const sim::AwakePlaces awake = sim::awake_places(world);
     // Every unit of mass is in one of the books.
     EXPECT_EQ(ledger.error, 0);
     for (std::size_t i = 0; i < ledger.particles.size(); ++i)
