@@ -134,7 +134,8 @@ TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
   // From another place and without any option.
   const std::string moved = (directory_ / "moved.sdf").string();
   fs::copy_file(out() + "/scene.sdf", moved);
-  ASSERT_EQ(run({"run", moved, "--out", out() + "2"}), 0) << complained();
+  // What the command line cut off before, the scene's own duration cuts off now: that counts as incomplete.
+  ASSERT_EQ(run({"run", moved, "--out", out() + "2"}), 6) << complained();
   const auto again = nlohmann::json::parse(text_of(out() + "2/summary.json"));
   EXPECT_GT(again.at("particles_peak").get<int>(), 0) << "it never reached the soil";
   EXPECT_EQ(again.at("steps"), first.at("steps"));
