@@ -86,7 +86,7 @@ scene::Drive read_drive(Element& element, Faults& faults) {
     std::visit([&](auto& kind) { read_kind(element, kind, faults); }, drive);
     return drive;
   }
-  faults.error(element, type, "no drive of this type", suggestion(type, names));
+  faults.error(element, type, "no drive of this type", faults.nearest(type, names));
   return {};
 }
 

@@ -31,7 +31,7 @@ void require_name(const Element& element, const char* child_name, const char* wh
   const Element* child = element.FirstChildElement(child_name);
   if (!child || text_of(*child).empty() || contains(names, text_of(*child))) return;
   faults.error(*child, text_of(*child), std::string("no ") + what + " of this name in the model",
-               suggestion(text_of(*child), names));
+               faults.nearest(text_of(*child), names));
 }
 
 void require_attribute_name(const Element& element, Faults& faults) {

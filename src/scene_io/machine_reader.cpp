@@ -101,7 +101,7 @@ void read_initial_position(Element& element, scene::Machine& machine, Faults& fa
   if (index < 0) {
     std::vector<std::string> names;
     for (const scene::Joint& joint : machine.joints) names.push_back(joint.name);
-    faults.error(element, name, "no joint of this name in the machine", suggestion(name, names));
+    faults.error(element, name, "no joint of this name in the machine", faults.nearest(name, names));
     return;
   }
   scene::Joint& joint = machine.joints[static_cast<std::size_t>(index)];
