@@ -20,7 +20,7 @@ using namespace navvy;
 
 /// Runs the scene from its start for `seconds`; the median and spread are of one run, there is one.
 void measure_scene(device::Device& device, const std::string& file, double seconds) {
-  session::Session session(scene_io::load_world(file, control::step_kinds()), device);
+  session::Session session(scene_io::load_scene(file, control::step_kinds()), device);
   const Stopwatch watch;
   while (!session.done() && session.world().time() < seconds) session.step();
   device.finish();

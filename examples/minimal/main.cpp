@@ -12,7 +12,7 @@
 int main(int argc, char** argv) {
   try {
     navvy::device::Device device;
-    navvy::sim::World world(navvy::scene_io::load_world(argc > 1 ? argv[1] : SCENE, navvy::control::step_kinds()),
+    navvy::sim::World world(navvy::scene_io::load_scene(argc > 1 ? argv[1] : SCENE, navvy::control::step_kinds()),
                             device);
     const std::string machine = world.description().machines.at(0).name;
     const int boom_speed = world.input(machine + "/boom_joint/velocity");

@@ -14,7 +14,7 @@ static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4);
 // Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
                              global const float4* field, global const int* split, global const int* node_tool,
-                             global const NodeShell* shell, global const Surface* surface, global const Tool* tools,
+                             global const NodeShell* shell, global const ContactSoil* surface, global const Tool* tools,
                              int only) {
   if (split[i] == 0) return false;
   const float4 v = field[i];
@@ -44,7 +44,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 #define NODE_ARGS                                                                                                 \
   global const float4 *restrict before0, global const float4 *restrict before1, global const int *restrict split, \
       global const int *restrict node_tool, global const NodeShell *restrict shell,                               \
-      global const Surface *restrict surface, global const Tool *restrict tools, const int only,                  \
+      global const ContactSoil *restrict surface, global const Tool *restrict tools, const int only,                  \
       const Reach reach, const float dx
 #define NODE_SAME before0, before1, split, node_tool, shell, surface, tools, only, reach, dx
 #define LOAD_NODE(node)                                                                                          \

@@ -41,12 +41,12 @@ typedef struct BlockFloor {
 } BlockFloor;
 
 // What a tool finds on soil. Written as float4s: all four words are averaged alike.
-typedef struct Surface {
+typedef struct ContactSoil {
   float friction;     // tan of the friction angle between soil and tool
   float adhesion;     // [Pa]
   float inv_density;  // 1 / bank density [m3/kg]
   float unused;
-} Surface;
+} ContactSoil;
 
 // Report of one home block after a step.
 typedef struct Report {
@@ -59,7 +59,7 @@ typedef struct Report {
 #ifdef __cplusplus
 static_assert(sizeof(Home) == 16 && offsetof(Home, tile) == 8 && offsetof(Home, near) == 12);
 static_assert(sizeof(BlockFloor) == 320 && offsetof(BlockFloor, around) == 64);
-static_assert(sizeof(Surface) == 16 && offsetof(Surface, inv_density) == 8);
+static_assert(sizeof(ContactSoil) == 16 && offsetof(ContactSoil, inv_density) == 8);
 static_assert(sizeof(Report) == 16 && offsetof(Report, push) == 8);
 }  // namespace navvy::soil
 #endif

@@ -46,7 +46,7 @@ static inline float rest_of(int f) {
   return 0.0f;
 }
 
-// A Surface, all words of which are averaged alike.
+// A ContactSoil, all words of which are averaged alike.
 static inline float4 surface_of(constant SoilRow* soil) {
   return (float4)(soil->tool_friction, soil->adhesion, soil->inv_density, 0.0f);
 }

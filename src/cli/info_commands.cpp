@@ -25,7 +25,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   int errors = 0, warnings = 0;
   for (const std::string& file : files) {
     // One pass over all files: a user fixes every fault in one go.
-    std::optional<scene::World> world;
+    std::optional<scene::Scene> world;
     // Machine and soil files are checked by themselves and give no world.
     std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides);
     // What only a machine on its ground can tell: the test that a run makes before it starts.

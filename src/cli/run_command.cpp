@@ -47,7 +47,7 @@ struct RunOptions {
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
-  void show(const record::Progress& p) {
+  void show(const record::RunProgress& p) {
     // Twice a second: a terminal is slower than a step.
     if (!on_ || watch_.seconds() < 0.5) return;
     watch_.restart();
@@ -69,7 +69,7 @@ class ProgressLine {
 };
 
 /// Named by the scene and not by its file: a scene read from a run's folder goes back there.
-std::string default_out(const scene::World& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
+std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
 
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
 int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder) {
@@ -129,7 +129,7 @@ int run(const RunOptions& options) {
   // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
   record::Options record_options;
-  const scene::World description = options.scene.load(&record_options.scene_text);
+  const scene::Scene description = options.scene.load(&record_options.scene_text);
   // The scene is sound from here on; a device may still be missing.
   device::Device device(options.scene.device);
   // Said before the run: the first thing to look at when it is slow.

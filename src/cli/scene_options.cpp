@@ -91,7 +91,7 @@ scene_io::Overrides SceneOptions::overrides() const {
   return out;
 }
 
-scene::World SceneOptions::load(std::string* resolved) const {
+scene::Scene SceneOptions::load(std::string* resolved) const {
   // A file of the user's goes before a shipped scene of the same name.
   std::string path = file;
   if (!std::filesystem::exists(path)) {
@@ -106,7 +106,7 @@ scene::World SceneOptions::load(std::string* resolved) const {
   }
   // With a path the loader's own message is the better one.
   if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
-  return scene_io::load_world(path, control::step_kinds(), overrides(), resolved);
+  return scene_io::load_scene(path, control::step_kinds(), overrides(), resolved);
 }
 
 }  // namespace navvy::cli

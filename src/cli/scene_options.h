@@ -36,8 +36,8 @@ struct SceneOptions {
   void add_to(CLI::App& command);
   /// @throws InputError for a malformed value.
   scene_io::Overrides overrides() const;
-  /// The scene with its overrides; `resolved` as in scene_io::load_world. @throws InputError.
-  scene::World load(std::string* resolved = nullptr) const;
+  /// The scene with its overrides; `resolved` as in scene_io::load_scene. @throws InputError.
+  scene::Scene load(std::string* resolved = nullptr) const;
 };
 
 }  // namespace navvy::cli

@@ -15,7 +15,7 @@
 namespace navvy::control {
 
 /// How far a machine's program has come.
-struct Progress {
+struct ProgramProgress {
   int done = 0, steps = 0;  ///< steps that are over, and all
 };
 
@@ -28,7 +28,7 @@ struct Observation {
   const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
   double payload = 0;                    ///< soil in the bucket [kg]
   double force = 0;                      ///< low-passed soil force on the bucket [N]
-  const std::map<std::string, Progress>* programs = nullptr;  ///< of all machines of the world, by name
+  const std::map<std::string, ProgramProgress>* programs = nullptr;  ///< of all machines of the world, by name
 };
 
 /// What it wants; joints without an entry keep their last command.

@@ -60,7 +60,9 @@ bool Operator::done() const { return state_->done(); }
 // All else is known to the step and its activity; here is only the order.
 std::string Operator::phase() const { return state_->active ? state_->active->phase() : "idle"; }
 int Operator::cycles() const { return static_cast<int>(state_->place.handover.cycles); }
-Progress Operator::progress() const { return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size())}; }
+ProgramProgress Operator::progress() const {
+  return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size())};
+}
 CycleEvent Operator::event() const { return state_->event; }
 
 Command Operator::update(const Observation& seen, double, double dt) {

@@ -35,7 +35,7 @@ class Operator {
   /// Digging cycles so far.
   int cycles() const;
   /// Steps of the program that are done, and how many it has.
-  Progress progress() const;
+  ProgramProgress progress() const;
   /// The event of the last update.
   CycleEvent event() const;
 

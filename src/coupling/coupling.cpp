@@ -22,7 +22,7 @@ constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and
 
 }  // namespace
 
-Coupling::Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
     : world_(world),
       dynamic_(engine),

@@ -9,7 +9,7 @@
 #include "coupling/ruts.h"
 #include "heightfield/change_follower.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/solver.h"
 #include "vehicle/engine.h"
 
@@ -40,7 +40,7 @@ struct TimeShare {
 class Coupling {
  public:
   /// The references must outlive it. Registers every shell of every dynamic or kinematic machine with the solver.
-  Coupling(const scene::World& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+  Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
            heightfield::Ground& ground);
 
   /// Advances everything by dt [s].
@@ -72,7 +72,7 @@ class Coupling {
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
-  const scene::World& world_;
+  const scene::Scene& world_;
   vehicle::Engine& dynamic_;
   vehicle::Engine& kinematic_;
   soil::Solver& solver_;

@@ -11,22 +11,27 @@
 namespace navvy::coupling {
 namespace {
 
-/// Under the wheels' centres: where they stand on the machine's ground plane, in the axes of the level machine [m].
+/// The points of the wheels that touch the machine's own ground plane, its x and y axes, when it stands at X_WM [m].
 std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
   std::vector<double> q;
   for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
-  const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, X_WM, q);
+  const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, base_pose(machine, X_WM), q);
+  const Vec3 up = X_WM.linear().col(2);
   std::vector<Vec3> out;
   for (const scene::Wheel& wheel : machine.wheels) {
     const int joint = machine.joint_index(wheel.joint);
     if (joint < 0) continue;
     const int link = machine.joints[static_cast<std::size_t>(joint)].child;
-    out.push_back(X_WL[static_cast<std::size_t>(link)].translation() - Vec3(0, 0, wheel.radius));
+    out.push_back(X_WL[static_cast<std::size_t>(link)].translation() - wheel.radius * up);
   }
   return out;
 }
 
 }  // namespace
+
+Pose base_pose(const scene::Machine& machine, const Pose& X_WM) {
+  return machine.links.empty() ? X_WM : X_WM * machine.links[0].X_ML;
+}
 
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   Pose X_WM = placed.X_WM;

@@ -60,9 +60,9 @@ std::vector<Lattice> snap(const std::vector<Vec3>& points, const Vec3& low, doub
 }
 
 /// The growing surface.
-class Surface {
+class HullFaces {
  public:
-  explicit Surface(const std::vector<Lattice>& points) : points_(points) {}
+  explicit HullFaces(const std::vector<Lattice>& points) : points_(points) {}
 
   /// Builds the hull; false when all points lie in one plane.
   /// @throws InputError when they lie on one line.
@@ -206,7 +206,7 @@ ConvexHull convex_hull(std::vector<Vec3> points) {
 
   // The surface is exact on the lattice, planes are laid through the points themselves.
   ConvexHull hull;
-  Surface surface(lattice);
+  HullFaces surface(lattice);
   if (!surface.build()) {
     // Flat: any three points that are not in line tell the plane.
     for (std::size_t k = 2; k < points.size() && hull.planes.empty(); ++k)

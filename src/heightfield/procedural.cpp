@@ -100,7 +100,7 @@ double lowest(const GroundFeature& f, const Vec2& min, const Vec2& max) {
 
 }  // namespace
 
-ProceduralSurface::ProceduralSurface(const scene::Ground& ground, double friction_angle)
+ProceduralSurface::ProceduralSurface(const scene::StartGround& ground, double friction_angle)
     : base_(ground.surface), friction_angle_(friction_angle), features_(ground.features) {}
 
 double ProceduralSurface::operator()(double x, double y) const {

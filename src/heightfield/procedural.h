@@ -17,7 +17,7 @@ namespace navvy::heightfield {
 class ProceduralSurface {
  public:
   /// `friction_angle` [rad] is the slope of stockpiles that give no angle.
-  ProceduralSurface(const scene::Ground& ground, double friction_angle);
+  ProceduralSurface(const scene::StartGround& ground, double friction_angle);
 
   /// Height of the surface at W (x, y) [m].
   double operator()(double x, double y) const;

@@ -20,19 +20,19 @@ namespace {
 // Settled slopes end a little under the friction angle, so that the running simulation leaves them alone.
 constexpr double kSettleMargin = radians(1.0);
 
-[[noreturn]] void fail(const scene::World& world, const std::string& element, const std::string& value,
+[[noreturn]] void fail(const scene::Scene& world, const std::string& element, const std::string& value,
                        const std::string& rule, const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, world.file, 0, element, value, rule, remedy});
 }
 
 // Friction angle of the soil that lies on top of the site.
-double surface_friction(const scene::World& world) {
+double surface_friction(const scene::Scene& world) {
   for (const scene::GroundLayer& layer : world.ground.layers)
     if (const int i = world.soil_index(layer.soil); i >= 0) return world.soils[i].friction_angle;
   return scene::Soil().friction_angle;
 }
 
-void check_size(const scene::World& world) {
+void check_size(const scene::Scene& world) {
   const Vec2& size = world.ground.size;
   const double cell = world.solver.cell;
   if (!std::isfinite(cell) || !(cell > 0))
@@ -47,7 +47,7 @@ void check_size(const scene::World& world) {
 }
 
 // Replaces the source by its settled copy.
-void settle_site(const scene::World& world, Ground::Setup& setup) {
+void settle_site(const scene::Scene& world, Ground::Setup& setup) {
   if (static_cast<std::int64_t>(setup.nx) * setup.ny > kMostSettledColumns)
     fail(world, "terrain/steep", "settle",
          "needs the whole surface in memory: at most " + std::to_string(kMostSettledColumns) +
@@ -66,7 +66,7 @@ void settle_site(const scene::World& world, Ground::Setup& setup) {
   setup.surface = [dense](int ix, int iy) { return dense->at(ix, iy); };
 }
 
-void make_procedural(const scene::World& world, Ground::Setup& setup) {
+void make_procedural(const scene::Scene& world, Ground::Setup& setup) {
   const ProceduralSurface surface(world.ground, surface_friction(world));
   const Vec2 origin = setup.origin;
   const double cell = setup.cell;
@@ -90,10 +90,10 @@ int site_columns(double length, double cell) {
   return std::max((n + 3) / 4 * 4, 4);
 }
 
-Ground make_ground(const scene::World& world, std::string* report) {
+Ground make_ground(const scene::Scene& world, std::string* report) {
   // Sizes first: everything else is counted in columns.
   check_size(world);
-  const scene::Ground& ground = world.ground;
+  const scene::StartGround& ground = world.ground;
   Ground::Setup setup;
   setup.cell = world.solver.cell;
   setup.nx = site_columns(ground.size.x(), setup.cell);

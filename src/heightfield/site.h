@@ -5,7 +5,7 @@
 #include <string>
 
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::heightfield {
 
@@ -18,7 +18,7 @@ namespace navvy::heightfield {
 /// in a terrain file, for people.
 /// @throws InputError with every fault found: bad numbers, unknown soils, a file that is missing, off the map or not
 /// readable by this build.
-Ground make_ground(const scene::World& world, std::string* report = nullptr);
+Ground make_ground(const scene::Scene& world, std::string* report = nullptr);
 
 inline constexpr int kMostSettledColumns = 4000000;
 

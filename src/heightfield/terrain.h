@@ -16,7 +16,7 @@ namespace navvy::heightfield {
 
 /// Which surface a reader asks for. Every client names it where it takes its view, so that it changes its mind in one
 /// place.
-enum class Surface : std::uint8_t {
+enum class SurfaceKind : std::uint8_t {
   kColumns,       ///< the resting columns alone
   kWithLooseSoil  ///< and what lies on them as particles: what an eye or a lidar sees
 };

@@ -15,8 +15,8 @@ class Ground;
 /// and keeping one costs the tiles that changed since (14 KiB each). May outlive the ground.
 class TerrainView final : public Terrain {
  public:
-  double time() const { return time_; }         ///< [s], as told when it was taken
-  Surface surface() const { return surface_; }  ///< what its heights are those of
+  double time() const { return time_; }             ///< [s], as told when it was taken
+  SurfaceKind surface() const { return surface_; }  ///< what its heights are those of
 
   /// The same instant as one sees it: height, soil and density state are those of the loose soil where some lies.
   /// Costs a copy of every tile on which there is any.
@@ -26,7 +26,7 @@ class TerrainView final : public Terrain {
   friend class Ground;
   TerrainView(const Terrain& terrain, double time) : Terrain(terrain), time_(time) {}
   double time_;
-  Surface surface_ = Surface::kColumns;
+  SurfaceKind surface_ = SurfaceKind::kColumns;
 };
 
 }  // namespace navvy::heightfield

@@ -14,8 +14,8 @@ namespace {
 constexpr double kProgressStep = 0.01;
 
 /// A world without machines, of the given soils.
-scene::World make_world(std::vector<scene::Soil> soils, double cell, const SiteOptions& options) {
-  scene::World world;
+scene::Scene make_world(std::vector<scene::Soil> soils, double cell, const SiteOptions& options) {
+  scene::Scene world;
   world.name = "lab";
   world.soils = std::move(soils);
   world.gravity = options.gravity;
@@ -27,7 +27,7 @@ scene::World make_world(std::vector<scene::Soil> soils, double cell, const SiteO
 }
 
 /// One layer of the first soil from the surface down to bedrock.
-heightfield::Ground::Setup make_ground(const scene::World& world, const SiteOptions& options) {
+heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOptions& options) {
   heightfield::Ground::Setup out;
   const double cell = world.solver.cell;
   // Even in number, so that W's origin is a corner of cells whatever the size.

@@ -12,7 +12,7 @@
 #include "heightfield/ground.h"
 #include "lab/rig.h"
 #include "scene/machine.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/particles/particle.h"
 #include "soil/solver.h"
 
@@ -72,7 +72,7 @@ class Site {
   const soil::Solver& solver() const { return *solver_; }
   heightfield::Ground& ground() { return ground_; }
   const heightfield::Ground& ground() const { return ground_; }
-  const scene::World& world() const { return world_; }
+  const scene::Scene& world() const { return world_; }
   const scene::Soil& soil(std::size_t index = 0) const { return world_.soils[index]; }
   double cell() const { return world_.solver.cell; }
   double time() const { return time_; }  ///< simulated [s]
@@ -121,7 +121,7 @@ class Site {
   static void move_tool(Tool& tool, double dt);
 
   device::Device* device_;
-  scene::World world_;
+  scene::Scene world_;
   heightfield::Ground ground_;
   std::unique_ptr<soil::Solver> solver_;
   std::vector<scene::Shell> shells_;

@@ -97,7 +97,7 @@ Recorder::Recorder(session::Session& session, Options options) {
   state_ = std::make_unique<State>(session, std::move(options));
   State& s = *state_;
   // First of all: whatever becomes of the run, its folder says what it was.
-  const scene::World& scene = session.world().description();
+  const scene::Scene& scene = session.world().description();
   if (!s.options.scene_text.empty()) write_file_atomically(s.path("scene.sdf"), s.options.scene_text);
   write_file_atomically(s.path("run.json"),
                         run_json({kRunFormat, navvy_version(), s.options.command, scene.file, session.device_name()}));
@@ -191,10 +191,10 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.checkpoint(true);
 }
 
-Progress Recorder::progress() const {
+RunProgress Recorder::progress() const {
   const State& s = *state_;
   const sim::World& world = s.session.world();
-  Progress out;
+  RunProgress out;
   out.time = world.time();
   out.duration = world.description().recording.duration;
   // What a resumed run had done before does not count as its own speed.

@@ -19,14 +19,14 @@ struct Options {
   bool render = true;
   double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
   double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
-  /// The scene as scene_io::load_world wrote it out, for scene.sdf; empty: no such file, the folder cannot be run
+  /// The scene as scene_io::load_scene wrote it out, for scene.sdf; empty: no such file, the folder cannot be run
   /// again.
   std::string scene_text;
   std::vector<std::string> command;  ///< that started the run, for run.json
 };
 
 /// What a progress line shows; costs nothing to read.
-struct Progress {
+struct RunProgress {
   double time = 0, duration = 0;  ///< simulated, most it may take [s]
   double real_time_factor = 0;
   double remaining = 0;  ///< wall time left if the run takes its full duration [s]
@@ -50,7 +50,7 @@ class Recorder {
   /// Writes the final files, once; later calls do nothing. `status` is "finished", "interrupted" or "failed"; after a
   /// failure also the snapshot of the last state.
   void finish(const std::string& status, const std::string& message = "");
-  Progress progress() const;
+  RunProgress progress() const;
 
  private:
   struct State;

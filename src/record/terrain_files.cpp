@@ -11,7 +11,7 @@ namespace navvy::record {
 namespace {
 
 // What a map in a run's folder shows.
-[[maybe_unused]] constexpr heightfield::Surface kMapped = heightfield::Surface::kColumns;
+[[maybe_unused]] constexpr heightfield::SurfaceKind kMapped = heightfield::SurfaceKind::kColumns;
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/shadow_map.h"
-#include "render/terrain.h"
+#include "render/terrain_mesh.h"
 #include "render/view.h"
 
 namespace navvy::render {

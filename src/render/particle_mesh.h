@@ -6,7 +6,7 @@
 
 #include "render/ground_surface.h"
 #include "render/shadow_map.h"
-#include "render/terrain.h"
+#include "render/terrain_mesh.h"
 #include "render/view.h"
 
 namespace navvy::render {

@@ -20,7 +20,7 @@
 #include "render/particle_mesh.h"
 #include "render/shadow_map.h"
 #include "render/shape_cache.h"
-#include "render/terrain.h"
+#include "render/terrain_mesh.h"
 
 #include <Inventor/system/gl.h>
 
@@ -76,7 +76,7 @@ class Renderer::Impl {
   RenderOptions options_;
   GlContext context_;
   GlDraw draw_;
-  Terrain terrain_;
+  TerrainMesh terrain_;
   ShadowMap shadows_;
   ParticleMesh particles_;
   ShapeCache shapes_;

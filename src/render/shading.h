@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/machine.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::render {
 

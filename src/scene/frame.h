@@ -9,7 +9,7 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::scene {
 

@@ -35,7 +35,7 @@ struct GroundFeature {
 /// A soil layer, listed from the surface down. The last one reaches to the bottom whatever its thickness. Thickness
 /// counts downwards from the surface, whatever its shape.
 struct GroundLayer {
-  std::string soil;      ///< name in World::soils
+  std::string soil;      ///< name in Scene::soils
   double thickness = 0;  ///< [m]
 };
 
@@ -57,7 +57,7 @@ struct AwakeSoil {
 enum class SteepGround { kHold, kSettle };
 
 /// The site's ground before anything has moved: what heightfield::Ground is built from.
-struct Ground {
+struct StartGround {
   std::string file;          ///< GeoTIFF or ESRI ASCII; empty: procedural
   bool has_at = false;       ///< centre of the crop was given
   bool at_is_local = false;  ///< `at` counts from the file's lower-left corner, not in its own coordinates

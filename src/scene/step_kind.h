@@ -18,7 +18,7 @@ namespace navvy::scene {
 struct StepSource {
   FieldSource& fields;
   const Machine* machine = nullptr;
-  const Ground* ground = nullptr;
+  const StartGround* ground = nullptr;
 
   /// Reports `rule` at the step when its machine does not fulfil it. A machine without links is faulty itself and has
   /// been reported.

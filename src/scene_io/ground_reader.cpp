@@ -100,7 +100,7 @@ scene::AwakeSoil read_awake(Element& element, Faults& faults) {
   return awake;
 }
 
-void read_file(Fields& fields, scene::Ground& ground, Faults& faults) {
+void read_file(Fields& fields, scene::StartGround& ground, Faults& faults) {
   fields.text("file", ground.file);
   Vec2 local = Vec2::Zero();
   fields.vec2("at_m", ground.at, {-1e9, 1e9}).vec2("at_local_m", local, {-1e9, 1e9});
@@ -125,9 +125,10 @@ void read_file(Fields& fields, scene::Ground& ground, Faults& faults) {
 
 }  // namespace
 
-scene::Ground read_ground(Element& element, const std::vector<scene::Soil>& soils, std::uint64_t seed, Faults& faults) {
+scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>& soils, std::uint64_t seed,
+                               Faults& faults) {
   using Kind = scene::GroundFeature::Kind;
-  scene::Ground ground;
+  scene::StartGround ground;
   Fields fields(element, faults);
   read_file(fields, ground, faults);
   fields.vec2("size_m", ground.size, {0.5, 1e5})

@@ -14,9 +14,9 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::World load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
+scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
                   std::string* resolved, Faults& faults) {
-  scene::World world;
+  scene::Scene world;
   // Without a document there is nothing to read, and finish() throws what opening it has found.
   if (document) {
     check_resolved(*document, faults);
@@ -32,13 +32,13 @@ scene::World load(std::unique_ptr<Document> document, const scene::StepKinds& ki
 
 }  // namespace
 
-scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides,
+scene::Scene load_scene(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides,
                         std::string* resolved) {
   Faults faults;
   return load(Document::open(file, faults), kinds, overrides, resolved, faults);
 }
 
-scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+scene::Scene load_scene_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
                                     const Overrides& overrides, std::string* resolved) {
   Faults faults;
   return load(Document::parse(text, name, faults), kinds, overrides, resolved, faults);
@@ -74,7 +74,7 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::World>* world,
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::Scene>* world,
                          const Overrides& overrides) {
   Faults faults;
   if (world != nullptr) world->reset();
@@ -90,7 +90,7 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   } else {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
-    scene::World read = read_world(*document, kinds, faults);
+    scene::Scene read = read_world(*document, kinds, faults);
     // Warnings do not keep a scene from being used.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }

@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "core/math.h"
 #include "scene/machine.h"
+#include "scene/scene.h"
 #include "scene/soil.h"
 #include "scene/step_kind.h"
-#include "scene/world.h"
 
 namespace navvy::scene_io {
 
@@ -39,10 +39,10 @@ std::pair<std::string, std::string> parse_setting(const std::string& text);
 /// control::step_kinds(); any other step is an error. `resolved`, when given, receives the scene as a text that stands
 /// for itself: overrides and included files written out, see resolved.h. Reading that text gives the same world again.
 /// @throws InputError with all faults (errors and warnings), also when the file cannot be read.
-scene::World load_world(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides = {},
+scene::Scene load_scene(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides = {},
                         std::string* resolved = nullptr);
 /// The same from memory; `name` stands for the file in messages, relative paths count from its directory.
-scene::World load_world_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
+scene::Scene load_scene_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
                                     const Overrides& overrides = {}, std::string* resolved = nullptr);
 
 /// Reads a machine (an SDF file with one model). @throws InputError
@@ -55,7 +55,7 @@ std::vector<scene::Soil> load_soils(const std::string& directory);
 /// one without errors, else it is left empty. Throws nothing but std::bad_alloc.
 /// `overrides` change a scene's values before they are read.
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
-                         std::optional<scene::World>* world = nullptr, const Overrides& overrides = {});
+                         std::optional<scene::Scene>* world = nullptr, const Overrides& overrides = {});
 
 /// Where shipped data (vehicles/, terrain/, scenarios/) is looked for, first match wins: $NAVVY_DATA_DIR, the
 /// installation, the source tree.

@@ -28,7 +28,7 @@ int needed(const Waiting& wait, const scene::MachineInWorld& other) {
   return wait.steps > 0 ? wait.steps : step_count(other);
 }
 
-bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, const scene::World& world,
+bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, const scene::Scene& world,
                 Faults& faults) {
   // The name first, then whether it can be waited for, then how long.
   const int index = world.machine_index(wait.machine);
@@ -52,7 +52,7 @@ bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, con
 }
 
 /// Lets every program run as far as waiting allows; where each stands then.
-std::vector<int> run_dry(const scene::World& world) {
+std::vector<int> run_dry(const scene::Scene& world) {
   // Order does not matter: a program only ever gets farther, so all orders end at the same place.
   std::vector<int> done(world.machines.size(), 0);
   for (bool moved = true; moved;) {
@@ -73,7 +73,7 @@ std::vector<int> run_dry(const scene::World& world) {
 
 }  // namespace
 
-void check_program_order(Element& world_element, const scene::World& world, Faults& faults) {
+void check_program_order(Element& world_element, const scene::Scene& world, Faults& faults) {
   std::vector<std::vector<Element*>> elements;
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement())
     if (std::string(e->Name()) == "include" || std::string(e->Name()) == "model") {

@@ -2,13 +2,13 @@
 // Whether the programs of a world, which may wait for each other, can all come to their end.
 #pragma once
 
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
 
 /// Reports every waiting step that names no other machine with a program, asks for more steps than that has, or is part
 /// of a circle of machines waiting for each other. `world` was read from `world_element`.
-void check_program_order(Element& world_element, const scene::World& world, Faults& faults);
+void check_program_order(Element& world_element, const scene::Scene& world, Faults& faults);
 
 }  // namespace navvy::scene_io

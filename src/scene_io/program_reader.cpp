@@ -69,7 +69,7 @@ class XmlSource final : public scene::FieldSource {
 }  // namespace
 
 scene::Program read_program(Element& element, const scene::StepKinds& kinds, const scene::Machine* machine,
-                            const scene::Ground* ground, Faults& faults) {
+                            const scene::StartGround* ground, Faults& faults) {
   scene::Program program;
   Fields fields(element, faults);
   // All names are told to `fields` first: what it does not know by then is reported with the nearest of them.

@@ -13,6 +13,6 @@ namespace navvy::scene_io {
 /// the machine can do the step and that targets lie on the site: machine and ground may be null where they could not be
 /// read.
 scene::Program read_program(Element& element, const scene::StepKinds& kinds, const scene::Machine* machine,
-                            const scene::Ground* ground, Faults& faults);
+                            const scene::StartGround* ground, Faults& faults);
 
 }  // namespace navvy::scene_io

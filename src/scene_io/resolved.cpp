@@ -90,7 +90,7 @@ class Resolver {
   explicit Resolver(Element& world) : world_(world) {}
 
   void soil(Element& element, const scene::Soil& read);
-  void ground(const scene::World& world);
+  void ground(const scene::Scene& world);
   void include(Element& element);
   /// Names the meshes of machines; `model` still belongs to the file that their paths count from.
   void meshes(Element& model);
@@ -130,7 +130,7 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
   element.SetAttribute("name", read.name.c_str());
 }
 
-void Resolver::ground(const scene::World& world) {
+void Resolver::ground(const scene::Scene& world) {
   Element* ground = world_.FirstChildElement("navvy:ground");
   Element* file = ground != nullptr ? ground->FirstChildElement("file") : nullptr;
   // The reader has worked out whether the name counted from the scene or from the working directory.
@@ -190,7 +190,7 @@ void Resolver::list_files() {
 
 }  // namespace
 
-std::string resolved_text(Document& document, const scene::World& world) {
+std::string resolved_text(Document& document, const scene::Scene& world) {
   Element& root = *document.root()->FirstChildElement("world");
   // A scene that was resolved before gets its list anew.
   while (Element* old = root.FirstChildElement("navvy:resolved")) root.DeleteChild(old);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
@@ -17,7 +17,7 @@ inline constexpr int kResolvedFormat = 1;
 /// directory, else an absolute path. `<navvy:resolved format="1">` lists those files with a hash of each. Reading the
 /// text gives `world` again, value by value. `document` must have been read as `world` without a fault; its elements
 /// are changed.
-std::string resolved_text(Document& document, const scene::World& world);
+std::string resolved_text(Document& document, const scene::Scene& world);
 
 /// What `<navvy:resolved>` of a world promises: an error for a format that is not known here, a warning for each file
 /// that has changed since. Nothing for other worlds.

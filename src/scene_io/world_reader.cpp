@@ -27,7 +27,7 @@ struct MachineFile {
   std::size_t elements = 0;
 };
 
-void read_solver(Element& element, scene::Solver& solver, Faults& faults) {
+void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults) {
   // A cell below 5 mm or above 2 m is a slip of units; the particles' number follows from its cube.
   Fields(element, faults)
       .number("cell_m", solver.cell, {0.005, 2})
@@ -54,7 +54,7 @@ void require_file_name(const Element& element, const std::string& name, Faults& 
     faults.error(element, name, "results are named after it: no '/', no '..'", "use letters, digits, _ and -");
 }
 
-scene::Camera read_camera(Element& element, const scene::World& world, Faults& faults) {
+scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& faults) {
   scene::Camera camera;
   camera.name = attribute(element, "name");
   // Everything is read first and judged then, so that one camera can have several faults at once.
@@ -124,7 +124,7 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   lights.push_back(light);
 }
 
-void read_load(Element& element, scene::MachineInWorld& instance, const scene::World& world, Faults& faults) {
+void read_load(Element& element, scene::MachineInWorld& instance, const scene::Scene& world, Faults& faults) {
   // A world of one soil need not name it.
   if (!world.soils.empty()) instance.load.soil = world.soils[0].name;
   Fields fields(element, faults);
@@ -175,7 +175,7 @@ const scene::Machine& machine_of(const std::string& path, const Known& known, Fa
 }
 
 // What <include> and an inline <model> share: place, joints, program.
-void read_instance(Element& element, scene::MachineInWorld& instance, const scene::World& world, const Known& known,
+void read_instance(Element& element, scene::MachineInWorld& instance, const scene::Scene& world, const Known& known,
                    Faults& faults) {
   if (Element* pose = element.FirstChildElement("pose")) {
     // A pose that is too short is reported by check_sdf; it is not read a second time here.
@@ -201,7 +201,7 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
     instance.program = read_program(*e, known.kinds, &instance.machine, known.ground ? &world.ground : nullptr, faults);
 }
 
-scene::MachineInWorld read_include(Element& element, const scene::World& world, const Known& known, Faults& faults) {
+scene::MachineInWorld read_include(Element& element, const scene::Scene& world, const Known& known, Faults& faults) {
   scene::MachineInWorld instance;
   Element* uri = element.FirstChildElement("uri");
   std::string path;
@@ -226,7 +226,7 @@ scene::MachineInWorld read_include(Element& element, const scene::World& world, 
   return instance;
 }
 
-void read_soils(Element& world_element, scene::World& world, Faults& faults) {
+void read_soils(Element& world_element, scene::Scene& world, Faults& faults) {
   for (Element* e = world_element.FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil")) {
     scene::Soil soil = read_soil(*e, faults);
     if (!soil.name.empty() && world.soil_index(soil.name) >= 0)
@@ -238,7 +238,7 @@ void read_soils(Element& world_element, scene::World& world, Faults& faults) {
     faults.error(world_element, "", "a world needs a soil", "add <navvy:soil ref=\"loam\"/>");
 }
 
-void check_grid(const Element& world_element, const scene::World& world, Faults& faults) {
+void check_grid(const Element& world_element, const scene::Scene& world, Faults& faults) {
   const Vec2 cells = world.ground.size / world.solver.cell;
   const Element* ground = world_element.FirstChildElement("navvy:ground");
   const Element& at = ground ? *ground : world_element;
@@ -249,7 +249,7 @@ void check_grid(const Element& world_element, const scene::World& world, Faults&
     faults.error(at, "", "the site must be at most 65536 cells wide", "larger cell_m or smaller size_m");
 }
 
-void read_machines(Element& world_element, scene::World& world, const Known& known, Faults& faults) {
+void read_machines(Element& world_element, scene::Scene& world, const Known& known, Faults& faults) {
   // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
@@ -291,8 +291,8 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   return read_machine(*model, faults.error_count() == before, faults);
 }
 
-scene::World read_world(Document& document, const scene::StepKinds& kinds, Faults& faults) {
-  scene::World world;
+scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Faults& faults) {
+  scene::Scene world;
   world.file = document.file();
   Element& root = *document.root();
   if (!check_root(root, faults)) return world;

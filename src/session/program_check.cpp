@@ -35,7 +35,7 @@ Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed
 /// stands at when the bucket comes is known only in the run.
 class BedCheck {
  public:
-  BedCheck(const scene::World& world, const control::SurfaceView& surface, const std::vector<Pose>& X_WB)
+  BedCheck(const scene::Scene& world, const control::SurfaceView& surface, const std::vector<Pose>& X_WB)
       : world_(world), surface_(surface), X_WB_(X_WB) {}
 
   std::vector<Fault> faults;
@@ -80,14 +80,14 @@ class BedCheck {
     return text.data();
   }
 
-  const scene::World& world_;
+  const scene::Scene& world_;
   const control::SurfaceView& surface_;
   const std::vector<Pose>& X_WB_;
 };
 
 }  // namespace
 
-std::vector<Fault> check_programs(const scene::World& world, const control::SurfaceView& surface,
+std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB) {
   std::vector<Fault> faults;
   // Errors first: a dig out of reach is worse than one that drops its load too low.
@@ -103,7 +103,7 @@ std::vector<Fault> check_programs(const scene::World& world, const control::Surf
 }
 
 /// Lays the ground as a run would, but looks at columns alone: before a run no soil lies loose.
-std::vector<Fault> check_programs(const scene::World& world) {
+std::vector<Fault> check_programs(const scene::Scene& world) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
     return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground));

@@ -32,7 +32,7 @@ class SeenSurface final : public control::SurfaceView {
   explicit SeenSurface(const sim::World& world) : world_(world) {}
   const heightfield::Terrain& terrain() const override {
     if (!view_ || seen_step_ != world_.steps()) {
-      view_ = sim::terrain_view(world_, heightfield::Surface::kWithLooseSoil);
+      view_ = sim::terrain_view(world_, heightfield::SurfaceKind::kWithLooseSoil);
       seen_step_ = world_.steps();
     }
     return *view_;
@@ -50,7 +50,7 @@ class SeenSurface final : public control::SurfaceView {
 
 // The world first: everything else looks through handles into it.
 struct Session::State {
-  State(scene::World description, device::Device& device)
+  State(scene::Scene description, device::Device& device)
       : world(std::move(description), device),
         surface(world),
         device_name(device.info().name),
@@ -87,7 +87,7 @@ struct Session::State {
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
-  std::map<std::string, control::Progress> programs;  ///< as the operators see them: at the start of the step
+  std::map<std::string, control::ProgramProgress> programs;  ///< as the operators see them: at the start of the step
   ForceStatistics force;
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
@@ -273,7 +273,7 @@ void Session::State::visit(Archive& a) {
   });
 }
 
-Session::Session(scene::World description, device::Device& device)
+Session::Session(scene::Scene description, device::Device& device)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;

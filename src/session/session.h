@@ -15,7 +15,7 @@ namespace navvy::session {
 /// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket.
 /// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
 struct Cycle {
-  int machine = 0;  ///< as in scene::World::machines
+  int machine = 0;  ///< as in scene::Scene::machines
   double start = 0, lift_out = 0, dump_start = 0, end = 0;
   double payload_lift_out = 0, payload_dump = 0;
   double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
@@ -53,7 +53,7 @@ class Session {
  public:
   /// @throws InputError listing every target of a program that is out of reach, before anything moves;
   /// device::DeviceError for the device.
-  Session(scene::World description, device::Device& device);
+  Session(scene::Scene description, device::Device& device);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -15,7 +15,7 @@ struct Channel {
   std::string name;
   std::string unit;
   std::string meaning;
-  int machine = -1;  ///< the machine it drives or tells of, as in scene::World::machines; -1: none
+  int machine = -1;  ///< the machine it drives or tells of, as in scene::Scene::machines; -1: none
 };
 
 /// A list of channels with a function each; names are unique, what was added keeps its index.

@@ -15,7 +15,7 @@ namespace navvy::sim {
 namespace {
 
 // Loose soil is drawn as particles, so the ground below it is that of the columns.
-constexpr heightfield::Surface kDrawn = heightfield::Surface::kColumns;
+constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
 constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]

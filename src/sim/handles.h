@@ -49,7 +49,7 @@ class LinkHandle {
 class JointHandle {
  public:
   const std::string& name() const;
-  /// Indices into scene::World::machines and scene::Machine::joints.
+  /// Indices into scene::Scene::machines and scene::Machine::joints.
   int machine() const { return machine_; }
   int index() const { return index_; }
   /// Zero is the pose of the machine's file; wheels count on beyond a turn.
@@ -88,7 +88,7 @@ class ToolHandle {
  public:
   /// Name of its shell, unique in its machine.
   const std::string& name() const;
-  /// Index into scene::World::machines.
+  /// Index into scene::Scene::machines.
   int machine() const;
   /// What the machine's file says it is for; neither for a blade or plate.
   bool is_bucket() const;
@@ -118,7 +118,7 @@ class MachineHandle {
  public:
   /// Of the instance in the scene, "excavator", not of the model.
   const std::string& name() const;
-  /// Index into scene::World::machines.
+  /// Index into scene::Scene::machines.
   int index() const { return machine_; }
   /// The data it was built from: names, counts, limits.
   const scene::Machine& description() const;

@@ -6,12 +6,12 @@
 
 #include "core/math.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::sim {
 
 /// X_WB of every machine's base link at the start, in the scene's order: as a World of this scene and ground has them.
 /// Needs no device.
-std::vector<Pose> starting_poses(const scene::World& scene, const heightfield::Ground& ground);
+std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::Ground& ground);
 
 }  // namespace navvy::sim

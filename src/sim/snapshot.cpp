@@ -38,7 +38,7 @@ struct Front {
 
 }  // namespace
 
-heightfield::Ground load_ground(const scene::World& scene, const std::string& snapshot_file, SnapshotHead* head) {
+heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file, SnapshotHead* head) {
   try {
     Front front{{scene.name}, heightfield::make_ground(scene, nullptr)};
     // Whole files: snapshots are read at once everywhere.

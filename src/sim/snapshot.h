@@ -7,7 +7,7 @@
 
 #include "core/archive.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::sim {
 
@@ -26,7 +26,7 @@ struct SnapshotHead {
 /// that ran (a run's folder holds it as scene.sdf). Needs no OpenCL device; reads a heightmap that the scene names.
 /// `head` receives the time of the snapshot when it is given.
 /// @throws FileError when the file cannot be read, InputError when it does not fit the scene; the message names it.
-heightfield::Ground load_ground(const scene::World& scene, const std::string& snapshot_file,
+heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
                                 SnapshotHead* head = nullptr);
 
 }  // namespace navvy::sim

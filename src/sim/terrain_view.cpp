@@ -26,9 +26,9 @@ std::vector<heightfield::LooseGrain> loose_grains(const World& world) {
 
 }  // namespace
 
-heightfield::TerrainView terrain_view(const World& world, heightfield::Surface surface) {
+heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
-  if (surface == heightfield::Surface::kColumns) return columns;
+  if (surface == heightfield::SurfaceKind::kColumns) return columns;
   return columns.with(heightfield::LooseSoil(columns, loose_grains(world)));
 }
 

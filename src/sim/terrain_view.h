@@ -12,6 +12,6 @@ namespace navvy::sim {
 ///
 /// The columns alone cost what was changed since the last view, microseconds; loose soil costs a pass over the
 /// particles.
-heightfield::TerrainView terrain_view(const World& world, heightfield::Surface surface);
+heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
 
 }  // namespace navvy::sim

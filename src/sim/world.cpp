@@ -29,7 +29,7 @@ void require_finite(const std::string& what, double value) {
 }  // namespace
 
 /// The parts are whole before the first channel is made: channels hold handles into them.
-World::World(scene::World description, device::Device& device)
+World::World(scene::Scene description, device::Device& device)
     : parts_(std::make_unique<WorldParts>(std::move(description), device)) {
   add_channels(*this, parts_->inputs, parts_->outputs);
 }
@@ -41,7 +41,7 @@ WorldParts& parts(World& world) { return *world.parts_; }
 const WorldParts& parts(const World& world) { return *world.parts_; }
 
 // Plain answers from the parts.
-const scene::World& World::description() const { return parts_->description; }
+const scene::Scene& World::description() const { return parts_->description; }
 double World::dt() const { return parts_->dt; }
 std::uint64_t World::steps() const { return parts_->steps; }
 double World::time() const { return parts_->time(); }

@@ -10,7 +10,7 @@
 
 #include "core/archive.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
 #include "sim/handles.h"
@@ -33,13 +33,13 @@ class World {
  public:
   /// Builds the ground from the scene (reads the heightmap file if it names one) and places the machines on it.
   /// @throws InputError for what cannot be built, device::DeviceError for the device.
-  World(scene::World description, device::Device& device);
+  World(scene::Scene description, device::Device& device);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   /// The scene it was built from, with the order of machines, joints, soils that all indices follow.
-  const scene::World& description() const;
+  const scene::Scene& description() const;
   double dt() const;  ///< base step [s]
   std::uint64_t steps() const;
   double time() const;  ///< steps x dt [s]

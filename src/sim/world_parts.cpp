@@ -16,7 +16,7 @@ namespace {
 constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
 
 /// The site; what was found in a terrain file goes to the log.
-heightfield::Ground make_site(const scene::World& world) {
+heightfield::Ground make_site(const scene::Scene& world) {
   // A map may have gaps or an odd datum: worth a line to the user, no fault.
   std::string report;
   heightfield::Ground ground = heightfield::make_ground(world, &report);
@@ -27,7 +27,7 @@ heightfield::Ground make_site(const scene::World& world) {
 }  // namespace
 
 /// In the order of the members: ground under machines, engines and soil under the exchange that binds them.
-WorldParts::WorldParts(scene::World world, device::Device& device)
+WorldParts::WorldParts(scene::Scene world, device::Device& device)
     : description(std::move(world)),
       ground(make_site(description)),
       dynamic(vehicle::make_bullet_engine(description.gravity)),

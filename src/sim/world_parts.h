@@ -9,7 +9,7 @@
 
 #include "coupling/coupling.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
 #include "sim/sampler.h"
@@ -29,14 +29,14 @@ class World;
 struct WorldParts {
   /// Lays the ground, places the machines on it, wakes and loads the soil that the scene says.
   /// @throws InputError for what cannot be built, device::DeviceError for the device.
-  WorldParts(scene::World world, device::Device& device);
+  WorldParts(scene::Scene world, device::Device& device);
   WorldParts(const WorldParts&) = delete;
   WorldParts& operator=(const WorldParts&) = delete;
 
   double time() const { return static_cast<double>(steps) * dt; }  ///< [s]
 
   /// What was asked for.
-  scene::World description;
+  scene::Scene description;
   heightfield::Ground ground;
   /// Machines with masses, and machines that move as told.
   std::unique_ptr<vehicle::Engine> dynamic, kinematic;

@@ -65,7 +65,7 @@ Particle in_cell_block(Particle p) {
   return p;
 }
 
-Solver::State::State(device::Device& device_in, const scene::World& world_in, heightfield::Ground& ground_in)
+Solver::State::State(device::Device& device_in, const scene::Scene& world_in, heightfield::Ground& ground_in)
     : device(device_in),
       world(world_in),
       ground(ground_in),
@@ -84,14 +84,14 @@ Solver::State::State(device::Device& device_in, const scene::World& world_in, he
       inserted(world_in.soils.size(), 0),
       in_particles(world_in.soils.size(), 0) {}
 
-Solver::Solver(device::Device& device, const scene::World& world, heightfield::Ground& ground)
+Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground)
     : state_(std::make_unique<State>(device, world, ground)) {}
 Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_tool(shell); }
 
 double Solver::step_limit(double tool_speed) const {
-  const scene::Solver& settings = state_->world.solver;
+  const scene::SolverSettings& settings = state_->world.solver;
   return std::min(settings.max_step, settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
 }
 

@@ -11,7 +11,7 @@
 #include "core/math.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 #include "soil/tools/tool_motion.h"
@@ -51,7 +51,7 @@ struct SolverStats {
 class Solver {
  public:
   /// @throws InputError for absurd soil, device::DeviceError with the build log.
-  Solver(device::Device& device, const scene::World& world, heightfield::Ground& ground);
+  Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

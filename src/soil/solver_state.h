@@ -18,7 +18,7 @@
 namespace navvy::soil {
 
 struct Solver::State {
-  State(device::Device& device_in, const scene::World& world_in, heightfield::Ground& ground_in);
+  State(device::Device& device_in, const scene::Scene& world_in, heightfield::Ground& ground_in);
 
   void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
@@ -48,7 +48,7 @@ struct Solver::State {
   void rebuild();
 
   device::Device& device;
-  scene::World world;
+  scene::Scene world;
   heightfield::Ground& ground;
   double cell;
   PlanGrid grid;

@@ -88,7 +88,7 @@ class Alone {
   const scene::ProgramStep step;
   Workplace place;
   Observation seen;
-  std::map<std::string, Progress> programs;
+  std::map<std::string, ProgramProgress> programs;
   std::unique_ptr<Activity> activity;
   double time = 0;
   std::set<std::string> phases;

@@ -94,7 +94,7 @@ scene::StepKinds kinds_with_nod() {
 }
 
 /// A scene with two excavators that run these programs.
-scene::World load(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {
+scene::Scene load(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {
   const auto machine = [](const char* name, const char* x, const std::string& program) {
     return "<include><uri>model://ew180</uri><name>" + std::string(name) + "</name><pose>" + x + " 0 0 0 0 0</pose>" +
            "<navvy:program>\n" + program + "\n</navvy:program></include>\n";
@@ -102,7 +102,7 @@ scene::World load(const std::string& first, const std::string& second, const sce
   const std::string text = "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>" +
                            std::string("<navvy:ground><size_m>60 20</size_m></navvy:ground>\n") +
                            machine("first", "-15", first) + machine("second", "15", second) + "</world></sdf>";
-  return scene_io::load_world_from_string(text, navvy::source_dir() + "/scenarios/mine.sdf", kinds);
+  return scene_io::load_scene_from_string(text, navvy::source_dir() + "/scenarios/mine.sdf", kinds);
 }
 
 std::string failure(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {
@@ -142,7 +142,7 @@ struct Trial {
 };
 
 TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
-  const scene::World world = load(std::string(kWait) + "<nod><times>2</times></nod>" + kWait, kWait, kinds_with_nod());
+  const scene::Scene world = load(std::string(kWait) + "<nod><times>2</times></nod>" + kWait, kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   ASSERT_EQ(placed.program.steps.size(), 3u);
   ASSERT_NE(placed.program.steps[1].as<Nod>(), nullptr);
@@ -165,7 +165,7 @@ TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
 }
 
 TEST(NewStep, ResumesFromASnapshotBitForBit) {
-  const scene::World world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
+  const scene::Scene world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
   Trial whole(world.machines[0]), resumed(world.machines[0]);
   while (whole.op.phase() != "up") whole.step();
   const std::vector<char> bytes = saved(whole.op);
@@ -189,7 +189,7 @@ TEST(NewStep, TellsItsFaultsWithLineAndElement) {
 }
 
 TEST(NewStep, IsAskedWhatItCanReach) {
-  const scene::World world = load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
+  const scene::Scene world = load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   const heightfield::Ground ground = flat_ground();
   const std::vector<Fault> faults =
@@ -216,7 +216,7 @@ TEST(NewStep, MustBeAStepOfTheOperator) {
   struct Foreign final : scene::Step {
     const char* element() const override { return "foreign"; }
   };
-  const scene::World world = load(kWait, kWait, step_kinds());
+  const scene::Scene world = load(kWait, kWait, step_kinds());
   EXPECT_THROW(Operator(world.machines[0].machine, {{Foreign{}}, {}}), InputError);
 }
 

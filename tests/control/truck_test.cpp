@@ -80,7 +80,7 @@ TEST(Truck, GivesUpOnABedThatSticks) {
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   for (const int steps : {2, 0}) {
     Operator op(truck(), program({WaitFor{"digger", steps, 100}}));
-    std::map<std::string, Progress> programs{{"digger", {1, 4}}};
+    std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
     Observation seen;
     seen.joints.resize(1);
     seen.programs = &programs;
@@ -98,7 +98,7 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
 
 TEST(Truck, DoesNotWaitForEver) {
   Operator op(truck(), program({WaitFor{"digger", 0, 3}}));
-  std::map<std::string, Progress> programs{{"digger", {0, 1}}};
+  std::map<std::string, ProgramProgress> programs{{"digger", {0, 1}}};
   Observation seen;
   seen.programs = &programs;
   EXPECT_NEAR(run(op, 0.1, 10, seen).time, 3, 0.05);

@@ -19,8 +19,8 @@ namespace navvy::coupling {
 namespace {
 
 /// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of which is flipped.
-scene::World coarse_site() {
-  scene::World world = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+scene::Scene coarse_site() {
+  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.solver.cell = 0.4;
   world.machines.at(0).program = {};
   return world;

@@ -15,7 +15,7 @@ namespace navvy::coupling {
 namespace {
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
-  scene::World scene = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene scene = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   scene.ground.depth = 0.4;
   scene.machines.at(0).program = {};
   device::Device device;

@@ -18,8 +18,8 @@ constexpr double kWheelRadius = 0.525;
 
 /// The shipped site with these shapes instead of its own; excavators side by side with their rear axles at x = -9,
 /// 6 m apart to the left, without programs.
-scene::World yard(const std::vector<scene::GroundFeature>& features, int machines = 1) {
-  scene::World world = scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+scene::Scene yard(const std::vector<scene::GroundFeature>& features, int machines = 1) {
+  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.ground.features = features;
   world.machines.at(0).program = {};
   for (int m = 1; m < machines; ++m) {
@@ -107,7 +107,7 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
   slope.kind = scene::GroundFeature::Kind::kSlope;
   slope.angle = radians(6);
   for (const auto& features : {std::vector<scene::GroundFeature>{}, std::vector<scene::GroundFeature>{slope}}) {
-    scene::World lifted = yard(features);
+    scene::Scene lifted = yard(features);
     lifted.machines[0].X_WM.translation().z() += 1.0;
     lifted.machines[0].X_WM.linear() = make_pose(0, 0, 0, 0.1, 0.2, 0).linear();
     const sim::World as_it_is(yard(features), shared_device()), as_told(lifted, shared_device());

@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   try {
-    navvy::scene_io::load_world_from_string(text, "fuzz/scene.sdf", navvy::control::step_kinds());
+    navvy::scene_io::load_scene_from_string(text, "fuzz/scene.sdf", navvy::control::step_kinds());
   } catch (const navvy::InputError&) {
   }
   return 0;

@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ::close(file);
     return 0;
   }
-  navvy::scene::World world;
+  navvy::scene::Scene world;
   world.soils.resize(1);
   world.soils[0].name = "loam";
   world.ground.layers = {{"loam", 1}};

@@ -31,7 +31,7 @@ std::string asymmetric_map(const std::string& path, const std::string& corner = 
   return write_text(path, ascii_grid(13, 7, corner + "cellsize 1\n", asymmetric_text));
 }
 
-std::string message_of(const scene::World& world) {
+std::string message_of(const scene::Scene& world) {
   try {
     make_ground(world);
   } catch (const InputError& error) {
@@ -64,7 +64,7 @@ constexpr double kFloatHeight = 1e-5;
 TEST(Import, IsNeitherMirroredNorTransposed) {
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
   const std::string file = asymmetric_map(folder() + "map.asc");
-  scene::World world = map_world(file, 1, Vec2(8, 4));
+  scene::Scene world = map_world(file, 1, Vec2(8, 4));
   world.ground.has_at = true;
   for (const Vec2& at : {Vec2(505, 8003), Vec2(508, 8004), Vec2(509, 8002)}) {
     world.ground.at = at;
@@ -89,7 +89,7 @@ TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
     const std::string file = dir + kind + ".tif";
     output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 -mo AREA_OR_POINT=" + kind + " '" + ascii + "' '" + file +
               "'");
-    scene::World world = map_world(file, 1, Vec2(8, 4));
+    scene::Scene world = map_world(file, 1, Vec2(8, 4));
     world.ground.has_at = true;
     world.ground.at = Vec2(506, 8004);
     Ground::Setup setup;
@@ -102,7 +102,7 @@ TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
   }
   // ESRI's own way to register at points: the corner lies half a cell lower.
   const std::string centred = asymmetric_map(dir + "centre.asc", "xllcenter 500.5\nyllcenter 8000.5\n");
-  scene::World world = map_world(centred, 1, Vec2(8, 4));
+  scene::Scene world = map_world(centred, 1, Vec2(8, 4));
   world.ground.has_at = true;
   world.ground.at = Vec2(506, 8004);
   const Ground ground = make_ground(world);
@@ -138,7 +138,7 @@ TEST(Import, KnowsEverySpellingOfNodata) {
     };
     const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n" + c.header;
     const std::string file = write_text(dir + c.name + ".asc", ascii_grid(21, 21, header, z));
-    scene::World world = map_world(file, 0.5, Vec2(12, 12));
+    scene::Scene world = map_world(file, 0.5, Vec2(12, 12));
     Ground::Setup setup;
     setup.nx = setup.ny = 24, setup.cell = 0.5;
     const TerrainReport report = import_terrain(world, setup);
@@ -171,7 +171,7 @@ TEST(Import, KeepsZeroNegativeAndHighHeights) {
 
 TEST(Import, SaysWhereTheMapIsWhenTheSiteIsOffIt) {
   const std::string file = asymmetric_map(folder() + "map.asc");
-  scene::World world = map_world(file, 0.1, Vec2(4, 4));
+  scene::Scene world = map_world(file, 0.1, Vec2(4, 4));
   world.ground.has_at = true;
   world.ground.at = Vec2(5, 3);
   const std::string message = message_of(world);
@@ -209,7 +209,7 @@ TEST(Import, ConvertsFeetOnAllThreeAxes) {
   const std::string file = dir + "feet.tif";
   output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + ascii + "' '" + file + "'");
   const double foot = 1200.0 / 3937.0;  // US survey foot
-  scene::World world = map_world(file, foot, Vec2(8 * foot, 4 * foot));
+  scene::Scene world = map_world(file, foot, Vec2(8 * foot, 4 * foot));
   world.ground.has_at = true;
   world.ground.at = Vec2(981006, 195004);
   std::string report;
@@ -232,7 +232,7 @@ TEST(Import, ReportsSlopesAndRepose) {
   EXPECT_EQ(report.slope.least, 0);
   EXPECT_NEAR(report.slope.share_above, 2.0 / 15, 1e-12);
   // Settled, it is no steeper than the friction angle.
-  scene::World world = map_world(file, 0.1, Vec2(16, 16));
+  scene::Scene world = map_world(file, 0.1, Vec2(16, 16));
   world.ground.steep = scene::SteepGround::kSettle;
   const Ground settled = make_ground(world);
   double most = 0;
@@ -326,7 +326,7 @@ TEST(Import, ReadsTheLidarMapOfMinnesota) {
   EXPECT_EQ(report.nodata.gaps, 0);
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
   // Cells of 1 m, aligned with the map's by an even size at a corner.
-  scene::World world = map_world(file, 1, Vec2(60, 20));
+  scene::Scene world = map_world(file, 1, Vec2(60, 20));
   world.ground.has_at = world.ground.at_is_local = true;
   world.ground.at = Vec2(200, 311);
   const std::string dir = folder();
@@ -348,7 +348,7 @@ TEST(Import, ReadsTheChannelOfTheKootenai) {
   EXPECT_NEAR(degrees(report.slope.most), 57.6, 4);  // theirs is another difference formula
   EXPECT_TRUE(report.crs.empty());
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
-  scene::World world = map_world(file, 1, Vec2(40, 28));
+  scene::Scene world = map_world(file, 1, Vec2(40, 28));
   world.ground.has_at = true;
   world.ground.at = Vec2(556465, 5394950);
   const std::string dir = folder();

@@ -16,7 +16,7 @@
 
 #include "folder.h"
 #include "paths.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::heightfield::testing {
 
@@ -76,8 +76,8 @@ inline std::vector<double> located(const std::string& file, const std::vector<Ve
 }
 
 /// A world on a map with one soil of 30 deg.
-inline scene::World map_world(const std::string& file, double cell, Vec2 size) {
-  scene::World world;
+inline scene::Scene map_world(const std::string& file, double cell, Vec2 size) {
+  scene::Scene world;
   world.soils.resize(1);
   world.soils[0].name = "loam";
   world.soils[0].friction_angle = radians(30);

@@ -14,8 +14,8 @@ namespace {
 
 using Kind = scene::GroundFeature::Kind;
 
-scene::World world_with(const std::vector<scene::GroundFeature>& features, Vec2 size = Vec2(12, 8)) {
-  scene::World world;
+scene::Scene world_with(const std::vector<scene::GroundFeature>& features, Vec2 size = Vec2(12, 8)) {
+  scene::Scene world;
   world.soils.resize(1);
   world.soils[0].name = "loam";
   world.soils[0].friction_angle = radians(30);
@@ -42,7 +42,7 @@ scene::GroundFeature feature(Kind kind, double length, double width, double heig
 constexpr double kHeightQuantum = 1e-8;
 
 TEST(Site, IsRoundedUpToBlocksAndCentredOnTheOrigin) {
-  scene::World world = world_with({}, Vec2(10.05, 7.2));
+  scene::Scene world = world_with({}, Vec2(10.05, 7.2));
   world.ground.surface = 2.5;
   const Ground ground = make_ground(world);
   EXPECT_EQ(ground.nx(), 104);
@@ -121,7 +121,7 @@ TEST(Site, HillsAreSeededBoundedAndSmooth) {
 }
 
 TEST(Site, SettlesSlopesAboveReposeOnceAndKeepsVolume) {
-  scene::World world = world_with({feature(Kind::kBank, 1, 1, 1.5, radians(75))});
+  scene::Scene world = world_with({feature(Kind::kBank, 1, 1, 1.5, radians(75))});
   const Ground held = make_ground(world);
   world.ground.steep = scene::SteepGround::kSettle;
   const Ground settled = make_ground(world), again = make_ground(world);
@@ -144,7 +144,7 @@ TEST(Site, RefusesAbsurdSizes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Vec2& size : {Vec2(0, 5), Vec2(nan, 5), Vec2(5, -1), Vec2(1e300, 5)})
     EXPECT_THROW(make_ground(world_with({}, size)), InputError);
-  scene::World world = world_with({});
+  scene::Scene world = world_with({});
   world.solver.cell = 0;
   EXPECT_THROW(make_ground(world), InputError);
   world = world_with({});

@@ -61,7 +61,7 @@ TEST(TerrainView, ReadsWhatTheGroundReads) {
   const TerrainView view = ground.view(2.5);
   EXPECT_EQ(view.time(), 2.5);
   EXPECT_EQ(view.sequence(), ground.sequence());
-  EXPECT_EQ(view.surface(), Surface::kColumns);
+  EXPECT_EQ(view.surface(), SurfaceKind::kColumns);
   EXPECT_EQ(reading(view), reading(ground));
   for (int n = 0; n < 1000; ++n) {
     const double x = random.uniform(-5, 6), y = random.uniform(0, 8);
@@ -112,7 +112,7 @@ TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
                                           {33, 20, top + 0.15, 0.001, 1, 1.3f},
                                           {60, 40, below + 1.0, 0.001, 0, 1.2f}};
   const TerrainView columns = ground.view(), seen = columns.with(LooseSoil(columns, grains));
-  EXPECT_EQ(seen.surface(), Surface::kWithLooseSoil);
+  EXPECT_EQ(seen.surface(), SurfaceKind::kWithLooseSoil);
   EXPECT_EQ(reading(columns), reading(ground));
   // Two litres on 0.01 m2.
   EXPECT_NEAR(seen.height(33, 20), top + 0.2, 1e-12);

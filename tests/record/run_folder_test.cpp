@@ -39,7 +39,7 @@ TEST(RunFolder, OfFormat1TellsWhatMadeIt) {
 
 TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
   EXPECT_TRUE(scene_io::check(kKept + "/scene.sdf", control::step_kinds()).empty());
-  const scene::World world = scene_io::load_world(kKept + "/scene.sdf", control::step_kinds());
+  const scene::Scene world = scene_io::load_scene(kKept + "/scene.sdf", control::step_kinds());
   EXPECT_EQ(world.name, "bucket_path");
   EXPECT_EQ(world.seed, 5u);                 // --seed 5
   EXPECT_EQ(world.recording.duration, 0.1);  // --duration 0.1

@@ -70,7 +70,7 @@ TEST(BrokenFiles, AnErrorOfAnElementAlwaysKnowsItsLine) {
 
 TEST(BrokenFiles, LoadingThrowsAllFaultsAtOnce) {
   try {
-    load_world((kBroken / "many.sdf").string(), control::step_kinds());
+    load_scene((kBroken / "many.sdf").string(), control::step_kinds());
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults().size(), check((kBroken / "many.sdf").string(), control::step_kinds()).size());
@@ -79,7 +79,7 @@ TEST(BrokenFiles, LoadingThrowsAllFaultsAtOnce) {
 }
 
 TEST(BrokenFiles, AMissingFileAndADirectoryAreNamed) {
-  EXPECT_THROW(load_world("no/such/scene.sdf", control::step_kinds()), InputError);
+  EXPECT_THROW(load_scene("no/such/scene.sdf", control::step_kinds()), InputError);
   EXPECT_THROW(load_machine("no/such/model.sdf"), InputError);
   EXPECT_THROW(load_soils("no/such/directory"), InputError);
   const auto faults = check(kBroken.string(), control::step_kinds());

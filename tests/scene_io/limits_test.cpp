@@ -36,11 +36,11 @@ std::string messages(const Faults& faults) {
 }
 
 /// What reading a text has found and taken.
-Faults read(const std::string& text, scene::World* world = nullptr) {
+Faults read(const std::string& text, scene::Scene* world = nullptr) {
   Faults faults;
   const auto document = Document::parse(text, navvy::source_dir() + "/scenarios/mine.sdf", faults);
   if (!document) return faults;
-  scene::World read = read_world(*document, control::step_kinds(), faults);
+  scene::Scene read = read_world(*document, control::step_kinds(), faults);
   if (world != nullptr) *world = std::move(read);
   return faults;
 }
@@ -60,7 +60,7 @@ std::string include(int i) {
 TEST(Limits, FortyMachinesOfOneFileAreReadOnce) {
   std::string machines;
   for (int i = 0; i < 40; ++i) machines += include(i);
-  scene::World world;
+  scene::Scene world;
   const Faults faults = read(world_text(machines), &world);
   EXPECT_FALSE(faults.has_errors()) << messages(faults);
   ASSERT_EQ(world.machines.size(), 40u);

@@ -55,8 +55,8 @@ const char* kBody = R"(<navvy:soil ref="loam"><cohesion_pa>7000</cohesion_pa></n
 <navvy:camera name="mounted"><machine>first</machine><link>bucket</link></navvy:camera>
 <navvy:seed>42</navvy:seed>)";
 
-scene::World load(const std::string& body, const Overrides& overrides = {}) {
-  return load_world_from_string(world_text(body), kScene, control::step_kinds(), overrides);
+scene::Scene load(const std::string& body, const Overrides& overrides = {}) {
+  return load_scene_from_string(world_text(body), kScene, control::step_kinds(), overrides);
 }
 
 std::string failure(const std::string& body, const Overrides& overrides = {}) {
@@ -75,7 +75,7 @@ Overrides set(const std::string& setting) {
 }
 
 TEST(Loader, ReadsSoilsWithUnitsConvertedOnce) {
-  const scene::World world = load(kBody);
+  const scene::Scene world = load(kBody);
   ASSERT_EQ(world.soils.size(), 2u);
   EXPECT_EQ(world.soils[0].name, "loam");
   EXPECT_EQ(world.soils[0].cohesion, 7000);
@@ -86,7 +86,7 @@ TEST(Loader, ReadsSoilsWithUnitsConvertedOnce) {
 }
 
 TEST(Loader, ReadsGroundShapesInFileOrderAndLayersFromTheSurfaceDown) {
-  const scene::Ground ground = load(kBody).ground;
+  const scene::StartGround ground = load(kBody).ground;
   EXPECT_EQ(ground.size, Vec2(24, 20));
   EXPECT_EQ(ground.origin, Vec2(-12, -10));
   EXPECT_EQ(ground.surface, 1.5);
@@ -105,7 +105,7 @@ TEST(Loader, ReadsGroundShapesInFileOrderAndLayersFromTheSurfaceDown) {
 }
 
 TEST(Loader, ReadsMachinesWithPoseJointsAndProgram) {
-  const scene::World world = load(kBody);
+  const scene::Scene world = load(kBody);
   ASSERT_EQ(world.machines.size(), 2u);
   const scene::MachineInWorld& first = world.machines[0];
   EXPECT_EQ(first.name, "first");
@@ -127,7 +127,7 @@ TEST(Loader, ReadsMachinesWithPoseJointsAndProgram) {
 }
 
 TEST(Loader, ReadsCamerasLightAndSeed) {
-  const scene::World world = load(kBody);
+  const scene::Scene world = load(kBody);
   ASSERT_EQ(world.cameras.size(), 3u);
   EXPECT_EQ(world.cameras[0].kind, scene::Camera::Kind::kFixed);
   EXPECT_EQ(world.cameras[1].kind, scene::Camera::Kind::kChase);
@@ -192,7 +192,7 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
 <coupler_length_m>0.6</coupler_length_m><coupler_pin_m>0 0 0.3</coupler_pin_m></linkage><count>2</count></navvy:cylinder>
 <navvy:program><dig><from_m>3 0</from_m><to_m>5 0</to_m><depth_m>0.5</depth_m><dump_at_m>0 3</dump_at_m></dig></navvy:program>
 </model>)";
-  const scene::World world = load(digger);
+  const scene::Scene world = load(digger);
   const auto& machine = world.machines.at(0);
   EXPECT_EQ(machine.program.steps.at(0).as<control::Dig>()->width, 0.6);
   EXPECT_EQ(machine.machine.buckets.at(0).opening, Vec3(0, 0, -1));
@@ -204,7 +204,7 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
 
 /// A two-wheeled robot with this drive element.
 scene::Machine robot_with(const std::string& drive) {
-  const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="r">
+  const scene::Scene world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="r">
 <navvy:engine>kinematic</navvy:engine><link name="a"/><link name="l"><pose>0 0.2 0.1 0 0 0</pose></link>
 <link name="r"><pose>0 -0.2 0.1 0 0 0</pose></link>
 <joint name="left" type="continuous"><parent>a</parent><child>l</child><axis><xyz>0 1 0</xyz></axis></joint>
@@ -230,7 +230,7 @@ TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
 
 /// A shell with this geometry on a link of its own.
 scene::Shell shell_of(const std::string& geometry) {
-  const scene::World world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">
+  const scene::Scene world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">
 <navvy:engine>kinematic</navvy:engine><link name="a"/>
 <navvy:shell name="s"><link>a</link>)" +
                                   geometry + "</navvy:shell></model>");
@@ -268,7 +268,7 @@ TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
 
 TEST(Overrides, ChangeOneOrAllObjects) {
   EXPECT_EQ(load(kBody, set("soil.swell=1.5")).soils[1].swell, 1.5);
-  const scene::World one = load(kBody, set("soil[loam].cohesion_pa=8000"));
+  const scene::Scene one = load(kBody, set("soil[loam].cohesion_pa=8000"));
   EXPECT_EQ(one.soils[0].cohesion, 8000);
   EXPECT_EQ(one.soils[1].cohesion, 0);
   EXPECT_EQ(load(kBody, set("soil[2].swell=1.4")).soils[1].swell, 1.4);
@@ -280,13 +280,13 @@ TEST(Overrides, ChangeOneOrAllObjects) {
 }
 
 TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
-  const scene::World moved = load(kBody, set("machine[first].x_m=-3.25"));
+  const scene::Scene moved = load(kBody, set("machine[first].x_m=-3.25"));
   EXPECT_EQ(Vec3(moved.machines[0].X_WM.translation()), Vec3(-3.25, 2, 0.5));
   EXPECT_EQ(Vec3(moved.machines[1].X_WM.translation()), Vec3(0, 0, 0));
-  const scene::World turned = load(kBody, set("machine[second].yaw_deg=180"));
+  const scene::Scene turned = load(kBody, set("machine[second].yaw_deg=180"));
   // 1e-12: rounding of the rotation by 180 degrees.
   EXPECT_LT((turned.machines[1].X_WM.linear() * Vec3::UnitX() + Vec3::UnitX()).norm(), 1e-12);
-  const scene::World longer = load(kBody, set("machine[first].program.wait.duration_s=9"));
+  const scene::Scene longer = load(kBody, set("machine[first].program.wait.duration_s=9"));
   EXPECT_EQ(longer.machines[0].program.steps[0].as<control::Wait>()->duration, 9);
 }
 
@@ -334,7 +334,7 @@ TEST(Overrides, SeedDurationRenderTerrainAndSize) {
   overrides.terrain = navvy::source_dir() + "/LICENSE";  // any file: the loader does not open maps
   overrides.at = Vec2(410000.25, 5100000.5);
   overrides.size = Vec2(30, 26);
-  const scene::World world = load(kBody, overrides);
+  const scene::Scene world = load(kBody, overrides);
   EXPECT_EQ(world.seed, 7u);
   EXPECT_EQ(world.recording.duration, 12.5);
   EXPECT_FALSE(world.recording.render);

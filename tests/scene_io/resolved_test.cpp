@@ -43,7 +43,7 @@ void expect_equal(const scene::Machine& a, const scene::Machine& b) {
   EXPECT_EQ(a.has_pump, b.has_pump);
 }
 
-void expect_equal(const scene::World& a, const scene::World& b) {
+void expect_equal(const scene::Scene& a, const scene::Scene& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.solver.cell, b.solver.cell);
@@ -86,8 +86,8 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
     if (entry.path().extension() != ".sdf") continue;
     SCOPED_TRACE(entry.path());
     std::string text, again;
-    const scene::World world = load_world(entry.path().string(), control::step_kinds(), {}, &text);
-    const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
+    const scene::Scene world = load_scene(entry.path().string(), control::step_kinds(), {}, &text);
+    const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
     expect_equal(world, resolved);
     EXPECT_EQ(text, again) << "written out once more it is the same text";
     EXPECT_EQ(text.find("<include>"), std::string::npos);
@@ -106,8 +106,8 @@ TEST(Resolved, TextHoldsEveryOverride) {
   overrides.render = false;
   overrides.size = Vec2(26, 22);
   std::string text;
-  const scene::World world = load_world(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
-  const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds());
+  const scene::Scene world = load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds());
   expect_equal(world, resolved);
   EXPECT_EQ(resolved.seed, 77u);
   EXPECT_EQ(resolved.recording.duration, 12.5);
@@ -123,8 +123,8 @@ TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
   Overrides overrides;
   overrides.terrain = std::filesystem::relative(folder / "map.asc").string();
   std::string text;
-  const scene::World world = load_world(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
-  const scene::World resolved = load_world_from_string(text, kElsewhere, control::step_kinds());
+  const scene::Scene world = load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds());
   EXPECT_TRUE(std::filesystem::equivalent(world.ground.file, resolved.ground.file));
   EXPECT_TRUE(std::filesystem::path(resolved.ground.file).is_absolute());
 }
@@ -134,7 +134,7 @@ TEST(Resolved, AFileThatChangedSinceIsTold) {
   std::filesystem::copy(navvy::source_dir() + "/vehicles/test_bucket", folder.path() / "mine",
                         std::filesystem::copy_options::recursive);
   std::string text;
-  load_world_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+  load_scene_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground>
       <include><uri>mine</uri><navvy:on_ground>false</navvy:on_ground></include></world></sdf>)",
                          folder / "scene.sdf", control::step_kinds(), {}, &text);
@@ -152,7 +152,7 @@ TEST(Resolved, AFormatOfALaterVersionIsRefused) {
   const std::string text = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground><navvy:resolved format="2"/></world></sdf>)";
   try {
-    load_world_from_string(text, kElsewhere, control::step_kinds());
+    load_scene_from_string(text, kElsewhere, control::step_kinds());
     FAIL() << "a later format was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("reads format 1"), std::string::npos) << error.what();

@@ -30,7 +30,7 @@ class ByteFlip : public testing::Test {
     overrides.render = false;
     for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
     auto session = std::make_unique<Session>(
-        scene_io::load_world(navvy::source_dir() + "/scenarios/" + scene, control::step_kinds(), overrides), device_);
+        scene_io::load_scene(navvy::source_dir() + "/scenarios/" + scene, control::step_kinds(), overrides), device_);
     session->add(std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 3, 0.2, 20));
     while (session->world().time() < time) session->step();
     return session;

@@ -17,14 +17,14 @@ namespace {
 constexpr double kLoad = 2000;  // [kg]
 
 /// haul.sdf with a shorter way, a lighter load and coarser soil.
-scene::World short_haul() {
+scene::Scene short_haul() {
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const char* setting :
        {"solver.cell_m=0.2", "machine[dumper].load.mass_kg=2000", "machine[dumper].program.drive_to[1].target_m=-8 0",
         "machine[dumper].program.drive_to[2].target_m=-4 0"})
     overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(navvy::source_dir() + "/scenarios/haul.sdf", control::step_kinds(), overrides);
+  return scene_io::load_scene(navvy::source_dir() + "/scenarios/haul.sdf", control::step_kinds(), overrides);
 }
 
 TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {

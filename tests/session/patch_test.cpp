@@ -21,7 +21,7 @@ void replace(std::string& text, const std::string& what, const std::string& with
 }
 
 /// bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the scoop and half its width.
-scene::World patched_scene() {
+scene::Scene patched_scene() {
   const std::string path = navvy::source_dir() + "/scenarios/bucket_path.sdf";
   const std::vector<char> file = read_file(path);
   std::string text(file.begin(), file.end());
@@ -33,7 +33,7 @@ scene::World patched_scene() {
              <patch><min_m>-0.6 0</min_m><max_m>1.2 2</max_m><layer><soil>sand_dry</soil></layer></patch>)");
   scene_io::Overrides overrides;
   overrides.render = false;
-  return scene_io::load_world_from_string(text, path, control::step_kinds(), overrides);
+  return scene_io::load_scene_from_string(text, path, control::step_kinds(), overrides);
 }
 
 TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {

@@ -22,11 +22,11 @@
 namespace navvy::session {
 namespace {
 
-scene::World load(const std::string& name, const std::vector<std::string>& settings = {}) {
+scene::Scene load(const std::string& name, const std::vector<std::string>& settings = {}) {
   scene_io::Overrides overrides;
   overrides.render = false;
   for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_world(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
+  return scene_io::load_scene(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
 }
 
 /// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.
@@ -34,7 +34,7 @@ constexpr double kInSoil = 1.6;
 
 class SessionTest : public testing::Test {
  protected:
-  std::unique_ptr<Session> make(const scene::World& description) {
+  std::unique_ptr<Session> make(const scene::Scene& description) {
     return std::make_unique<Session>(description, device_);
   }
   static void run_to(Session& session, double time) {
@@ -44,7 +44,7 @@ class SessionTest : public testing::Test {
 };
 
 TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
-  const scene::World description = load("bucket_path.sdf");
+  const scene::Scene description = load("bucket_path.sdf");
   std::string hashes[2];
   for (std::string& hash : hashes) {
     const auto session = make(description);
@@ -56,7 +56,7 @@ TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
 }
 
 TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
-  const scene::World description = load("bucket_path.sdf");
+  const scene::Scene description = load("bucket_path.sdf");
   const auto whole = make(description);
   run_to(*whole, 1.3);
   const std::vector<char> bytes = saved(*whole);
@@ -107,7 +107,7 @@ TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
 }
 
 TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
-  const scene::World description = load("trench.sdf");
+  const scene::Scene description = load("trench.sdf");
   const auto whole = make(description);
   run_to(*whole, 0.8);
   const std::vector<char> bytes = saved(*whole);
@@ -119,7 +119,7 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
 }
 
 TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
-  const scene::World description = load("two_excavators.sdf");
+  const scene::Scene description = load("two_excavators.sdf");
   const auto session = make(description);
   run_to(*session, 0.2);
   const std::string phase = session->phase(0);
@@ -134,7 +134,7 @@ TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
 
 TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   // Both excavators drive and dig; the first one is stopped on its way and keeps the pose it had.
-  const scene::World description = load("two_excavators.sdf");
+  const scene::Scene description = load("two_excavators.sdf");
   const auto session = make(description);
   const sim::World& world = session->world();
   run_to(*session, 3);
@@ -175,7 +175,7 @@ TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
 }
 
 TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
-  const scene::World description = load("bucket_path.sdf");
+  const scene::Scene description = load("bucket_path.sdf");
   const auto with_grid = [&] {
     auto session = make(description);
     session->add(std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 5, 0.2, 20));
@@ -196,7 +196,7 @@ TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
 
 TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
   const test::Folder folder;
-  const scene::World description = load("bucket_path.sdf");
+  const scene::Scene description = load("bucket_path.sdf");
   const auto session = make(description);
   run_to(*session, kInSoil);
   session->save(folder / "dug.snapshot");
@@ -206,7 +206,7 @@ TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
 }
 
 TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
-  scene::World description = load("trench.sdf");
+  scene::Scene description = load("trench.sdf");
   description.machines[0].program.steps.clear();
   const auto first = make(description);
   first->set("excavator/drive/speed", 1.5);
@@ -266,7 +266,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
 }
 
 TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
-  scene::World description = load("trench.sdf");
+  scene::Scene description = load("trench.sdf");
   for (scene::ProgramStep& step : description.machines[0].program.steps)
     if (const auto* dig = step.as<control::Dig>()) {
       control::Dig far = *dig;

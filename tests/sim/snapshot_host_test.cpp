@@ -27,13 +27,13 @@ struct Front {
   }
 };
 
-void write(const std::string& path, const scene::World& scene, heightfield::Ground& dug) {
+void write(const std::string& path, const scene::Scene& scene, heightfield::Ground& dug) {
   write_file_atomically(path, saved(Front{{scene.name, 0.001, 250}, dug}));
 }
 
 TEST(Snapshot, GivesItsGroundWithoutADevice) {
   const test::Folder folder;
-  const scene::World scene = testing::load("bucket_path.sdf");
+  const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground dug = heightfield::make_ground(scene);
   std::vector<heightfield::Layer> taken;
   dug.take_above(20, 20, dug.height(20, 20) - 0.3, taken);
@@ -48,7 +48,7 @@ TEST(Snapshot, GivesItsGroundWithoutADevice) {
 
 TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
   const test::Folder folder;
-  const scene::World scene = testing::load("bucket_path.sdf");
+  const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground ground = heightfield::make_ground(scene);
   write(folder / "bucket.snapshot", scene, ground);
   try {

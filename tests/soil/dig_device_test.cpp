@@ -88,7 +88,7 @@ class Scoop {
   }
   Vec2 shift_;
   heightfield::Ground ground_;
-  scene::World world_;
+  scene::Scene world_;
   std::unique_ptr<Solver> solver_;
   ToolMotion motion_;
   ToolImpulse impulse_;

@@ -154,7 +154,7 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
   setenv("NAVVY_DEVICE_MEMORY_MIB", std::to_string((state * 7 / 4) >> 20).c_str(), 1);
   device::Device small;
   unsetenv("NAVVY_DEVICE_MEMORY_MIB");
-  scene::World world;
+  scene::Scene world;
   world.soils = {rig::sand()};
   world.solver.exchange = false;
   Rig place({rig::sand()}, big);

@@ -43,7 +43,7 @@ Scooped scoop(const std::vector<std::string>& settings, double until) {
 }
 
 /// Resistance along the way of a blade like the bucket's floor: 70 to 62 degrees of curl lay it at 17 to 25 degrees.
-double wedge(const scene::World& world) {
+double wedge(const scene::Scene& world) {
   const scene::Soil& soil = world.soils.at(0);
   lab::BladeCase blade;
   blade.phi = soil.friction_angle;

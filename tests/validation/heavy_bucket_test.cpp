@@ -123,7 +123,7 @@ class HangingBucket {
 class HeavyBucket : public testing::TestWithParam<double> {};
 
 TEST_P(HeavyBucket, CarriesTwiceItsMassWithoutChatter) {
-  const scene::World world = load_scene("trench.sdf");
+  const scene::Scene world = load_scene("trench.sdf");
   HangingBucket bucket(world.machines.at(0).machine, world.solver.max_step * GetParam());
   bucket.run(1.2);
   const auto rest = bucket.run(1.0);

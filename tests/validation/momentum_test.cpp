@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kSource = "conservation of momentum [docs/validation.md, Whole digs]";
 
 /// The trench with the machine standing at its place already.
-scene::World standing_at_the_trench() {
-  scene::World world = load_scene("trench.sdf", {"machine.x_m=-4"});
+scene::Scene standing_at_the_trench() {
+  scene::Scene world = load_scene("trench.sdf", {"machine.x_m=-4"});
   scene::Program& program = world.machines.at(0).program;
   const auto drives = [](const scene::ProgramStep& step) { return step.as<control::DriveTo>() != nullptr; };
   program.steps.erase(std::remove_if(program.steps.begin(), program.steps.end(), drives), program.steps.end());
@@ -29,7 +29,7 @@ scene::World standing_at_the_trench() {
 }
 
 TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
-  const scene::World description = standing_at_the_trench();
+  const scene::Scene description = standing_at_the_trench();
   double mass = 0;
   for (const scene::Link& link : description.machines[0].machine.links) mass += link.mass;
   session::Session session(description, shared_device());

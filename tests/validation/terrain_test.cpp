@@ -46,8 +46,8 @@ TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
   overrides.at = spot.at;
   overrides.at_is_local = true;
   overrides.set.push_back(scene_io::parse_setting("machine.program.dig.to_m=3.25 0"));
-  const scene::World description =
-      scene_io::load_world(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds(), overrides);
+  const scene::Scene description =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds(), overrides);
   session::Session session(description, shared_device());
   const heightfield::Ground& ground = session.world().ground();
   double fastest = 0, deepest = 0;

@@ -54,7 +54,7 @@ struct Slice {
 
 }  // namespace
 
-control::Dig dig_step(const scene::World& world) {
+control::Dig dig_step(const scene::Scene& world) {
   for (const scene::ProgramStep& step : world.machines.at(0).program.steps)
     if (const auto* dig = step.as<control::Dig>()) return *dig;
   throw SimulationError("the scene digs nothing");

@@ -6,13 +6,13 @@
 
 #include "control/activities/dig/dig.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "sim/world.h"
 
 namespace navvy::validation {
 
 /// The dig step of the only machine.
-control::Dig dig_step(const scene::World& world);
+control::Dig dig_step(const scene::Scene& world);
 
 /// Terrain end minus start inside and outside the design.
 struct TrenchMeasure {

@@ -23,7 +23,7 @@ double mean_cycle_time(const std::vector<session::Cycle>& cycles) {
 }
 
 TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
-  const scene::World description = load_scene("trench.sdf");
+  const scene::Scene description = load_scene("trench.sdf");
   const control::Dig dig = dig_step(description);
   session::Session session(description, shared_device());
   WheelTracks tracks(session.world().ground());

@@ -29,7 +29,7 @@ double cut_above(const heightfield::Ground& ground, double cap) {
 TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
   session::Session session(load_scene("two_layers.sdf"), shared_device());
   const sim::World& world = session.world();
-  const scene::World& description = world.description();
+  const scene::Scene& description = world.description();
   while (!session.done()) session.step();
   const control::Dig dig = dig_step(description);
   const TrenchMeasure trench = measure(world.ground(), dig);

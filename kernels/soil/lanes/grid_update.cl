@@ -87,7 +87,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 // Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
 // yet [docs/tools.md, two nodal fields].
 // node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
-// Surface per home block; node_surface = its mean at the node by mass.
+// ContactSoil per home block; node_surface = its mean at the node by mass.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,

@@ -57,7 +57,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean surface of each home (Surface), and
+// Also the mean surface of each home (ContactSoil), and
 // the lanes past its count, which get mass 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,

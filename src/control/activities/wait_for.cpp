@@ -16,7 +16,7 @@ class WaitingFor final : public Activity {
 
  private:
   bool update(const Observation& seen, double, Command&) override {
-    const Progress* other = nullptr;
+    const ProgramProgress* other = nullptr;
     if (seen.programs) {
       const auto found = seen.programs->find(step_.machine);
       if (found != seen.programs->end()) other = &found->second;

@@ -36,8 +36,8 @@ std::string number(double value, const char* format = "%.10g") {
 
 // One map being read: throws with its name.
 struct Map {
-  explicit Map(const scene::World& w) : world(w) {}
-  const scene::World& world;
+  explicit Map(const scene::Scene& w) : world(w) {}
+  const scene::Scene& world;
   GdalSession session;  // outlives the dataset, whose closing may complain
   std::unique_ptr<GDALDataset> data;
   GDALRasterBand* band = nullptr;
@@ -209,7 +209,7 @@ void read_height_unit(Map& map) {
 
 // Lower-left corner of the site in metres from the map's; throws when the site leaves the map.
 Vec2 place_site(Map& map, Ground::Setup& setup) {
-  const scene::Ground& ground = map.world.ground;
+  const scene::StartGround& ground = map.world.ground;
   TerrainReport& report = map.report;
   const Vec2 extent(report.cell_x * report.columns, report.cell_y * report.rows);
   // Without a wish the site lies in the middle of the map.
@@ -360,7 +360,7 @@ HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corn
 
 }  // namespace
 
-TerrainReport import_terrain(const scene::World& world, Ground::Setup& setup) {
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup) {
   Map map(world);
   open(map);
   read_transform(map);

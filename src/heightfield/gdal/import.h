@@ -9,7 +9,7 @@
 #include "core/math.h"
 #include "heightfield/ground.h"
 #include "heightfield/raster.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::heightfield {
 
@@ -42,6 +42,6 @@ struct TerrainReport {
 /// `setup`, whose nx, ny, cell and origin are given. The map is kept at its own resolution and interpolated on demand.
 /// @throws InputError when the file is missing, unreadable, in degrees, turned, without heights here, or when the site
 /// is off the map.
-TerrainReport import_terrain(const scene::World& world, Ground::Setup& setup);
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup);
 
 }  // namespace navvy::heightfield

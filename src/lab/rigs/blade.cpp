@@ -94,7 +94,7 @@ Report finish(Site& site, const ToolDriver& driver, Report report) {
 /// bed's end the ground rests, `depth` over the lip.
 std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const ChuteBed& bed, double gap,
                                       double depth) {
-  const Surface s = surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
+  const HeapSurface s = surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
   const int low = static_cast<int>((p_lip.y() + 0.25 * gap - s.origin.y()) / s.spacing),
             high = static_cast<int>((p_lip.y() + 0.75 * gap - s.origin.y()) / s.spacing);
   // A cell short of the bed's end, where particles lean on resting ground.

@@ -135,7 +135,7 @@ Report run(const Setup& setup) {
 
   Report report;
   // The height is read from the surface a ball rolls on: the topmost grain stands above what carries others.
-  const Surface surface = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
+  const HeapSurface surface = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
   judge(column, front.values.back(), surface.highest(), report);
   const FrontTimes times = times_of(time.values, front.values);
   report.add("front accelerates until", times.accelerates, "tau", 0.8, kNone, kNone,

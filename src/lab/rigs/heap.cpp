@@ -41,7 +41,7 @@ struct Ball {
 };
 
 /// Particles as the dilation sees them: the top of a ball around each.
-void dilate(Surface& s, const std::vector<Vec3>& positions, double radius) {
+void dilate(HeapSurface& s, const std::vector<Vec3>& positions, double radius) {
   const int reach = static_cast<int>(std::ceil(radius / s.spacing));
   for (const Vec3& p : positions) {
     const int cx = static_cast<int>(std::lround((p.x() - s.origin.x()) / s.spacing)),
@@ -58,7 +58,7 @@ void dilate(Surface& s, const std::vector<Vec3>& positions, double radius) {
 }
 
 /// The lowest place a ball can be pushed down to under the surface: fills what no ball of this radius can enter.
-void erode(Surface& s, double radius) {
+void erode(HeapSurface& s, double radius) {
   const Ball ball(radius, s.spacing);
   std::vector<double> out(s.top.size());
   for (int iy = 0; iy < s.ny; ++iy)
@@ -103,22 +103,22 @@ std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>
 }
 
 /// Nearest column; p must be a particle of the pile, which lies well inside the surface's rectangle.
-double Surface::over(const Vec3& p) const {
+double HeapSurface::over(const Vec3& p) const {
   return at(static_cast<int>(std::lround((p.x() - origin.x()) / spacing)),
             static_cast<int>(std::lround((p.y() - origin.y()) / spacing)));
 }
 
-double Surface::volume() const {
+double HeapSurface::volume() const {
   double sum = 0;
   for (const double z : top) sum += z - floor;
   // Columns are all alike: a sum is the integral.
   return sum * spacing * spacing;
 }
 
-double Surface::highest() const { return top.empty() ? floor : *std::max_element(top.begin(), top.end()); }
+double HeapSurface::highest() const { return top.empty() ? floor : *std::max_element(top.begin(), top.end()); }
 
-Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor) {
-  Surface s;
+HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double floor) {
+  HeapSurface s;
   s.spacing = cell / 4;
   s.floor = floor;
   if (positions.empty()) return s;
@@ -155,7 +155,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
   return out;
 }
 
-std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
+std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis, bool axisymmetric,
                                                      double cell) {
   // Sum and count by ring.
   std::map<int, std::pair<double, int>> rings;
@@ -178,7 +178,7 @@ std::vector<std::pair<double, double>> flank_profile(const Surface& surface, con
 }
 
 // The line is fitted where a flank is straight: not at the rounded top, not in the thin toe.
-double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell) {
+double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetric, double cell) {
   const auto profile = flank_profile(surface, axis, axisymmetric, cell);
   double highest = 0, shoulder = 0;
   for (const auto& [r, height] : profile) highest = std::max(highest, height);

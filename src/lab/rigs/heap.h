@@ -15,7 +15,7 @@ namespace navvy::lab {
 std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours = 8);
 
 /// Heights over a rectangle, a quarter of a cell apart.
-struct Surface {
+struct HeapSurface {
   Vec2 origin = Vec2::Zero();  ///< W of the first column's middle [m]
   double spacing = 0;          ///< [m]
   int nx = 0, ny = 0;
@@ -31,7 +31,7 @@ struct Surface {
 
 /// The surface a ball rolls on over the pile (closing by balls of 0.75 and 0.5 cells), a quarter of a cell above the
 /// topmost particles as half the spacing of eight a cell demands.
-Surface surface_of(const std::vector<Vec3>& positions, double cell, double floor);
+HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double floor);
 
 /// Least-squares line z = a + b x.
 struct Line {
@@ -41,11 +41,11 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
 
 /// Distance from `axis` [m] and mean height over the floor [m] in rings (`axisymmetric`) or in strips along x of half a
 /// cell, strips over the middle third of the width.
-std::vector<std::pair<double, double>> flank_profile(const Surface& surface, const Vec2& axis, bool axisymmetric,
+std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis, bool axisymmetric,
                                                      double cell);
 
 /// Angle of the flank of a heap [rad]: least-squares line through its profile between 20 and 80 % of its height.
-double flank_angle(const Surface& surface, const Vec2& axis, bool axisymmetric, double cell);
+double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetric, double cell);
 
 /// The value below which `share` of the values lie.
 double percentile(std::vector<double> values, double share);

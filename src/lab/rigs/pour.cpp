@@ -43,7 +43,7 @@ struct Stream {
 
 /// Flank angle [deg] of what lies in contact; the stream still falling is left out.
 double angle_of(const Site& site, bool axisymmetric) {
-  const Surface surface = surface_of(in_contact(site, site.solver().particles()), site.cell(), 0);
+  const HeapSurface surface = surface_of(in_contact(site, site.solver().particles()), site.cell(), 0);
   return degrees(flank_angle(surface, Vec2::Zero(), axisymmetric, site.cell()));
 }
 
@@ -110,7 +110,7 @@ Report run(const Setup& setup) {
   }
   Report report;
   Series distance{"distance from the axis", "m", {}}, height{"mean height", "m", {}};
-  const Surface end = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
+  const HeapSurface end = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
   for (const auto& [r, z] : flank_profile(end, Vec2::Zero(), round, setup.cell)) {
     distance.values.push_back(r);
     height.values.push_back(z);

@@ -31,7 +31,7 @@ HeapVolume measure(const Site& site) {
   const std::vector<Vec3> heap = in_contact(site, particles);
   // Eight particles a cell in the bank: what one of them stands for.
   const double cell = site.cell(), each = cell * cell * cell / 8;
-  const Surface surface = surface_of(heap, cell, 0);
+  const HeapSurface surface = surface_of(heap, cell, 0);
   out.by_surface = surface.volume() / (each * static_cast<double>(heap.size()));
   out.loose_share = 1 - static_cast<double>(heap.size()) / static_cast<double>(particles.size());
   double mass = 0, swollen = 0;
@@ -56,7 +56,7 @@ HeapVolume measure(const Site& site) {
 Series profile(const Site& site) {
   const std::vector<Vec3> heap = in_contact(site, site.solver().particles());
   const double cell = site.cell();
-  const Surface surface = surface_of(heap, cell, 0);
+  const HeapSurface surface = surface_of(heap, cell, 0);
   const auto layers = static_cast<std::size_t>(std::max(0.0, surface.highest() / cell - 1));
   std::vector<double> count(layers, 0.0), volume(layers, 0.0);
   for (const double top : surface.top)

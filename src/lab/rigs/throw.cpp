@@ -32,7 +32,7 @@ struct Volume {
 Volume measure(const Site& site, double edge, double floor, double bank_height) {
   Volume out;
   const auto particles = site.solver().particles();
-  const Surface surface = surface_of(in_contact(site, particles), site.cell(), floor);
+  const HeapSurface surface = surface_of(in_contact(site, particles), site.cell(), floor);
   double whole = 0, whole_count = 0, sum = 0, count = 0, mass = 0, swollen = 0, speed = 0;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {

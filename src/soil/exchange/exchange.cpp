@@ -41,7 +41,7 @@ PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan:
 // Everything that lasts, and the parts that work on it. The order of the members is that of construction: the waker and
 // the table need the grid and the ground.
 struct Exchange::State {
-  State(const scene::World& world, heightfield::Ground& ground_in)
+  State(const scene::Scene& world, heightfield::Ground& ground_in)
       : ground(ground_in),
         grid(plan_grid(world, ground_in)),
         waker(ground_in, grid, -world.gravity.z()),
@@ -84,7 +84,7 @@ struct Exchange::State {
   bool over_budget = false;
 };
 
-Exchange::Exchange(const scene::World& world, heightfield::Ground& ground)
+Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground)
     : state_(std::make_unique<State>(world, ground)) {}
 Exchange::~Exchange() = default;
 

@@ -9,7 +9,7 @@
 
 #include "core/math.h"
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/particles/particle.h"
 #include "soil/tools/tool_motion.h"
 
@@ -29,7 +29,7 @@ class Exchange {
   /// The ground must outlive it. Neither the world nor the ground's columns are changed by it. `max_particles` and the
   /// way steep ground is treated are taken from the world. @throws InputError when particles of these soils would be
   /// too heavy.
-  Exchange(const scene::World& world, heightfield::Ground& ground);
+  Exchange(const scene::Scene& world, heightfield::Ground& ground);
   ~Exchange();
 
   /// What one check did. The counts are for progress and telemetry; the mass moved is in the ground and in these lists.

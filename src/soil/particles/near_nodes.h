@@ -16,7 +16,7 @@ struct NearNodes {
   device::Buffer<std::int32_t> slot;       ///< per active block: index into the near arrays or -1 (the host)
   device::Buffer<std::int32_t> split;      ///< 0, 1 in front, 2 behind (shell_nodes)
   device::Buffer<float> before0, before1;  ///< float4 per node: v after gravity [m/s], m [kg] (grid_update_near)
-  device::Buffer<Surface> surface;         ///< mean by mass of the homes around (grid_update_near)
+  device::Buffer<ContactSoil> surface;     ///< mean by mass of the homes around (grid_update_near)
   device::Buffer<float> velocity1;         ///< float4: what particles behind a shell feel (contact_apply)
 };
 

@@ -242,12 +242,12 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
   home_surface_.write(surfaces(sorted));
 }
 
-std::vector<Surface> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
+std::vector<ContactSoil> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
   // The same sums in the same order as in rebin_move: differences from the first, word by word.
-  constexpr std::array kWords{std::pair(&Surface::friction, &SoilRow::tool_friction),
-                              std::pair(&Surface::adhesion, &SoilRow::adhesion),
-                              std::pair(&Surface::inv_density, &SoilRow::inv_density)};
-  std::vector<Surface> out(homes_.size());
+  constexpr std::array kWords{std::pair(&ContactSoil::friction, &SoilRow::tool_friction),
+                              std::pair(&ContactSoil::adhesion, &SoilRow::adhesion),
+                              std::pair(&ContactSoil::inv_density, &SoilRow::inv_density)};
+  std::vector<ContactSoil> out(homes_.size());
   std::size_t next = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
     const auto count = static_cast<std::size_t>(homes_[h].count);

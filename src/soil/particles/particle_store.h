@@ -64,7 +64,7 @@ class ParticleStore {
   double densest() const;
   device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
   device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
-  device::Buffer<Surface>& home_surface() { return home_surface_; }
+  device::Buffer<ContactSoil>& home_surface() { return home_surface_; }
 
   /// Home by home the block and every word of every particle as it stands on the device; padding and room to spare are
   /// not state. @throws InputError for homes that do not ascend or a soil that the scene does not have.
@@ -79,16 +79,16 @@ class ParticleStore {
   void make_room(int side, int slots, int wanted);
   void upload_homes();
   /// Mean over the particles of each home.
-  std::vector<Surface> surfaces(const std::vector<Particle>& sorted) const;
+  std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
   std::vector<Particle> drop_outside();
 
   device::Device& device_;
   std::array<std::int32_t, 4> site_;
   Rebin rebin_;
   // On the device; written by `assign` and by re-binning, the state by the transfer in every step, too.
-  device::Buffer<SoilRow> soils_;         ///< one per soil, constant
-  device::Buffer<float> state_[2];        ///< FIELD_COUNT x capacity words, field after field (particle_fields.h)
-  device::Buffer<Surface> home_surface_;  ///< one per home, mean over its particles
+  device::Buffer<SoilRow> soils_;             ///< one per soil, constant
+  device::Buffer<float> state_[2];            ///< FIELD_COUNT x capacity words, field after field (particle_fields.h)
+  device::Buffer<ContactSoil> home_surface_;  ///< one per home, mean over its particles
   std::vector<SoilRow> soil_rows_;
   int capacity_[2] = {0, 0};
   int now_ = 0;  ///< which of the two states stands; re-binning writes the other

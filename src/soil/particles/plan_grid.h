@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/particles/particle.h"
 
 namespace navvy::soil {
@@ -40,7 +40,7 @@ struct PlanGrid {
   }
 };
 
-inline PlanGrid plan_grid(const scene::World& world, const heightfield::Ground& ground) {
+inline PlanGrid plan_grid(const scene::Scene& world, const heightfield::Ground& ground) {
   if (world.machines.empty()) return {};
   const Vec3& start = world.machines.front().X_WM.translation();
   // Round figures lie on columns' edges: they must not fall to one side here and to the other there.

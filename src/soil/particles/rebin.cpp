@@ -61,7 +61,7 @@ void Rebin::make_room(std::size_t homes, std::size_t slots) {
 }
 
 void Rebin::move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
-                 const device::Buffer<SoilRow>& soils, device::Buffer<Surface>& home_surface) {
+                 const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& home_surface) {
   sources_.write(plan.sources);
   gather_kernel_.args(now.homes, codes_, cells_, counts_, next.homes, sources_, from_).enqueue_groups(plan.keys.size());
   move_kernel_.args(now.state, now.capacity, codes_, from_, next.homes, next.state, next.capacity, soils, home_surface)

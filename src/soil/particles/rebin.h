@@ -50,7 +50,7 @@ class Rebin {
   /// Queues moving the counted particles into their new homes (laid out in `next.homes`), by cell and in the order of
   /// arrival, and the homes' mean surfaces.
   void move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
-            const device::Buffer<SoilRow>& soils, device::Buffer<Surface>& home_surface);
+            const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& home_surface);
 
  private:
   device::Device& device_;

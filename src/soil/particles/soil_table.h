@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/law_constants.h"
 
 namespace navvy::soil {

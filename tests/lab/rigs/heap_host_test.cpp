@@ -31,7 +31,7 @@ std::vector<Vec3> lattice(const Vec3& size, double shake, const F& inside) {
   return out;
 }
 
-double mean_height(const Surface& s, const Vec2& size) {
+double mean_height(const HeapSurface& s, const Vec2& size) {
   double sum = 0, count = 0;
   for (int iy = 0; iy < s.ny; ++iy)
     for (int ix = 0; ix < s.nx; ++ix) {
@@ -43,7 +43,7 @@ double mean_height(const Surface& s, const Vec2& size) {
   return sum / count;
 }
 
-TEST(Surface, OfABlockIsAQuarterCellAboveItsGrains) {
+TEST(HeapSurface, OfABlockIsAQuarterCellAboveItsGrains) {
   const Vec3 size(1, 1, 0.6);
   const auto all = [](const Vec3&) { return true; };
   const double exact = mean_height(surface_of(lattice(size, 0, all), kCell, 0), size.head<2>());
@@ -65,13 +65,13 @@ TEST(Surface, OfABlockIsAQuarterCellAboveItsGrains) {
   EXPECT_NEAR(loose, 0.6, 0.05 * kCell);
 }
 
-TEST(Surface, FlankOfAHeapHasItsAngle) {
+TEST(HeapSurface, FlankOfAHeapHasItsAngle) {
   const double slope = std::tan(radians(31));
   const auto wedge = [&](const Vec3& p) { return p.z() < slope * (2 - std::abs(p.x() - 2)); };
-  const Surface flat = surface_of(lattice(Vec3(4, 0.5, 1.3), 0.3, wedge), kCell, 0);
+  const HeapSurface flat = surface_of(lattice(Vec3(4, 0.5, 1.3), 0.3, wedge), kCell, 0);
   EXPECT_NEAR(degrees(flank_angle(flat, Vec2(2, 0.25), false, kCell)), 31, 0.7);
   const auto cone = [&](const Vec3& p) { return p.z() < slope * (2 - (p.head<2>() - Vec2(2, 2)).norm()); };
-  const Surface round = surface_of(lattice(Vec3(4, 4, 1.3), 0.3, cone), kCell, 0);
+  const HeapSurface round = surface_of(lattice(Vec3(4, 4, 1.3), 0.3, cone), kCell, 0);
   EXPECT_NEAR(degrees(flank_angle(round, Vec2(2, 2), true, kCell)), 31, 0.7);
   const double exact = kPi / 3 * 4 * slope * 2;
   std::printf("[ VALUE    ] volume of a cone of grains / exact: %.4f\n", round.volume() / exact);

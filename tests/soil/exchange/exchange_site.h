@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "heightfield/ground.h"
-#include "scene/world.h"
+#include "scene/scene.h"
 #include "soil/exchange/exchange.h"
 
 namespace navvy::soil {
@@ -37,7 +37,7 @@ inline scene::Soil loam() {
 }
 
 inline heightfield::Ground make_ground(
-    const scene::World& world, int nx, int ny, std::vector<scene::GroundLayer> layers,
+    const scene::Scene& world, int nx, int ny, std::vector<scene::GroundLayer> layers,
     heightfield::SurfaceSource surface = [](int, int) { return 0.0; }) {
   heightfield::Ground::Setup setup;
   setup.nx = nx;
@@ -62,8 +62,8 @@ struct Site {
                            std::move(surface))),
         exchange(world, ground) {}
 
-  static scene::World make_world(std::vector<scene::Soil> soils) {
-    scene::World world;
+  static scene::Scene make_world(std::vector<scene::Soil> soils) {
+    scene::Scene world;
     world.soils = std::move(soils);
     world.solver.cell = kCell;
     return world;
@@ -123,7 +123,7 @@ struct Site {
     return out;
   }
 
-  scene::World world;
+  scene::Scene world;
   heightfield::Ground ground;
   Exchange exchange;
   std::vector<Particle> particles;

@@ -155,7 +155,7 @@ TEST(ExchangeSlump, OverSteepColumnsBesideAwakeSoilWakeInstead) {
 }
 
 TEST(ExchangeSlump, ColumnsSlideWhenNoParticleMayBeAdded) {
-  scene::World world = Site::make_world({sand()});
+  scene::Scene world = Site::make_world({sand()});
   world.solver.max_particles = 0;
   heightfield::Ground ground = make_ground(world, 48, 40, {{"sand", 9}});
   Exchange exchange(world, ground);

@@ -148,7 +148,7 @@ TEST(ExchangeWake, MotionBesideRestingSoilWakesItAndRingingDoesNot) {
 TEST(ExchangeWake, ShrinksFromTheFarthestWhenTheBudgetIsFull) {
   std::vector<std::string> lines;
   set_log_sink([&](LogLevel, const std::string& text) { lines.push_back(text); });
-  scene::World world = Site::make_world({sand()});
+  scene::Scene world = Site::make_world({sand()});
   world.solver.max_particles = 1500;
   heightfield::Ground ground = make_ground(world, 60, 60, {{"sand", 9}});
   Exchange exchange(world, ground);
@@ -169,7 +169,7 @@ TEST(ExchangeWake, ShrinksFromTheFarthestWhenTheBudgetIsFull) {
 }
 
 TEST(ExchangeWake, RefusesCellsWhoseParticlesWouldBeTooHeavy) {
-  scene::World world = Site::make_world({sand()});
+  scene::Scene world = Site::make_world({sand()});
   world.solver.cell = 1.5;
   heightfield::Ground ground = make_ground(world, 4, 4, {{"sand", 9}});
   EXPECT_THROW(Exchange(world, ground), InputError);

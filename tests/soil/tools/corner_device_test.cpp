@@ -18,7 +18,7 @@ constexpr double kEdge = 1.2, kStep = 1.6e-3;  // of the box [m]; [s]
 /// Grains in the frame of the box's floor, and the surface over them [m].
 struct Bed {
   std::vector<Vec3> grains;
-  lab::Surface surface;
+  lab::HeapSurface surface;
   double cell = 0;
 
   /// Particles a cell under the surface of square columns of the half edge `half` [m] around `centres`; 8 in the bank.

@@ -31,7 +31,7 @@ struct GroundPart {
 
 /// Tiles are made when first seen at a level and kept until their columns change. Seams between levels are closed by
 /// skirts. At full detail walls get triangles of their own, so that an edge stays sharp in light.
-class Terrain {
+class TerrainMesh {
  public:
   static constexpr int kTile = 64;     ///< columns along a tile
   static constexpr int kMaxLevel = 5;  ///< strides 1, 2, 4 ... 32

@@ -14,7 +14,7 @@
 namespace navvy::scene {
 
 /// How the soil is computed. None of it is a property of the soil.
-struct Solver {
+struct SolverSettings {
   double cell = 0.1;            ///< edge of a soil cell and of a column [m]
   double courant = 0.5;         ///< share of cell / sound speed
   double max_step = 0.0017;     ///< base step never exceeds this [s]
@@ -68,16 +68,16 @@ struct Recording {
 
 /// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds give equal runs on
 /// one device.
-struct World {
+struct Scene {
   std::string name;
   // Path of the file it came from; relative names in the scene were resolved against it.
   std::string file;
   // In W [m/s2]; soil and machines both take it from here.
   Vec3 gravity = Vec3(0, 0, -kGravity);
   std::uint64_t seed = 1;
-  Solver solver;
+  SolverSettings solver;
   std::vector<Soil> soils;
-  Ground ground;
+  StartGround ground;
   std::vector<MachineInWorld> machines;
   std::vector<Camera> cameras;
   std::vector<Light> lights;

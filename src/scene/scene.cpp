@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/world.h"
+#include "scene/scene.h"
 
 namespace navvy::scene {
 
-int World::soil_index(const std::string& name_of_soil) const {
+int Scene::soil_index(const std::string& name_of_soil) const {
   // Worlds hold a few soils and machines, so a search is as quick as an index and cannot get out of step.
   for (std::size_t i = 0; i < soils.size(); ++i)
     if (soils[i].name == name_of_soil) return static_cast<int>(i);
   return -1;
 }
 
-int World::machine_index(const std::string& name_of_machine) const {
+int Scene::machine_index(const std::string& name_of_machine) const {
   for (std::size_t i = 0; i < machines.size(); ++i)
     if (machines[i].name == name_of_machine) return static_cast<int>(i);
   return -1;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/world.h"
+#include "scene/scene.h"
 
 #include <gtest/gtest.h>
 
 namespace navvy::scene {
 namespace {
 
-TEST(World, FindsSoilsAndMachinesByNameAndAnswersMinusOneOtherwise) {
-  World world;
+TEST(Scene, FindsSoilsAndMachinesByNameAndAnswersMinusOneOtherwise) {
+  Scene world;
   world.soils.resize(2);
   world.soils[0].name = "loam";
   world.soils[1].name = "sand";
@@ -31,8 +31,8 @@ TEST(Machine, FindsLinksAndJointsByName) {
 }
 
 // A scene that states nothing must be a sound one: the loader's defaults are these.
-TEST(World, DefaultsAreSound) {
-  const World world;
+TEST(Scene, DefaultsAreSound) {
+  const Scene world;
   EXPECT_GT(world.solver.cell, 0);
   EXPECT_LT(world.gravity.z(), 0);
   const Soil soil;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tile is a grid of vertices at a stride of 2^level columns. Levels follow the size of a cell in the picture; where
 // two levels meet, skirts hang down behind the seam instead of matching vertices.
-#include "render/terrain.h"
+#include "render/terrain_mesh.h"
 
 namespace navvy::render {
 namespace {
@@ -86,7 +86,7 @@ std::size_t GroundPart::triangles() const {
   return count / 3;
 }
 
-void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting) {
+void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const int old_x = surface_.nx(), old_y = surface_.ny();
   const std::vector<CellRect> changed = surface_.update(ground, lighting);
   rebuilt_ = 0;
@@ -117,7 +117,7 @@ void Terrain::update(const scene::FrameGround& ground, const Lighting& lighting)
   surroundings_stale_ = surroundings_stale_ || at_edge;
 }
 
-void Terrain::measure(int tx, int ty) {
+void TerrainMesh::measure(int tx, int ty) {
   // The box decides what the camera sees, walls how fine a tile has to be.
   Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
   const int x0 = tx * kTile, y0 = ty * kTile;
@@ -134,7 +134,7 @@ void Terrain::measure(int tx, int ty) {
     }
 }
 
-int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) const {
+int TerrainMesh::wanted_level(const Tile& tile, const View& view, float pixels) const {
   // By the nearest point of the box: no part of a tile is coarser than it should be.
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
   const float distance = (nearest - view.eye).norm();
@@ -147,14 +147,14 @@ int Terrain::wanted_level(const Tile& tile, const View& view, float pixels) cons
   return level;
 }
 
-int Terrain::neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const {
+int TerrainMesh::neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const {
   // As it will be chosen, not as it was built.
   const int tx = tile % tiles_x_ + dx, ty = tile / tiles_x_ + dy;
   if (tx < 0 || ty < 0 || tx >= tiles_x_ || ty >= tiles_y_) return -1;
   return wanted_level(tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)], view, pixels);
 }
 
-std::vector<GroundPart> Terrain::select(const View& view, int budget) {
+std::vector<GroundPart> TerrainMesh::select(const View& view, int budget) {
   struct Candidate {
     float distance;
     int tile;
@@ -195,7 +195,7 @@ std::vector<GroundPart> Terrain::select(const View& view, int budget) {
   return out;
 }
 
-void Terrain::build(int tx, int ty, int level) {
+void TerrainMesh::build(int tx, int ty, int level) {
   Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
   Mesh& mesh = tile.mesh;
   mesh.vertices.clear();
@@ -247,7 +247,7 @@ void Terrain::build(int tx, int ty, int level) {
   for (std::size_t k = 0; k < 4; ++k) add_skirt(mesh, mesh.skirts[k], *sides[k], drop);
 }
 
-GroundPart Terrain::surroundings(const Lighting& lighting) {
+GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   constexpr float kFar = 1e4f;
   const GroundPart part{&surroundings_, {true, false, false, false}, Vec3f::Constant(-kFar), Vec3f::Constant(kFar)};
   if (!surroundings_stale_ || tiles_.empty()) return part;
