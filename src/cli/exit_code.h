@@ -11,6 +11,7 @@ enum ExitCode {
   kDevice = 3,        ///< no OpenCL device, or it failed
   kFile = 4,          ///< a result could not be written (disk full, permission)
   kSimulation = 5,    ///< the run stopped itself; failed.snapshot was written
+  kIncomplete = 6,    ///< the run ended, but a program of it did not come to its end; all results are there
   kInterrupted = 130  ///< Ctrl-C or SIGTERM; results up to then are complete
 };
 

@@ -80,7 +80,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
-      "written, 5 the simulation stopped itself (failed.snapshot is left), 130 interrupted.\n"
+      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a program of it did "
+      "not\n"
+      "come to its end (summary.json: programs), 130 interrupted.\n"
       "scenarios/README.md explains scene files from the first line on.");
   // Filled by the subcommand that was typed.
   cli::Action action;

@@ -109,8 +109,21 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // Asked for and not written: that must not go unnoticed.
   if (snapshot_due)
     log_warning("no snapshot: the run ended at " + std::to_string(session.world().time()) + " s, before --snapshot-at");
-  recorder.finish(interrupted ? "interrupted" : "finished");
-  return interrupted ? kInterrupted : kOk;
+  const bool complete = session.complete();
+  recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete");
+  if (interrupted) return kInterrupted;
+  // Whoever gives --duration asks for no more than that: a program that it cuts off is told, and no failure.
+  const bool cut_as_asked = options.scene.duration > 0 && !session.fell_short();
+  return complete || cut_as_asked ? kOk : kIncomplete;
+}
+
+/// The programs that did not come to their end, one a line: what a user must not miss.
+void tell_programs(std::FILE* say, const session::Session& session) {
+  for (const session::ProgramReport& report : session.programs()) {
+    if (report.taken || report.last().state == control::StepState::kDone) continue;
+    const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
+    std::fprintf(say, "incomplete: %s\n", session::told(report, name).c_str());
+  }
 }
 
 /// A snapshot that cannot be read is bad input, told before the scene is built.
@@ -156,6 +169,7 @@ int run(const RunOptions& options) {
   const int code = step_to_the_end(options, session, recorder);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
+  if (code != kInterrupted) tell_programs(say, session);
   std::fprintf(say, "results: %s/summary.json\n", record_options.directory.c_str());
   return code;
 }

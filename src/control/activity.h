@@ -5,11 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "control/arm.h"
 #include "control/observation.h"
+#include "control/outcome.h"
 #include "core/archive.h"
+#include "core/log.h"
 #include "scene/machine.h"
 
 namespace navvy::control {
@@ -40,6 +44,10 @@ struct Workplace {
   const scene::Machine machine;  ///< its joints in the order of Observation and Command
   std::optional<Arm> arm;        ///< in every program with a step that needs one
   Handover handover;
+  std::string label = "operator";  ///< who speaks in messages: "'truck', step 2 (tip)"; derived, no state
+
+  /// Tells the user what does not go as asked, and that the step goes on.
+  void warn(const std::string& text) const { log_warning(label + ": " + text); }
 
   /// Index in Machine::joints of axis 0..3: swing, boom, stick, bucket.
   std::size_t joint(std::size_t axis) const {
@@ -52,7 +60,7 @@ struct Workplace {
 /// Carries out one step: begun once, then asked every control step until it is over, then thrown away.
 ///
 /// Deterministic: a function of its memory, the workplace and the observations. Never hangs: every phase has a time
-/// limit, after which it says so in the log and goes on. A snapshot taken at any moment resumes bit for bit.
+/// limit, after which the step goes on or falls short, and says so. A snapshot taken at any moment resumes bit for bit.
 class Activity {
  public:
   explicit Activity(Workplace& place) : place_(place) {}
@@ -66,6 +74,7 @@ class Activity {
   bool advance(const Observation& seen, double dt, Command& out) {
     const bool over = update(seen, dt, out);
     clock_.time += dt;
+    if (over && state_ == StepState::kRunning) state_ = StepState::kDone;
     return over;
   }
   /// What it is doing, for telemetry and messages: one word.
@@ -73,11 +82,21 @@ class Activity {
   /// The event told since the last call of this.
   CycleEvent take_event() { return std::exchange(event_, CycleEvent::kNone); }
 
+  /// Once it is over: kDone, or how it fell short; before, kRunning. The reason is a sentence without time and place,
+  /// which the operator adds; empty when there is nothing to say.
+  StepState state() const { return state_; }
+  const std::string& reason() const { return reason_; }
+  /// The step's own account as far as it has come, in figures: asked when the step ends, however it ends, and whenever
+  /// a summary is written. Must not depend on how often it is asked.
+  virtual std::vector<Figure> account(const Observation&) const { return {}; }
+
   /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`. Who overrides
   /// it calls this first.
   virtual void visit(Archive& a) {
     a("phase", clock_.phase);
     a("phase_time", clock_.time);
+    // The state is kRunning between calls: an activity that is over is thrown away.
+    a("remark", reason_);
   }
 
   // For derived classes: what they do, and what they have to do it with.
@@ -93,6 +112,14 @@ class Activity {
   double phase_time() const { return clock_.time; }
   /// Reported once with the result of this control step; a later one in the same step replaces it.
   void tell(CycleEvent event) { event_ = event; }
+  /// The step ends short of its aim, and its program with it: `return fall_short(StepState::kBlocked, "...")`.
+  bool fall_short(StepState state, std::string reason) {
+    state_ = state;
+    reason_ = std::move(reason);
+    return true;
+  }
+  /// Said of a step that is done all the same; a later one replaces it.
+  void remark(std::string text) { reason_ = std::move(text); }
 
   Workplace& place_;
 
@@ -104,6 +131,8 @@ class Activity {
   };
   Clock clock_;
   CycleEvent event_ = CycleEvent::kNone;
+  StepState state_ = StepState::kRunning;
+  std::string reason_;
 };
 
 /// An activity whose state is one struct `m`, which lists its fields in a `visit(Archive&)`. An activity with state

@@ -7,7 +7,6 @@
 
 #include "control/dig_pose.h"
 #include "control/profile.h"
-#include "core/log.h"
 
 namespace navvy::control {
 namespace {
@@ -72,7 +71,7 @@ bool ArmMove::advance(Workplace& place, const Observation& seen, double since, c
   // Heavy soil in the bucket keeps a joint a little short for ever: at rest there is as good as arrived.
   if (error < kArrived || (over > kSettle && speed < kAtRest)) return true;
   if (over < kPatience) return false;
-  log_warning(std::string("operator: ") + phase + " ended " + std::to_string(error) + " rad short of its target");
+  place.warn(std::string(phase) + " ended " + std::to_string(error) + " rad short of its target");
   return true;
 }
 

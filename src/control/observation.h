@@ -17,6 +17,7 @@ namespace navvy::control {
 /// How far a machine's program has come.
 struct ProgramProgress {
   int done = 0, steps = 0;  ///< steps that are over, and all
+  bool failed = false;      ///< a step fell short: no other will be done
 };
 
 /// What the operator knows at one control step: what can be seen and felt from a cab.

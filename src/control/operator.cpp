@@ -2,6 +2,7 @@
 #include "control/operator.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "control/activity.h"
@@ -10,30 +11,66 @@
 namespace navvy::control {
 
 struct Operator::State {
-  State(const scene::Machine& machine, const scene::Program& program_in);
+  State(const scene::Machine& machine, const scene::Program& program_in, std::string name_in);
 
   // Activities refer to the steps and to the workplace: all three keep their addresses, as the state does not move.
   const scene::Program program;
+  const std::string name;
   std::vector<const Step*> steps;
   Workplace place;
   std::unique_ptr<Activity> active;  // of steps[step], null between steps
   std::int64_t step = 0;
+  double started = 0;                   // the running step [s]
+  std::vector<StepReport> reports;      // of the steps that are over
+  std::vector<std::uint8_t> commanded;  // by joint: the program has
+  double steer = 0;                     // of the last command to the drive
   CycleEvent event = CycleEvent::kNone;
 
   bool done() const { return step >= static_cast<std::int64_t>(steps.size()); }
+  bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
   const Step& present() const { return *steps[static_cast<std::size_t>(step)]; }
+  void make_activity();
+  void finish(StepState state, const std::string& reason, const Observation& seen, double time);
+  StepReport report(StepState state, const std::string& reason, const Observation& seen, double time) const;
   void read_arm(const Observation& seen);
   void hold_arm(Command& out) const;
+  Command stop() const;
+  void note(const Command& out);
 };
 
-Operator::State::State(const scene::Machine& machine, const scene::Program& program_in)
-    : program(program_in), place(machine) {
+Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, std::string name_in)
+    : program(program_in),
+      name(name_in.empty() ? machine.name : std::move(name_in)),
+      place(machine),
+      commanded(machine.joints.size()) {
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));
   // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the machine drives.
   const auto needs_arm = [](const Step* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
   // Told before anything moves, not when the step's turn comes.
   for (const Step* one : steps) one->check_machine(place.machine);
+}
+
+void Operator::State::make_activity() {
+  place.label = "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
+  // The description makes what carries it out; its memory is new every time.
+  active = present().activity(place);
+}
+
+StepReport Operator::State::report(StepState state, const std::string& reason, const Observation& seen,
+                                   double time) const {
+  // A step that has not begun has no account.
+  StepReport out{step + 1, present().element(),     state, reason, active ? started : time,
+                 time,     seen.X_WB.translation(), {}};
+  if (active) out.figures = active->account(seen);
+  return out;
+}
+
+void Operator::State::finish(StepState state, const std::string& reason, const Observation& seen, double time) {
+  reports.push_back(report(state, reason, seen, time));
+  active.reset();
+  // The step that fell short stays the present one: the program has come so far and no further.
+  if (!fell_short(state)) ++step;
 }
 
 void Operator::State::read_arm(const Observation& seen) {
@@ -51,63 +88,106 @@ void Operator::State::hold_arm(Command& out) const {
       slot = vehicle::JointInput{vehicle::JointMode::kPosition, place.handover.q[i]};
 }
 
-Operator::Operator(const scene::Machine& machine, const scene::Program& program)
-    : state_(std::make_unique<State>(machine, program)) {}
+Command Operator::State::stop() const {
+  Command out;
+  out.joints.resize(commanded.size());
+  // Where they are, not where they were told to go: the way there may be what went wrong. Others keep what they have.
+  for (std::size_t j = 0; j < commanded.size(); ++j)
+    if (commanded[j] != 0) out.joints[j] = vehicle::JointInput{vehicle::JointMode::kVelocity, 0};
+  if (place.machine.has_drive) out.drive = vehicle::DriveInput{0, steer, true};
+  return out;
+}
+
+void Operator::State::note(const Command& out) {
+  for (std::size_t j = 0; j < commanded.size(); ++j)
+    if (out.joints[j]) commanded[j] = 1;
+  if (out.drive) steer = out.drive->steer;
+}
+
+Operator::Operator(const scene::Machine& machine, const scene::Program& program, std::string name)
+    : state_(std::make_unique<State>(machine, program, std::move(name))) {}
 Operator::~Operator() = default;
 Operator::Operator(Operator&&) noexcept = default;
 
 bool Operator::done() const { return state_->done(); }
+bool Operator::ended() const { return state_->done() || state_->failed(); }
+Command Operator::stop() const { return state_->stop(); }
 // All else is known to the step and its activity; here is only the order.
-std::string Operator::phase() const { return state_->active ? state_->active->phase() : "idle"; }
+std::string Operator::phase() const {
+  if (state_->failed()) return name_of(state_->reports.back().state);
+  return state_->active ? state_->active->phase() : "idle";
+}
 int Operator::cycles() const { return static_cast<int>(state_->place.handover.cycles); }
 ProgramProgress Operator::progress() const {
-  return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size())};
+  return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size()), state_->failed()};
 }
 CycleEvent Operator::event() const { return state_->event; }
+const std::vector<StepReport>& Operator::reports() const { return state_->reports; }
 
-Command Operator::update(const Observation& seen, double, double dt) {
+StepReport Operator::present(const Observation& seen, double time) const {
+  const State& s = *state_;
+  if (!ended()) return s.report(StepState::kRunning, s.active ? s.active->reason() : "", seen, time);
+  return s.reports.empty() ? StepReport{} : s.reports.back();
+}
+
+Command Operator::update(const Observation& seen, double time, double dt) {
   State& s = *state_;
   Command out;
   out.joints.resize(s.place.machine.joints.size());
   s.event = CycleEvent::kNone;
+  if (s.failed()) return out;
   if (s.place.arm) s.read_arm(seen);
   if (!s.done()) {
-    // The description makes what carries it out; its memory is new every time.
     if (!s.active) {
-      s.active = s.present().activity(s.place);
+      s.make_activity();
+      s.started = time;
       s.active->begin(seen);
     }
     const bool over = s.active->advance(seen, dt, out);
     s.event = s.active->take_event();
     // The next step begins with the next control step: telemetry sees "idle" between them.
-    if (over) {
-      s.active.reset();
-      ++s.step;
+    if (over) s.finish(s.active->state(), s.active->reason(), seen, time);
+    if (s.failed()) {
+      s.note(out);
+      return s.stop();
     }
   }
   if (s.place.arm) s.hold_arm(out);
+  s.note(out);
   return out;
 }
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  a.section("operator", 4, [&] {
+  // Version 5: reports of the steps, what was commanded.
+  a.section("operator", 5, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");
     a("handover", s.place.handover);
+    a("started", s.started);
+    a("reports", s.reports);
+    // One a step that is over, and what became of the rest follows from the last.
+    a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0), "reports",
+              "another number of them than steps that are over");
+    a.require(!s.failed() || !s.done(), "reports", "tell of a step that the program has not");
+    // As many as the scene's machine has joints.
+    a.fixed("commanded", s.commanded);
+    a("steer", s.steer);
     // The running step's name, so that a snapshot of another program is refused instead of misread. Between steps there
     // is no activity, and nothing of the last one is left.
     std::string running;
     if (!a.loading() && s.active) running = s.present().element();
     a("running", running);
+    a.require(running.empty() || !s.failed(), "running", "the program has ended");
     if (a.loading()) {
       // The scene may have changed since.
       const std::string here = s.done() ? "" : s.present().element();
       a.require(running.empty() || running == here, "running",
                 "the program has another step there: '" + here + "'; use the scene it was made with");
       // Made anew, then it reads its memory.
-      s.active = running.empty() ? nullptr : s.present().activity(s.place);
+      s.active.reset();
+      if (!running.empty()) s.make_activity();
     }
     if (s.active) a("activity", *s.active);
   });

@@ -47,8 +47,8 @@ class Recorder {
 
   /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
   void observe();
-  /// Writes the final files, once; later calls do nothing. `status` is "finished", "interrupted" or "failed"; after a
-  /// failure also the snapshot of the last state.
+  /// Writes the final files, once; later calls do nothing. `status` is one of RunStatus::status but "running"; after
+  /// a failure also the snapshot of the last state.
   void finish(const std::string& status, const std::string& message = "");
   RunProgress progress() const;
 

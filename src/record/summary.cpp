@@ -5,6 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "record/program_list.h"
+
 namespace navvy::record {
 namespace {
 
@@ -158,6 +160,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil_stage_times()) out["soil_stage_s"][stage] = seconds;
   // What the programs came to.
+  out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();

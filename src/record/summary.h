@@ -11,7 +11,8 @@ namespace navvy::record {
 
 inline constexpr int kSummarySchemaVersion = 1;
 
-/// How the run stands: "running", "finished", "interrupted" or "failed".
+/// How the run stands: "running", "finished" (every program is done), "incomplete" (it ended, and a program did not),
+/// "interrupted" or "failed".
 struct RunStatus {
   std::string status = "running";
   std::string message;     ///< cause of a failure

@@ -2,49 +2,25 @@
 #include "session/session.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <cstdio>
 #include <utility>
 
-#include "control/operator.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/log.h"
 #include "core/saved_state.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "session/operated_machine.h"
 #include "session/program_check.h"
-#include "sim/terrain_view.h"
 
 namespace navvy::session {
 namespace {
 
-/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the particles.
-constexpr std::uint64_t kPayloadInterval = 12;
 /// Soil that is still awake holds the end of the run up to this many settling times.
 constexpr double kLongestRest = 6;
-
-/// What an operator sees from its cab: columns and the loose soil on them. Takes one view in every step in which it is
-/// asked, so it has no memory that a snapshot would need; one look costs a pass over the particles.
-class SeenSurface final : public control::SurfaceView {
- public:
-  explicit SeenSurface(const sim::World& world) : world_(world) {}
-  const heightfield::Terrain& terrain() const override {
-    if (!view_ || seen_step_ != world_.steps()) {
-      view_ = sim::terrain_view(world_, heightfield::SurfaceKind::kWithLooseSoil);
-      seen_step_ = world_.steps();
-    }
-    return *view_;
-  }
-  /// The next question takes a new view.
-  void forget() { view_.reset(); }
-
- private:
-  const sim::World& world_;
-  mutable std::optional<heightfield::TerrainView> view_;
-  mutable std::uint64_t seen_step_ = 0;
-};
 
 }  // namespace
 
@@ -57,26 +33,6 @@ struct Session::State {
         // Tools never change in number or order.
         tools(world.tools()) {}
 
-  /// A machine with a program: its operator, what that sees, and the handles to look through.
-  struct OperatedMachine {
-    OperatedMachine(const sim::MachineHandle& handle, const scene::MachineInWorld& placed);
-
-    sim::MachineHandle machine;
-    sim::LinkHandle base;
-    std::vector<sim::JointHandle> joints;
-    std::optional<sim::ToolHandle> bucket, bed;
-    // The operator's own memory is in it; what it saw last is beside it.
-    control::Operator op;
-    control::Observation seen;
-    // Begun and not yet ended.
-    std::optional<Cycle> open;
-    std::optional<BedTip> open_tip;
-    bool taken = false;                   ///< by inputs: the program no longer commands
-    std::vector<std::uint8_t> commanded;  ///< by joint: the program has
-
-    void visit(Archive& a);
-  };
-
   // World, surface and handles are built in this order and refer to what stands above.
   sim::World world;
   SeenSurface surface;
@@ -87,118 +43,15 @@ struct Session::State {
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
-  std::map<std::string, control::ProgramProgress> programs;  ///< as the operators see them: at the start of the step
+  OperatedMachine::Programs programs;  ///< as the operators see them: at the start of the step
   ForceStatistics force;
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
 
-  void enlist(int machine);
   void take_over(int machine);
-  void observe(OperatedMachine& one);
-  void command(OperatedMachine& one);
-  void note_cycle(OperatedMachine& one);
-  void note_tip(OperatedMachine& one);
-  void note_progress();
   void note_forces();
   void visit(Archive& a);
 };
-
-Session::State::OperatedMachine::OperatedMachine(const sim::MachineHandle& handle, const scene::MachineInWorld& placed)
-    : machine(handle), base(handle.link(0)), op(placed.machine, placed.program) {
-  // A machine digs with its first bucket and tips its first bed; the others are passive.
-  if (!placed.machine.buckets.empty()) bucket = handle.tool(placed.machine.buckets[0].shell);
-  if (!placed.machine.beds.empty()) bed = handle.tool(placed.machine.beds[0].shell);
-  for (std::size_t j = 0; j < placed.machine.joints.size(); ++j) joints.push_back(handle.joint(static_cast<int>(j)));
-  // Sized once: observing takes no memory.
-  seen.joints.resize(joints.size());
-  commanded.resize(joints.size());
-}
-
-/// Machines without a program have no operator; inputs drive them.
-void Session::State::enlist(int machine) {
-  const scene::MachineInWorld& placed = world.description().machines[static_cast<std::size_t>(machine)];
-  if (placed.program.steps.empty()) return;
-  OperatedMachine one(world.machine(machine), placed);
-  // What operators see beside their own machine is shared and belongs to the session.
-  one.seen.ground = &world.ground();
-  one.seen.surface = &surface;
-  one.seen.programs = &programs;
-  operated.push_back(std::move(one));
-}
-
-/// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
-void Session::State::observe(OperatedMachine& one) {
-  for (std::size_t j = 0; j < one.joints.size(); ++j) one.seen.joints[j] = one.joints[j].state();
-  // The base link stands for the machine, as in programs' coordinates.
-  const vehicle::LinkState base = one.base.state();
-  one.seen.X_WB = base.X_WL;
-  one.seen.v_WB = base.v_WL;
-  // A machine without a bucket carries no load that a gauge would show.
-  if (!one.bucket) return;
-  // Low-passed: an operator reacts to the push, not to single particles.
-  one.seen.force = one.bucket->smooth_force().norm();
-  if (world.steps() % kPayloadInterval == 0) one.seen.payload = one.bucket->payload();
-}
-
-/// By name, as programs call each other.
-void Session::State::note_progress() {
-  for (const OperatedMachine& one : operated) programs[one.machine.name()] = one.op.progress();
-}
-
-/// A joint without a new command keeps its last one: operators speak only when something changes.
-void Session::State::command(OperatedMachine& one) {
-  // Time and step go in: operators have no clock of their own.
-  const control::Command command = one.op.update(one.seen, world.time(), world.dt());
-  for (std::size_t j = 0; j < command.joints.size(); ++j)
-    if (command.joints[j]) {
-      // Remembered, so that a take-over stops just these.
-      world.command(one.joints[j], *command.joints[j]);
-      one.commanded[j] = 1;
-    }
-  if (command.drive) world.command(one.machine, *command.drive);
-}
-
-/// Masses are taken at the moment of the event: what falls off on the way does not count as tipped.
-void Session::State::note_tip(OperatedMachine& one) {
-  if (!one.bed) return;
-  // Events are told once, in the step in which they happen.
-  const control::CycleEvent event = one.op.event();
-  if (event == control::CycleEvent::kTipStart)
-    one.open_tip = BedTip{one.machine.index(), world.time(), 0, one.bed->payload(), 0};
-  if (event != control::CycleEvent::kTipEnd || !one.open_tip) return;
-  one.open_tip->end = world.time();
-  one.open_tip->payload_end = one.bed->payload();
-  tips.push_back(*one.open_tip);
-  one.open_tip.reset();
-}
-
-/// A cycle is open from the first touch to the end of the dump; one that never ends is not counted.
-void Session::State::note_cycle(OperatedMachine& one) {
-  using control::CycleEvent;
-  // The same for digs.
-  const CycleEvent event = one.op.event();
-  if (event == CycleEvent::kScoopStart) {
-    one.open = Cycle{};
-    one.open->machine = one.machine.index();
-    // Masses and forces of this cycle are filled in as it goes.
-    one.open->start = world.time();
-  }
-  // Without a bucket nothing is ever opened: only digs tell of scoops.
-  if (!one.open || !one.bucket) return;
-  // The peak of the low-passed force is what a cylinder would feel.
-  one.open->force_peak = std::max(one.open->force_peak, one.seen.force);
-  if (event == CycleEvent::kLiftOut) {
-    one.open->lift_out = world.time();
-    one.open->payload_lift_out = one.bucket->payload();
-  } else if (event == CycleEvent::kDumpStart) {
-    one.open->dump_start = world.time();
-    one.open->payload_dump = one.bucket->payload();
-  } else if (event == CycleEvent::kCycleEnd) {
-    one.open->end = world.time();
-    cycles.push_back(*one.open);
-    one.open.reset();
-  }
-}
 
 /// Over every step and not at telemetry's rate: peaks last milliseconds.
 void Session::State::note_forces() {
@@ -224,38 +77,15 @@ void Session::State::note_forces() {
 }
 
 void Session::State::take_over(int machine) {
-  for (OperatedMachine& one : operated) {
-    if (one.taken || one.machine.index() != machine) continue;
-    // For good: a program that came back would find its machine somewhere else.
-    one.taken = true;
-    // What the program had set in motion stops; joints that it never touched keep the command they have.
-    for (std::size_t j = 0; j < one.commanded.size(); ++j)
-      if (one.commanded[j] != 0) world.command(one.joints[j], {vehicle::JointMode::kVelocity, 0});
-    if (one.machine.description().has_drive) world.command(one.machine, {0, one.machine.drive().steer, true});
-    // A cycle cut short has no end to report.
-    one.open.reset();
-    one.open_tip.reset();
-    log_info("'" + one.machine.name() + "' leaves its program at " + std::to_string(world.time()) +
-             " s: inputs drive it");
-  }
-}
-
-void Session::State::OperatedMachine::visit(Archive& a) {
-  // Of what the operator saw only the load is older than a step.
-  a("payload", seen.payload);
-  a("open_cycle", open);
-  a("open_tip", open_tip);
-  // The operator's state stands still once its machine is taken, but that may go anywhere.
-  a("taken", taken);
-  // As many as the scene's machine has joints.
-  a.fixed("commanded", commanded);
-  a("operator", op);
+  for (OperatedMachine& one : operated)
+    if (one.index() == machine && one.take())
+      log_info("'" + one.name() + "' leaves its program at " + std::to_string(world.time()) + " s: inputs drive it");
 }
 
 /// What is not the world's: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
-  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load.
-  a.section("session", 4, [&] {
+  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports.
+  a.section("session", 5, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -280,7 +110,9 @@ Session::Session(scene::Scene description, device::Device& device)
   // Reach depends on where the machines stand on this very ground.
   X_WB.reserve(s.world.description().machines.size());
   for (int m = 0; m < s.world.machine_count(); ++m) {
-    s.enlist(m);
+    // Machines without a program have no operator; inputs drive them.
+    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
+      s.operated.emplace_back(s.world, m, s.surface, s.programs);
     X_WB.push_back(s.world.machine(m).link(0).pose());
   }
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
@@ -297,17 +129,13 @@ void Session::step() {
   {
     // Deciding is timed apart from simulating.
     const Lap lap(s.control_time);
+    // Before any operator moves on: what they wait for is as it stood when the step began, whatever their order.
+    for (const OperatedMachine& one : s.operated) s.programs[one.name()] = one.op().progress();
     // A taken machine never ends by itself: whoever drives it ends the run.
     bool busy = false;
-    // Before any operator moves on: what they wait for is as it stood when the step began, whatever their order.
-    s.note_progress();
-    for (State::OperatedMachine& one : s.operated) {
-      busy = busy || one.taken || !one.op.done();
-      if (one.taken) continue;
-      s.observe(one);
-      s.command(one);
-      s.note_cycle(one);
-      s.note_tip(one);
+    for (OperatedMachine& one : s.operated) {
+      busy = busy || one.taken() || one.busy();
+      one.step(s.cycles, s.tips);
     }
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
@@ -342,13 +170,27 @@ void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInp
 
 void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std::move(sampler)); }
 
-/// Half a step of slack: time is a product and may fall a hair short of the duration.
 bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
   // The ground left behind should be the whole of it: soil that still moves is given time to come to rest.
   const bool at_rest = state_->world.soil_counts().particles == 0 || state_->idle >= kLongestRest * recording.settle;
   const bool programs_over = !state_->operated.empty() && state_->idle >= recording.settle && at_rest;
-  return programs_over || state_->world.time() >= recording.duration - 0.5 * state_->world.dt();
+  return programs_over || time_is_over();
+}
+
+/// Half a step of slack: time is a product and may fall a hair short of the duration.
+bool Session::time_is_over() const {
+  return state_->world.time() >= state_->world.description().recording.duration - 0.5 * state_->world.dt();
+}
+
+bool Session::complete() const {
+  return std::all_of(state_->operated.begin(), state_->operated.end(),
+                     [](const OperatedMachine& one) { return one.taken() || one.op().done(); });
+}
+
+bool Session::fell_short() const {
+  return std::any_of(state_->operated.begin(), state_->operated.end(),
+                     [](const OperatedMachine& one) { return one.op().ended() && !one.op().done(); });
 }
 
 const sim::World& Session::world() const { return state_->world; }
@@ -356,9 +198,25 @@ const std::string& Session::device_name() const { return state_->device_name; }
 
 /// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {
-  for (const State::OperatedMachine& one : state_->operated)
-    if (one.machine.index() == machine) return one.taken ? "inputs" : one.op.phase();
+  for (const OperatedMachine& one : state_->operated)
+    if (one.index() == machine) return one.taken() ? "inputs" : one.op().phase();
   return "idle";
+}
+
+std::vector<ProgramReport> Session::programs() const {
+  const double duration = state_->world.description().recording.duration;
+  const bool over = time_is_over();
+  std::vector<ProgramReport> out;
+  for (const OperatedMachine& one : state_->operated) {
+    out.push_back(one.report());
+    if (!over || !one.busy()) continue;
+    control::StepReport& last = out.back().list.back();
+    last.state = control::StepState::kOutOfTime;
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "the run's duration of %g s was over first", duration);
+    last.reason = text.data() + (last.reason.empty() ? "" : "; " + last.reason);
+  }
+  return out;
 }
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
@@ -371,33 +229,6 @@ double Session::energy() const {
   double sum = 0;
   for (int m = 0; m < state_->world.machine_count(); ++m) sum += state_->world.machine(m).work();
   return sum;
-}
-
-void Cycle::visit(Archive& a) {
-  a("machine", machine);
-  a("start", start);
-  a("lift_out", lift_out);
-  a("dump_start", dump_start);
-  a("end", end);
-  a("payload_lift_out", payload_lift_out);
-  a("payload_dump", payload_dump);
-  a("force_peak", force_peak);
-}
-
-void BedTip::visit(Archive& a) {
-  a("machine", machine);
-  a("start", start);
-  a("end", end);
-  a("payload_start", payload_start);
-  a("payload_end", payload_end);
-}
-
-void ForceStatistics::visit(Archive& a) {
-  a("peak", peak);
-  a("sum", sum);
-  a("steps", steps);
-  a("rock_peak", rock_peak);
-  a("residual_max", residual_max);
 }
 
 /// Operators belong to the state: two runs in equal worlds part where their programs stand differently. The world comes

@@ -8,42 +8,10 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "session/reports.h"
 #include "sim/world.h"
 
 namespace navvy::session {
-
-/// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket.
-/// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
-struct Cycle {
-  int machine = 0;  ///< as in scene::Scene::machines
-  double start = 0, lift_out = 0, dump_start = 0, end = 0;
-  double payload_lift_out = 0, payload_dump = 0;
-  double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
-
-  void visit(Archive& a);
-};
-
-/// One tip of a machine's bed; times [s] simulated, masses [kg].
-struct BedTip {
-  int machine = 0;
-  double start = 0, end = 0;
-  double payload_start = 0, payload_end = 0;  ///< in the bed
-
-  void visit(Archive& a);
-};
-
-/// Soil force on buckets over all steps in contact.
-/// Beds do not count: what lies in them is a load.
-struct ForceStatistics {
-  double peak = 0;  ///< of the low-passed force [N]
-  double sum = 0;   ///< of |force| x steps in contact
-  std::uint64_t steps = 0;
-  double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
-  double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
-  double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
-
-  void visit(Archive& a);
-};
 
 /// A world and the operators that run the programs of its scene. A client of World like any other.
 ///
@@ -60,9 +28,13 @@ class Session {
 
   /// Operators decide, then the world takes one base step and its samplers look. @throws SimulationError.
   void step();
-  /// True when every program has ended and the settling time has passed, or the scene's duration is over.
+  /// True when every program has ended, done or not, and the settling time has passed, or the scene's duration is over.
   /// A machine taken by inputs keeps the run from ending by its program.
   bool done() const;
+  /// True when every program is done, or was taken by inputs: the run came to what its scene asked for.
+  bool complete() const;
+  /// True when a step of some program fell short of its aim; that program has ended.
+  bool fell_short() const;
 
   /// Read only: what drives it goes through this session.
   const sim::World& world() const;
@@ -80,6 +52,9 @@ class Session {
   /// What the operator of this machine is at (control::Operator::phase); "idle" for a machine without a program,
   /// "inputs" once it was taken from it.
   std::string phase(int machine) const;
+  /// How the programs stand, in the order of the machines. A program that still runs when the duration is over is out
+  /// of time. Costs a look at the surface where a step's account asks for it.
+  std::vector<ProgramReport> programs() const;
   /// Closed ones, in the order in which they ended.
   const std::vector<Cycle>& cycles() const;
   const std::vector<BedTip>& tips() const;
@@ -98,6 +73,8 @@ class Session {
   void load(const std::string& path);
 
  private:
+  bool time_is_over() const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

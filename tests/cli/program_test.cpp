@@ -94,7 +94,14 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.3", "--out", out()}), 0)
       << complained();
   const auto summary = nlohmann::json::parse(text_of(out() + "/summary.json"));
-  EXPECT_EQ(summary.at("status"), "finished");
+  // The path lasts 13 s: who asks for less gets that, with status 0, and is told what is missing.
+  EXPECT_EQ(summary.at("status"), "incomplete");
+  const nlohmann::json program = summary.at("programs").at(0);
+  EXPECT_EQ(program.at("machine"), "bucket");
+  EXPECT_EQ(program.at("step"), 1);
+  EXPECT_EQ(program.at("state"), "out_of_time");
+  EXPECT_NE(program.at("reason").get<std::string>().find("0.3 s"), std::string::npos) << program;
+  EXPECT_NE(said().find("incomplete: 'bucket', step 1 of 1 (trajectory): out_of_time"), std::string::npos) << said();
   EXPECT_EQ(summary.at("mass_ledger").at("error_units"), 0);
   for (const char* key : {"schema_version", "device", "steps", "wall_time_s", "simulated_time_s", "real_time_factor",
                           "time_share", "cycles", "bank_volume_m3", "loose_volume_m3", "payload_kg", "energy_j",

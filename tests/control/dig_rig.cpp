@@ -119,7 +119,7 @@ void DigRig::step() {
 }
 
 bool DigRig::run(double limit) {
-  while (!op.done() && time < limit) step();
+  while (!op.ended() && time < limit) step();
   return op.done();
 }
 

@@ -49,7 +49,7 @@ Arrival drive(const DriveTo& goal, const PlanePose& start) {
   arrival.bicycle.at = start;
   Observation seen;
   seen.joints.resize(4);
-  for (; arrival.time < 200 && !op.done(); arrival.time += kStep) {
+  for (; arrival.time < 200 && !op.ended(); arrival.time += kStep) {
     const PlanePose& at = arrival.bicycle.at;
     seen.X_WB = make_pose(at.p.x(), at.p.y(), 0, 0, 0, at.yaw);
     seen.v_WB = arrival.bicycle.speed * Vec3(std::cos(at.yaw), std::sin(at.yaw), 0);

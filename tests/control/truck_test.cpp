@@ -44,12 +44,13 @@ struct Trial {
 Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
   Trial out;
   seen.joints.resize(1);
-  for (; out.time < 500 && !op.done(); out.time += kStep) {
+  for (; out.time < 500 && !op.ended(); out.time += kStep) {
     seen.joints[0].position = out.angle;
     const Command command = op.update(seen, out.time, kStep);
     if (op.event() == CycleEvent::kTipStart) out.started = out.time;
     if (op.event() == CycleEvent::kTipEnd) out.ended = out.time;
-    if (!command.joints[0]) continue;
+    // Of a program that has fallen short only the stop is left.
+    if (!command.joints[0] || op.ended()) continue;
     EXPECT_EQ(command.joints[0]->mode, vehicle::JointMode::kPosition);
     const double target = std::min(command.joints[0]->target, stop);
     out.angle += std::clamp(target - out.angle, -rate * kStep, rate * kStep);
@@ -69,12 +70,16 @@ TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
   EXPECT_NEAR(tip.ended, 14, 0.3);
 }
 
-TEST(Truck, GivesUpOnABedThatSticks) {
-  Operator op(truck(), program({Tip{1.2, 0}}));
+TEST(Truck, ABedThatSticksEndsTheProgramAsStalled) {
+  Operator op(truck(), program({Tip{1.2, 0}, Tip{0, 0}}));
   const Trial tip = run(op, 0.1, 0.5);
-  EXPECT_TRUE(op.done());
+  EXPECT_TRUE(op.ended());
+  EXPECT_FALSE(op.done());
   EXPECT_LT(tip.ended, 120);
   EXPECT_GT(tip.ended, 20);
+  ASSERT_EQ(op.reports().size(), 1u) << "the bed that sticks is not tipped back as if nothing were";
+  EXPECT_EQ(op.reports()[0].state, StepState::kStalled);
+  EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;  // 1.2 - 0.5 rad
 }
 
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
@@ -96,12 +101,34 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   }
 }
 
-TEST(Truck, DoesNotWaitForEver) {
-  Operator op(truck(), program({WaitFor{"digger", 0, 3}}));
-  std::map<std::string, ProgramProgress> programs{{"digger", {0, 1}}};
+TEST(Truck, WaitsAsLongAsItIsToldAndSaysForWhat) {
+  Operator op(truck(), program({WaitFor{"digger", 0, 3}}), "dumper 7");
+  std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;
   seen.programs = &programs;
+  seen.X_WB.translation() = Vec3(5, -2, 0.3);
   EXPECT_NEAR(run(op, 0.1, 10, seen).time, 3, 0.05);
+  EXPECT_FALSE(op.done());
+  EXPECT_EQ(op.phase(), "out_of_time");
+  const StepReport& report = op.reports().at(0);
+  EXPECT_EQ(report.state, StepState::kOutOfTime);
+  EXPECT_EQ(report.reason, "'digger' has done 1 of the 4 steps waited for after 3.00 s");
+  EXPECT_NEAR(report.end, 3, 0.05);
+  EXPECT_EQ(report.place, Vec3(5, -2, 0.3));
+}
+
+TEST(Truck, DoesNotWaitForWhatCannotCome) {
+  Operator op(truck(), program({WaitFor{"digger", 3}}));
+  std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
+  Observation seen;
+  seen.joints.resize(1);
+  seen.programs = &programs;
+  op.update(seen, 0, kStep);
+  EXPECT_FALSE(op.ended());
+  programs["digger"].failed = true;
+  op.update(seen, kStep, kStep);
+  ASSERT_TRUE(op.ended());
+  EXPECT_EQ(op.reports()[0].state, StepState::kBlocked);
 }
 
 TEST(Truck, ATipNeedsABed) {

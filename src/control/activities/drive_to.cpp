@@ -8,7 +8,6 @@
 
 #include "control/activity.h"
 #include "control/reach.h"
-#include "core/log.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
@@ -57,9 +56,12 @@ class Driving final : public ActivityWith<Memory> {
       m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
       if (m.standing < kStandTime && phase_time() < limit + 10) return false;
       const double miss = (step_.target - at.p).norm();
-      if (late) log_warning("operator: drive_to gave up after " + std::to_string(phase_time()) + " s");
+      if (late)
+        return fall_short(StepState::kOutOfTime, "not there after " + number_text(phase_time(), "s") + ", " +
+                                                     metres(miss) + " from the target");
       if (miss > step_.tolerance)
-        log_warning("operator: drive_to ended " + std::to_string(miss) + " m from its target");
+        return fall_short(StepState::kOutOfReach,
+                          "it stands " + metres(miss) + " from the target; allowed are " + metres(step_.tolerance));
       return true;
     }
     // Up along the ramp, down along the curve that stops at the target.

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/activities/swing.h"
 
+#include <cmath>
+
 #include "control/arm_move.h"
 #include "control/reach.h"
 
 namespace navvy::control {
 namespace {
 
-// One move; patience and warnings are the move's.
+constexpr double kShort = radians(3);  // a load or a slope bends the swing by less; more is an obstacle
+
+// One move; patience is the move's.
 class Swinging final : public ActivityWith<ArmMove> {
  public:
   Swinging(Workplace& place, const Swing& step) : ActivityWith(place), step_(step) {}
@@ -20,7 +24,12 @@ class Swinging final : public ActivityWith<ArmMove> {
 
  private:
   bool update(const Observation& seen, double, Command&) override {
-    return m.advance(place_, seen, phase_time(), phase());
+    if (!m.advance(place_, seen, phase_time(), phase())) return false;
+    // A move also ends at rest short of its target: heavy soil does that to the arm, but not to the swing.
+    const double rest = std::abs(step_.angle - seen.joints[place_.joint(0)].position);
+    if (rest < kShort) return true;
+    return fall_short(StepState::kBlocked, "the swing stopped " + number_text(degrees(rest), "deg") +
+                                               " short of its angle: something holds the upper structure");
   }
 
   const Swing& step_;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "control/activity.h"
+#include "control/reach.h"
 #include "core/error.h"
-#include "core/log.h"
 
 namespace navvy::control {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kTipPatience = 120;      // [s] for the ram to get there
 constexpr double kSlowRate = radians(1);  // [rad/s] slowest bed that is still waited for
 
 struct Memory {
-  double standing = 0;  // [s] since the bed has arrived or was given up; 0 before
+  double standing = 0;  // [s] since the bed has arrived; 0 before
   double way = 0;       // to turn at the start [rad]
 
   void visit(Archive& a) {
@@ -46,11 +46,15 @@ class Tipping final : public ActivityWith<Memory> {
     // Every step anew: an input may have moved the bed in between.
     out.joints[joint_] = vehicle::JointInput{vehicle::JointMode::kPosition, step_.angle};
     const bool late = phase_time() > std::min(kTipPatience, 10 + m.way / kSlowRate);
-    if (late && m.standing == 0)
-      log_warning("operator: the bed stopped " + std::to_string(degrees(std::abs(step_.angle - bed.position))) +
-                  " deg short of its angle");
-    // `standing` stays positive once the bed has arrived, or was given up.
-    if (m.standing > 0 || late || std::abs(step_.angle - bed.position) < kArrived) m.standing += dt;
+    const double rest = std::abs(step_.angle - bed.position);
+    // `standing` stays positive once the bed has arrived.
+    if (m.standing > 0 || rest < kArrived) m.standing += dt;
+    if (m.standing == 0 && late) {
+      // What fell out until here counts as tipped.
+      tell(CycleEvent::kTipEnd);
+      return fall_short(StepState::kStalled, "the bed stopped " + number_text(degrees(rest), "deg") +
+                                                 " short of its angle: its ram does not get it further");
+    }
     if (m.standing == 0 || m.standing < step_.hold) return false;
     tell(CycleEvent::kTipEnd);
     return true;

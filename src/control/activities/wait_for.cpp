@@ -2,7 +2,7 @@
 #include "control/activities/wait_for.h"
 
 #include "control/activity.h"
-#include "core/log.h"
+#include "control/reach.h"
 
 namespace navvy::control {
 namespace {
@@ -21,17 +21,16 @@ class WaitingFor final : public Activity {
       const auto found = seen.programs->find(step_.machine);
       if (found != seen.programs->end()) other = &found->second;
     }
-    // The loader knows the machine, but it may have left its program for inputs, or stand in a world built in C++.
-    if (!other) {
-      log_warning("operator: nothing known of '" + step_.machine + "', going on without it");
-      return true;
-    }
+    // The loader knows the machine, but it may stand in a world built in C++.
+    if (!other) return fall_short(StepState::kBlocked, "no program of '" + step_.machine + "' is known");
     // 0 stands for all steps, however many the other program has.
-    if (other->done >= (step_.steps > 0 ? step_.steps : other->steps)) return true;
-    // The other may be stuck: better late than never.
+    const int wanted = step_.steps > 0 ? step_.steps : other->steps;
+    if (other->done >= wanted) return true;
+    const std::string stands = "'" + step_.machine + "' has done " + std::to_string(other->done) + " of the " +
+                               std::to_string(wanted) + " steps waited for";
+    if (other->failed) return fall_short(StepState::kBlocked, stands + ", and its program has ended");
     if (phase_time() < step_.longest) return false;
-    log_warning("operator: waited " + std::to_string(phase_time()) + " s for '" + step_.machine + "', going on");
-    return true;
+    return fall_short(StepState::kOutOfTime, stands + " after " + number_text(step_.longest, "s"));
   }
 
   const WaitFor& step_;

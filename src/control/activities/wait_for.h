@@ -8,7 +8,8 @@
 
 namespace navvy::control {
 
-/// Wait until another machine of the world has done some or all steps of its program.
+/// Wait until another machine of the world has done some or all steps of its program. What cannot come any more, or not
+/// within `longest`, ends the program.
 struct WaitFor final : Step {
   /// Name in scene files.
   static constexpr const char* kElement = "wait_for";
@@ -16,7 +17,7 @@ struct WaitFor final : Step {
       : machine(std::move(machine_in)), steps(steps_in), longest(longest_in) {}
   std::string machine;
   int steps;       ///< 0: all
-  double longest;  ///< then it goes on, with a warning [s]
+  double longest;  ///< patience [s]
 
   /// Elements: <machine>, <steps>, <longest_s>.
   static WaitFor read(const scene::StepSource& source);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/program_list.h"
+
+#include <nlohmann/json.hpp>
+
+namespace navvy::record {
+namespace {
+
+using nlohmann::json;
+
+/// A step's report. Figures stand beside the other keys: their names end in their units.
+json step_entry(const control::StepReport& report) {
+  json out = {{"step", report.step},
+              {"kind", report.element},
+              {"state", control::name_of(report.state)},
+              {"reason", report.reason},
+              {"start_s", report.start},
+              {"end_s", report.end},
+              {"place_m", {report.place.x(), report.place.y(), report.place.z()}}};
+  for (const control::Figure& figure : report.figures) out[figure.name] = figure.value;
+  return out;
+}
+
+/// What the run's own end makes of a program that still ran.
+void end_with(json& entry, const std::string& status) {
+  if (entry["state"] != control::name_of(control::StepState::kRunning)) return;
+  if (status != "interrupted" && status != "failed") return;
+  entry["state"] = "interrupted";
+  entry["reason"] = status == "failed" ? "the run stopped itself" : "the run was interrupted";
+}
+
+}  // namespace
+
+json program_list(const session::Session& session, const std::string& status) {
+  json out = json::array();
+  for (const session::ProgramReport& report : session.programs()) {
+    json steps = json::array();
+    for (const control::StepReport& step : report.list) {
+      steps.push_back(step_entry(step));
+      end_with(steps.back(), status);
+    }
+    const json& last = steps.back();
+    json entry = {{"machine", session.world().description().machines[static_cast<std::size_t>(report.machine)].name},
+                  {"steps", report.steps},
+                  {"step", last["step"]},
+                  {"kind", last["kind"]},
+                  {"state", last["state"]},
+                  {"reason", last["reason"]},
+                  {"time_s", last["end_s"]},
+                  {"place_m", last["place_m"]}};
+    // What became of the step that was taken from it nobody knows.
+    if (report.taken) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
+    entry["step_list"] = std::move(steps);
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace navvy::record

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/operated_machine.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/log.h"
+#include "sim/terrain_view.h"
+
+namespace navvy::session {
+namespace {
+
+/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the particles.
+constexpr std::uint64_t kPayloadInterval = 12;
+
+const scene::MachineInWorld& placed(const sim::World& world, int machine) {
+  return world.description().machines[static_cast<std::size_t>(machine)];
+}
+
+}  // namespace
+
+const heightfield::Terrain& SeenSurface::terrain() const {
+  if (!view_ || seen_step_ != world_.steps()) {
+    view_ = sim::terrain_view(world_, heightfield::SurfaceKind::kWithLooseSoil);
+    seen_step_ = world_.steps();
+  }
+  return *view_;
+}
+
+OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs)
+    : world_(world),
+      machine_(world.machine(machine)),
+      base_(machine_.link(0)),
+      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name()) {
+  const scene::Machine& description = machine_.description();
+  // A machine digs with its first bucket and tips its first bed; the others are passive.
+  if (!description.buckets.empty()) bucket_ = machine_.tool(description.buckets[0].shell);
+  if (!description.beds.empty()) bed_ = machine_.tool(description.beds[0].shell);
+  for (std::size_t j = 0; j < description.joints.size(); ++j) joints_.push_back(machine_.joint(static_cast<int>(j)));
+  // Sized once: observing takes no memory.
+  seen_.joints.resize(joints_.size());
+  seen_.ground = &world.ground();
+  seen_.surface = &surface;
+  seen_.programs = &programs;
+}
+
+void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {
+  if (taken_) return;
+  const bool went_on = !op_.ended();
+  observe(seen_);
+  // Time and step go in: operators have no clock of their own.
+  send(op_.update(seen_, world_.time(), world_.dt()));
+  note_cycle(cycles);
+  note_tip(tips);
+  // Told at once and not at the end of a run of hours.
+  if (went_on && op_.ended() && !op_.done()) log_warning(told(report(), name()));
+}
+
+/// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
+void OperatedMachine::observe(control::Observation& seen) const {
+  for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
+  // The base link stands for the machine, as in programs' coordinates.
+  const vehicle::LinkState base = base_.state();
+  seen.X_WB = base.X_WL;
+  seen.v_WB = base.v_WL;
+  // A machine without a bucket carries no load that a gauge would show.
+  if (!bucket_) return;
+  // Low-passed: an operator reacts to the push, not to single particles.
+  seen.force = bucket_->smooth_force().norm();
+  if (world_.steps() % kPayloadInterval == 0) seen.payload = bucket_->payload();
+}
+
+/// A joint without a new command keeps its last one: operators speak only when something changes.
+void OperatedMachine::send(const control::Command& command) {
+  for (std::size_t j = 0; j < command.joints.size(); ++j)
+    if (command.joints[j]) world_.command(joints_[j], *command.joints[j]);
+  if (command.drive) world_.command(machine_, *command.drive);
+}
+
+/// Masses are taken at the moment of the event: what falls off on the way does not count as tipped.
+void OperatedMachine::note_tip(std::vector<BedTip>& tips) {
+  if (!bed_) return;
+  // Events are told once, in the step in which they happen.
+  const control::CycleEvent event = op_.event();
+  if (event == control::CycleEvent::kTipStart) open_tip_ = BedTip{index(), world_.time(), 0, bed_->payload(), 0};
+  if (event != control::CycleEvent::kTipEnd || !open_tip_) return;
+  open_tip_->end = world_.time();
+  open_tip_->payload_end = bed_->payload();
+  tips.push_back(*open_tip_);
+  open_tip_.reset();
+}
+
+/// A cycle is open from the first touch to the end of the dump; one that never ends is not counted.
+void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
+  using control::CycleEvent;
+  // The same for digs.
+  const CycleEvent event = op_.event();
+  if (event == CycleEvent::kScoopStart) {
+    open_ = Cycle{};
+    open_->machine = index();
+    // Masses and forces of this cycle are filled in as it goes.
+    open_->start = world_.time();
+  }
+  // Without a bucket nothing is ever opened: only digs tell of scoops.
+  if (!open_ || !bucket_) return;
+  // The peak of the low-passed force is what a cylinder would feel.
+  open_->force_peak = std::max(open_->force_peak, seen_.force);
+  if (event == CycleEvent::kLiftOut) {
+    open_->lift_out = world_.time();
+    open_->payload_lift_out = bucket_->payload();
+  } else if (event == CycleEvent::kDumpStart) {
+    open_->dump_start = world_.time();
+    open_->payload_dump = bucket_->payload();
+  } else if (event == CycleEvent::kCycleEnd) {
+    open_->end = world_.time();
+    cycles.push_back(*open_);
+    open_.reset();
+  }
+}
+
+bool OperatedMachine::take() {
+  // For good: a program that came back would find its machine somewhere else.
+  if (std::exchange(taken_, true)) return false;
+  // Joints that the program never touched keep the command they have.
+  send(op_.stop());
+  // A cycle cut short has no end to report.
+  open_.reset();
+  open_tip_.reset();
+  return true;
+}
+
+ProgramReport OperatedMachine::report() const {
+  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports()};
+  // A program that has ended stands in its last report already.
+  if (op_.ended()) return out;
+  // What was seen last is a step old, and nothing at all after a snapshot was loaded.
+  control::Observation now = seen_;
+  observe(now);
+  out.list.push_back(op_.present(now, world_.time()));
+  return out;
+}
+
+void OperatedMachine::visit(Archive& a) {
+  // Of what the operator saw only the load is older than a step.
+  a("payload", seen_.payload);
+  a("open_cycle", open_);
+  a("open_tip", open_tip_);
+  // The operator's state stands still once its machine is taken, but that may go anywhere.
+  a("taken", taken_);
+  a("operator", op_);
+}
+
+}  // namespace navvy::session

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/reports.h"
+
+#include <array>
+#include <cstdio>
+
+namespace navvy::session {
+
+void Cycle::visit(Archive& a) {
+  a("machine", machine);
+  a("start", start);
+  a("lift_out", lift_out);
+  a("dump_start", dump_start);
+  a("end", end);
+  a("payload_lift_out", payload_lift_out);
+  a("payload_dump", payload_dump);
+  a("force_peak", force_peak);
+}
+
+void BedTip::visit(Archive& a) {
+  a("machine", machine);
+  a("start", start);
+  a("end", end);
+  a("payload_start", payload_start);
+  a("payload_end", payload_end);
+}
+
+void ForceStatistics::visit(Archive& a) {
+  a("peak", peak);
+  a("sum", sum);
+  a("steps", steps);
+  a("rock_peak", rock_peak);
+  a("residual_max", residual_max);
+}
+
+std::string told(const ProgramReport& report, const std::string& name) {
+  const control::StepReport& last = report.last();
+  std::array<char, 96> where{};
+  std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(), last.place.y());
+  const std::string state = report.taken ? "inputs" : control::name_of(last.state);
+  return "'" + name + "', step " + std::to_string(last.step) + " of " + std::to_string(report.steps) + " (" +
+         last.element + "): " + state + (last.reason.empty() ? "" : ": " + last.reason) + where.data();
+}
+
+}  // namespace navvy::session

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// How steps and programs end: with a state, a reason and an account that outlive a snapshot.
+#include "control/outcome.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "control/activities/wait.h"
+#include "control/activity.h"
+#include "control/ew180_like.h"
+#include "control/operator.h"
+#include "control/step.h"
+#include "core/error.h"
+#include "core/saved_state.h"
+#include "flip_bytes.h"
+
+namespace navvy::control::testing {
+namespace {
+
+constexpr double kStep = 0.01;  // [s]
+
+/// Turns the boom and drives, gives an account, and falls short after a while if it is told to.
+struct Trying final : Step {
+  StepState end = StepState::kDone;
+  const char* element() const override { return "trying"; }
+  std::unique_ptr<Activity> activity(Workplace& place) const override;
+};
+
+class TryingHard final : public Activity {
+ public:
+  TryingHard(Workplace& place, const Trying& step) : Activity(place), step_(step) {}
+  const char* phase() const override { return "try"; }
+  void begin(const Observation&) override {}
+  std::vector<Figure> account(const Observation& seen) const override {
+    return {{"way_m", seen.X_WB.translation().x()}, {"tried_s", phase_time()}};
+  }
+
+ private:
+  bool update(const Observation&, double, Command& out) override {
+    out.joints[1] = vehicle::JointInput{vehicle::JointMode::kPosition, 0.3};
+    out.drive = vehicle::DriveInput{1, 0.2, false};
+    remark("harder than it looks");
+    if (phase_time() < 0.5) return false;
+    return step_.end == StepState::kDone || fall_short(step_.end, "it did not work");
+  }
+  const Trying& step_;
+};
+
+std::unique_ptr<Activity> Trying::activity(Workplace& place) const {
+  return std::make_unique<TryingHard>(place, *this);
+}
+
+scene::Program program(StepState end) {
+  Trying trying;
+  trying.end = end;
+  return {{Wait(0.1), trying, Wait(0.1)}, {}};
+}
+
+/// An operator on a machine that stands at x = time.
+struct Trial {
+  explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") { seen.joints.resize(4); }
+  Command step() {
+    seen.X_WB.translation().x() = time;
+    const Command out = op.update(seen, time, kStep);
+    time += kStep;
+    return out;
+  }
+  void run(double until) {
+    while (time < until && !op.ended()) last = step();
+  }
+  Operator op;
+  Observation seen;
+  Command last;
+  double time = 0;
+};
+
+TEST(StepState, HasANameOfItsOwnEach) {
+  std::set<std::string> names;
+  for (int i = 0; i <= static_cast<int>(StepState::kBuried); ++i) names.insert(name_of(static_cast<StepState>(i)));
+  EXPECT_EQ(names.size(), 8u);
+  EXPECT_FALSE(fell_short(StepState::kRunning));
+  EXPECT_FALSE(fell_short(StepState::kDone));
+  EXPECT_TRUE(fell_short(StepState::kBlocked));
+}
+
+TEST(Outcome, OfAStepThatIsDoneHasItsAccountAndTheProgramGoesOn) {
+  Trial trial(StepState::kDone);
+  trial.run(5);
+  EXPECT_TRUE(trial.op.done());
+  ASSERT_EQ(trial.op.reports().size(), 3u);
+  const StepReport& report = trial.op.reports()[1];
+  EXPECT_EQ(report.step, 2);
+  EXPECT_EQ(report.element, "trying");
+  EXPECT_EQ(report.state, StepState::kDone);
+  EXPECT_EQ(report.reason, "harder than it looks");
+  EXPECT_NEAR(report.end - report.start, 0.5, 0.011);
+  EXPECT_DOUBLE_EQ(report.place.x(), report.end);
+  ASSERT_EQ(report.figures.size(), 2u);
+  EXPECT_EQ(report.figures[0].name, "way_m");
+  EXPECT_DOUBLE_EQ(report.figures[0].value, report.end);
+}
+
+TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
+  Trial trial(StepState::kBlocked);
+  trial.run(5);
+  EXPECT_TRUE(trial.op.ended());
+  EXPECT_FALSE(trial.op.done());
+  EXPECT_EQ(trial.op.phase(), "blocked");
+  EXPECT_TRUE(trial.op.progress().failed);
+  EXPECT_EQ(trial.op.progress().done, 1);
+  // The joint that the program moved stands still, the others keep what they had; the drive brakes, its wheels as
+  // they are.
+  ASSERT_TRUE(trial.last.joints[1].has_value());
+  EXPECT_EQ(trial.last.joints[1]->mode, vehicle::JointMode::kVelocity);
+  EXPECT_EQ(trial.last.joints[1]->target, 0);
+  EXPECT_FALSE(trial.last.joints[0].has_value());
+  ASSERT_TRUE(trial.last.drive.has_value());
+  EXPECT_TRUE(trial.last.drive->brake);
+  EXPECT_EQ(trial.last.drive->steer, 0.2);
+  ASSERT_EQ(trial.op.reports().size(), 2u);
+  EXPECT_EQ(trial.op.reports()[1].reason, "it did not work");
+  EXPECT_EQ(trial.op.reports()[1].figures.size(), 2u);
+  // And nothing more, ever.
+  const Command after = trial.step();
+  EXPECT_FALSE(after.drive.has_value());
+  for (const auto& joint : after.joints) EXPECT_FALSE(joint.has_value());
+}
+
+TEST(Outcome, OfARunningStepIsToldWithoutChangingIt) {
+  Trial trial(StepState::kDone);
+  trial.run(0.4);
+  const std::uint64_t before = hash_of(trial.op).digest();
+  const StepReport present = trial.op.present(trial.seen, trial.time);
+  EXPECT_EQ(present.step, 2);
+  EXPECT_EQ(present.state, StepState::kRunning);
+  EXPECT_EQ(present.figures.size(), 2u);
+  EXPECT_EQ(hash_of(trial.op).digest(), before);
+}
+
+TEST(Outcome, IsSavedAndHashedToTheByte) {
+  for (const double time : {0.05, 0.4, 5.0}) {
+    Trial whole(StepState::kTipped), resumed(StepState::kTipped);
+    whole.run(time);
+    load_saved(saved(whole.op), resumed.op);
+    EXPECT_EQ(hash_of(resumed.op).digest(), hash_of(whole.op).digest());
+    EXPECT_EQ(resumed.op.phase(), whole.op.phase());
+    EXPECT_EQ(resumed.op.reports().size(), whole.op.reports().size());
+    EXPECT_EQ(test::flip_every_byte(whole.op, resumed.op), "") << time;
+  }
+}
+
+}  // namespace
+}  // namespace navvy::control::testing
