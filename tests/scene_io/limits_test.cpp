@@ -155,7 +155,7 @@ TEST(Limits, WhatIsNoUtf8IsRefusedWithItsLine) {
   EXPECT_FALSE(read(world_text("<!-- café -->")).has_errors());
   Overrides overrides;
   overrides.set.push_back({"soil.name\xFF", "1"});
-  EXPECT_THROW(load_world_from_string(world_text(""), "x.sdf", control::step_kinds(), overrides), InputError);
+  EXPECT_THROW(load_scene_from_string(world_text(""), "x.sdf", control::step_kinds(), overrides), InputError);
 }
 
 TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
@@ -180,7 +180,7 @@ TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
   const auto document =
       Document::parse(world_text("<navvy:resolved format=\"1\"><file hash=\"0\">" + mesh + "</file></navvy:resolved>"),
                       "x.sdf", listed);
-  EXPECT_NO_THROW(load_world_from_string(document->text(), "x.sdf", control::step_kinds()));
+  EXPECT_NO_THROW(load_scene_from_string(document->text(), "x.sdf", control::step_kinds()));
 }
 
 }  // namespace
