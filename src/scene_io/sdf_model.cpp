@@ -10,7 +10,7 @@
 
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
-#include "scene_io/sdf_schema.h"
+#include "scene_io/sdf_schema_private.h"
 
 namespace navvy::scene_io {
 

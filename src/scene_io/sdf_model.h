@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links and joints of an SDF model: with sdf_schema.h all that includes libsdformat.
+// Links and joints of an SDF model: with sdf_schema all that includes libsdformat.
 #pragma once
 
 #include "scene/machine.h"

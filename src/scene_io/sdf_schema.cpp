@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_io/sdf_schema.h"
+#include "scene_io/sdf_schema_private.h"
 
 #include "scene_io/sdf_rules.h"
 
