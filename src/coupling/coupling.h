@@ -2,6 +2,8 @@
 // The exchange between machines, soil and ground, once per base step. Alone sees all three.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/archive.h"
@@ -50,18 +52,21 @@ class Coupling {
   const TimeShare& time_share() const { return time_share_; }
   /// Soil carried by a tool [kg]; what a bucket holds inside a bed is the bucket's.
   double payload(const ToolLoad& tool) const;
+  /// By particle, whether a bucket or a bed holds it: 1 or 0.
+  std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// The engine that moves machine `m` of the world, and its index there.
-  vehicle::Engine& engine(int m) const { return *homes_[static_cast<std::size_t>(m)].engine; }
-  int index(int m) const { return homes_[static_cast<std::size_t>(m)].index; }
+  vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
+  int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
   /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
   /// @throws InputError for another scene's tools or a ground patch that cannot be.
   void visit(Archive& a);
 
  private:
-  struct Home {
-    vehicle::Engine* engine = nullptr;
-    int index = 0;
+  /// Where a machine of the scene is moved.
+  struct PlacedMachine {
+    vehicle::Engine* engine = nullptr;  ///< one of the two given
+    int index = 0;                      ///< of the machine in that engine
   };
   void update_ground_patch();
   void upload_ground_patch();
@@ -79,7 +84,7 @@ class Coupling {
   heightfield::Ground& ground_;
   GroundView view_;
   Ruts ruts_;
-  std::vector<Home> homes_;
+  std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;
   // Patch of ground that rigid bodies collide with: its columns, every how many of them, their heights.

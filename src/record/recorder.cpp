@@ -1,147 +1,127 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <exception>
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "core/stopwatch.h"
 #include "record/hash_log.h"
+#include "record/last_words.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
 #include "render/renderer.h"
 #include "sim/frame_builder.h"
+#include "sim/timing.h"
 
 namespace navvy::record {
-namespace fs = std::filesystem;
-namespace {
-
-/// How many whole periods of `rate` [Hz] have passed by `time` (with a hair for rounding of time = steps x dt).
-// A count is exact where a sum of periods would drift.
-std::uint64_t count_at(double time, double rate) { return static_cast<std::uint64_t>(std::floor(time * rate + 1e-9)); }
-
-}  // namespace
 
 struct Recorder::State {
   // Telemetry and frames look at the same session; neither keeps more than a reference.
-  State(session::Session& s, Options o)
-      : session(s), options(std::move(o)), telemetry(s, options.directory + "/telemetry.csv"), frames(s.world()) {
+  State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
+      : session(s),
+        options(std::move(o)),
+        folder(std::move(f)),
+        last_words(folder->path("summary.reserve"), folder->path("summary.json")),
+        telemetry(s, folder->path("telemetry.csv")),
+        frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
-    // Frames are counted from time zero: a resumed run goes on with the numbers of the whole one.
-    for (const scene::Camera& camera : s.world().description().cameras)
-      next_frame.push_back(count_at(status.start_time, camera.rate));
-    next_sample = count_at(status.start_time, s.world().description().recording.telemetry_rate);
   }
 
   // Telemetry is written at checkpoints, pictures and hashes at once.
   session::Session& session;
   Options options;
+  std::unique_ptr<RunFolder> folder;
+  LastWords last_words;
   Telemetry telemetry;
   sim::FrameBuilder frames;
   std::unique_ptr<render::Renderer> renderer;
   std::unique_ptr<HashLog> hashes;
-  std::vector<std::uint64_t> next_frame;  ///< per camera, counts frames
-  std::uint64_t next_sample = 0;
   RunStatus status;
   Stopwatch total, since_checkpoint;
   bool finished = false;
 
-  std::string path(const std::string& name) const { return options.directory + "/" + name; }
+  std::string path(const std::string& name) { return folder->path(name); }
+  /// Whether the present step is the nearest to a period of `rate` [1/s].
+  bool due(double rate) const;
   void sample_when_due();
   void draw_when_due();
   void hash_when_due();
   void checkpoint(bool force);
+  void write_summary(bool with_hash);
+  void write_start();
 };
 
-namespace {
-
-/// True when `count / rate` has been reached by `time` (with a hair for rounding of time = steps x dt).
-// Counted periods, not a time of the next sample: rounding then never adds up.
-bool due(double time, std::uint64_t count, double rate) {
-  return rate > 0 && time * rate >= static_cast<double>(count) - 1e-9;
-}
-
-/// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
-std::string clean(const std::string& directory) {
-  // A path that ends in a slash has no file name; its parent is the folder.
-  const fs::path path = fs::path(directory).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).string();
-}
-
-void make_directory(const std::string& directory) {
-  // Results of hours are never overwritten; only one generation is kept.
-  std::error_code code;
-  if (fs::exists(directory + "/summary.json", code)) {
-    fs::remove_all(directory + ".previous", code);
-    fs::rename(directory, directory + ".previous", code);
-    if (code) throw FileError("cannot move earlier results '" + directory + "' aside: " + code.message());
-  }
-  // Also every folder above: --out may be deep.
-  fs::create_directories(directory + "/frames", code);
-  if (code) throw FileError("cannot create '" + directory + "': " + code.message());
-}
-
-}  // namespace
-
-Recorder::Recorder(session::Session& session, Options options) {
+Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
   // Nothing is written before the folder stands; what cannot be made is told before the first step.
-  options.directory = clean(options.directory);
-  make_directory(options.directory);
+  if (!folder) folder = std::make_unique<RunFolder>(options.directory);
+  folder->begin();
   // Telemetry and frames are made with their paths in the new folder.
-  state_ = std::make_unique<State>(session, std::move(options));
-  State& s = *state_;
-  // First of all: whatever becomes of the run, its folder says what it was.
+  state_ = std::make_unique<State>(session, std::move(options), std::move(folder));
+  try {
+    state_->write_start();
+  } catch (const std::exception& error) {
+    leave_last_words("failed", error.what());
+    throw;
+  }
+}
+
+void Recorder::State::write_start() {
+  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can be left that says
+  // how it ended.
+  write_summary(false);
+  // What it was comes next.
   const scene::Scene& scene = session.world().description();
-  if (!s.options.scene_text.empty()) write_file_atomically(s.path("scene.sdf"), s.options.scene_text);
-  write_file_atomically(s.path("run.json"),
-                        run_json({kRunFormat, navvy_version(), s.options.command, scene.file, session.device_name()}));
-  write_terrain(session.world(), s.path("terrain_start.tif"));
+  if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
+  write_file_atomically(path("run.json"),
+                        run_json({kRunFormat, navvy_version(), options.command, scene.file, session.device_name()}));
+  write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
-  s.sample_when_due();
+  sample_when_due();
   // The renderer takes a graphics context, which runs without pictures do not need.
-  if (s.options.render) s.renderer = std::make_unique<render::Renderer>();
-  s.draw_when_due();
-  if (s.options.hash_every > 0)
-    s.hashes = std::make_unique<HashLog>(session, s.path("hashes.csv"), s.options.hash_every);
-  // A summary from the start on: its being there marks the folder as a run's.
-  s.checkpoint(true);
+  if (options.render) renderer = std::make_unique<render::Renderer>();
+  draw_when_due();
+  if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
+  checkpoint(true);
 }
 
 Recorder::~Recorder() = default;
 
+bool Recorder::State::due(double rate) const {
+  // By the step's number, counted from time zero: a resumed run records the steps that the whole one would.
+  return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
+}
+
 /// At most one row a step: a rate above the step's gives every step.
 void Recorder::State::sample_when_due() {
-  const double rate = session.world().description().recording.telemetry_rate;
-  const double time = session.world().time();
-  if (!due(time, next_sample, rate)) return;
+  const bool first = telemetry.rows() == 0;
+  if (!first && !due(session.world().description().recording.telemetry_rate)) return;
   const Lap lap(status.record_time);
   telemetry.sample();
-  next_sample = count_at(time, rate) + 1;
 }
 
 void Recorder::State::draw_when_due() {
   // One frame for all cameras of this instant: filling it costs more than a view of it.
   if (!renderer) return;
   const auto& cameras = session.world().description().cameras;
-  const double time = session.world().time();
+  const sim::World& world = session.world();
   const scene::Frame* frame = nullptr;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (!due(time, next_frame[i], cameras[i].rate)) continue;
+  for (const scene::Camera& camera : cameras) {
+    if (!due(camera.rate)) continue;
     // Drawing is counted apart: the real-time factor is the simulation's.
     const Lap lap(status.render_time);
     if (frame == nullptr) frame = &frames.build();
-    const render::Image image = renderer->render(*frame, frames.camera(cameras[i]));
-    char name[32];
-    std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(next_frame[i]));
-    render::write_png(path("frames/" + cameras[i].name + name), image);
+    const render::Image image = renderer->render(*frame, frames.camera(camera));
     // The number of a picture tells its time: name_N.png is N periods from the start.
-    next_frame[i] = count_at(time, cameras[i].rate) + 1;
+    char name[32];
+    const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
+    std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(number));
+    render::write_png(path("frames/" + camera.name + name), image);
     ++status.frames;
   }
 }
@@ -161,9 +141,16 @@ void Recorder::State::checkpoint(bool force) {
   // At most every other second unless it is the last.
   telemetry.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
-  write_file_atomically(path("summary.json"), summary_json(session, status, force));
+  write_summary(force);
   // Counted from the end of the writing, or a slow disk would do nothing else.
   since_checkpoint.restart();
+}
+
+/// Kept ready as well, for whoever has to leave it in a hurry.
+void Recorder::State::write_summary(bool with_hash) {
+  const std::string text = summary_json(session, status, with_hash);
+  last_words.keep(text);
+  write_file_atomically(path("summary.json"), text);
 }
 
 /// In the order of cost: a full disk is noticed at the cheapest.
@@ -181,14 +168,49 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  if (status == "failed") {
-    // The state of the fault, to be looked at or gone on from.
-    s.session.save(s.path("failed.snapshot"));
-  }
-  if (s.hashes) s.hashes->finish();
+  // Each file for itself: one that the disk refuses keeps none of the others from being written, and the summary, which
+  // comes last, tells of it.
+  std::exception_ptr first;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      // The first cause is what the user reads.
+      if (s.status.status == "failed")
+        log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + error.what());
+      else
+        s.status.message = error.what();
+      s.status.status = "failed";
+      if (!first) first = std::current_exception();
+    }
+  };
+  // The state of the fault, to be looked at or gone on from.
+  if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
+  attempt([&] {
+    if (s.hashes) s.hashes->finish();
+  });
   // The end of the ground, also of a run that failed: it shows where.
-  write_terrain(s.session.world(), s.path("terrain_end.tif"));
-  s.checkpoint(true);
+  attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
+  attempt([&] { s.telemetry.checkpoint(true); });
+  std::string text;
+  bool written = false;
+  attempt([&] {
+    s.status.wall_time = s.total.seconds() - s.status.render_time - s.status.record_time;
+    text = summary_json(s.session, s.status, true);
+    write_file_atomically(s.path("summary.json"), text);
+    written = true;
+  });
+  // The disk takes no new file: the room that was taken at the start serves.
+  if (!written) {
+    try {
+      text = summary_json(s.session, s.status, true);
+    } catch (const std::exception&) {
+      text.clear();
+    }
+    if (text.empty() || !s.last_words.write(text)) leave_last_words("failed", s.status.message.c_str());
+  }
+  // A failed run has told its cause already.
+  if (first && status != "failed") std::rethrow_exception(first);
 }
 
 RunProgress Recorder::progress() const {
