@@ -14,8 +14,8 @@ constexpr double kHeld = 0.08;                      // [m/s] a waiting tip slowe
 constexpr double kGiveIn = 0.2;                     // [s] of being held before the path rises
 constexpr double kLiftRate = 0.3, kSinkRate = 0.1;  // of the path while held, and back when free [m/s]
 // A nose that rises by more than this is let down, from so much on [rad] as fast as this [m/s]: 5 deg/s, with the lip
-// some 6 m ahead of the axle about which the machine turns. tuned: digging up a slope of 12 deg in loam the nose rises by
-// 2.8 deg at most.
+// some 6 m ahead of the axle about which the machine turns. tuned: digging up a slope of 12 deg in loam the nose rises
+// by 2.8 deg at most.
 constexpr double kRise = radians(1.5), kRiseMost = radians(2.5), kReliefRate = 0.5;
 
 }  // namespace

@@ -172,8 +172,9 @@ TEST(Dig, AccountsForWhatItDug) {
   EXPECT_EQ(end.reason, "");
   EXPECT_EQ(figure(end, "cycles"), static_cast<double>(rig.cycles.size()));
   EXPECT_DOUBLE_EQ(figure(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
-  // Between columns the operator's surface is bilinear, the measure counts columns: half a one along both walls.
-  EXPECT_NEAR(figure(end, "volume_left_m3"), (1 - measured.removed_share) * 3.2 * 1.05 * 0.8, 0.1);
+  // Ten rows of 32 columns have their centres inside the outline, 1.05 m wide: all that the measure can find removed.
+  // Its columns against the operator's 33 places along the line: a piece of 0.1 m at an end.
+  EXPECT_NEAR(figure(end, "volume_left_m3"), 10 * 32 * 0.1 * 0.1 * 0.8 - measured.removed, 0.1 * 1.05 * 0.8);
   EXPECT_NEAR(figure(end, "depth_reached_m"), 0.8, 0.05);
 }
 
