@@ -60,11 +60,13 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   for (int step = 0; step < steps; ++step) {
     engine->step(dt, view);
     if (step % kRutInterval != 0) continue;
+    std::vector<LoadedTyre> tyres;
     for (std::size_t i = 0; i < of.size(); ++i) {
       const std::vector<scene::Wheel>& wheels = scene.machines[of[i]].machine.wheels;
       for (std::size_t w = 0; w < wheels.size(); ++w)
-        ruts.press(wheels[w], engine->wheel(static_cast<int>(i), static_cast<int>(w)), kSinkSpeed * kRutInterval * dt);
+        tyres.push_back({wheels[w], engine->wheel(static_cast<int>(i), static_cast<int>(w))});
     }
+    ruts.press(tyres, kSinkSpeed * kRutInterval * dt);
   }
   for (std::size_t i = 0; i < of.size(); ++i) {
     const int index = static_cast<int>(i);
