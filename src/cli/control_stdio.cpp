@@ -6,17 +6,55 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 
 namespace navvy::cli {
 
 using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kLongestName = 1000;
+constexpr int kPatience = 100;  // between two looks at `stop` [ms]
+
+/// Brackets and braces that are open at once, strings apart; counted before the parser, which builds them all.
+int nesting(const std::string& line) {
+  int depth = 0, deepest = 0;
+  bool text = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (text) {
+      if (c == '\\') ++i;
+      text = c != '"';
+      continue;
+    }
+    if (c == '"') text = true;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
+}
+
+/// Enough of a text to recognise it.
+std::string beginning(const std::string& text) { return text.size() <= 80 ? text : text.substr(0, 80) + "..."; }
+
+std::string beginning(const json& value) {
+  return beginning(value.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+InputError fault(const std::string& element, const std::string& value, const std::string& rule) {
+  return InputError(Fault{Fault::Severity::kError, "", 0, element, value, rule,
+                          R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
+}
+
+}  // namespace
 
 /// A control step is a whole number of base steps: exchanges fall on the same steps on every machine.
 ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop)
@@ -25,28 +63,62 @@ ControlStdio::ControlStdio(session::Session& session, double rate, std::function
       world_(session.world()),
       interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world_.dt()))))) {}
 
-/// The next line without its end; false when the stream ended or `stop` said so.
-bool ControlStdio::read_line(std::string& line) {
+/// The next line without its end. Every byte is looked at once, whatever the pieces that it comes in.
+ControlStdio::Read ControlStdio::read_line(std::string& line) {
   // Not through std::cin: a signal that comes just before a blocking read would be lost in it.
-  constexpr int kPatience = 100;  // [ms]
-  for (std::size_t end = unread_.find('\n'); end == std::string::npos; end = unread_.find('\n')) {
+  for (;;) {
+    const std::size_t end = unread_.find('\n', scanned_);
+    if (end != std::string::npos) {
+      line = unread_.substr(0, end);
+      unread_.erase(0, end + 1);
+      scanned_ = 0;
+      if (std::exchange(skipping_, false) || line.size() > kLongestLine) return Read::kTooLong;
+      return Read::kLine;
+    }
+    scanned_ = unread_.size();
+    // Only its length is of interest from here on.
+    if (unread_.size() > kLongestLine) {
+      skipping_ = true;
+      unread_.clear();
+      scanned_ = 0;
+    }
+    if (ended_) {  // the last line may lack its end
+      line = std::exchange(unread_, "");
+      scanned_ = 0;
+      if (std::exchange(skipping_, false)) return Read::kTooLong;
+      return line.empty() ? Read::kEnded : Read::kLine;
+    }
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, kPatience);
-    if (stop_()) return false;
+    if (stop_()) return Read::kStopped;
     // Nothing yet, or a signal: ask `stop` again.
     if (ready <= 0) continue;
-    char bytes[4096];
+    char bytes[65536];
     const ssize_t got = read(STDIN_FILENO, bytes, sizeof bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) {  // the last line may lack its end
-      line = std::exchange(unread_, "");
-      return !line.empty();
-    }
-    unread_.append(bytes, static_cast<std::size_t>(got));
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got <= 0)
+      ended_ = true;
+    else
+      unread_.append(bytes, static_cast<std::size_t>(got));
   }
-  const std::size_t end = unread_.find('\n');
-  line = unread_.substr(0, end);
-  unread_.erase(0, end + 1);
+}
+
+/// False when nobody reads any more, or `stop` said so while nobody read.
+bool ControlStdio::say(const std::string& line) {
+  for (std::size_t at = 0; at < line.size();) {
+    pollfd out{STDOUT_FILENO, POLLOUT, 0};
+    const int ready = poll(&out, 1, kPatience);
+    if (stop_()) return false;
+    if (ready <= 0) continue;
+    // A ready pipe takes so much without blocking.
+    const ssize_t put = write(STDOUT_FILENO, line.data() + at, std::min<std::size_t>(line.size() - at, PIPE_BUF));
+    if (put < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (put < 0) {
+      gone_ = "the controller closed standard output";
+      return false;
+    }
+    at += static_cast<std::size_t>(put);
+  }
   return true;
 }
 
@@ -58,41 +130,55 @@ bool ControlStdio::exchange() {
   json& values = out["outputs"];
   for (std::size_t i = 0; i < world_.outputs().size(); ++i)
     values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
-  std::cout << out.dump() << "\n" << std::flush;
-  // Lock step: simulated time stands still until the answer is there.
-  std::string line;
-  if (!read_line(line)) return false;
-  ++lines_;
-  // A controller's slip stops the run with the line's number: going on would hide it.
-  const auto fault = [&](const std::string& element, const std::string& value, const std::string& rule) {
-    return InputError(Fault{Fault::Severity::kError, "standard input", static_cast<int>(lines_), element, value, rule,
-                            R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
-  };
-  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
-  const json in = json::parse(line, nullptr, false);
-  if (!in.is_object()) throw fault("line", line.substr(0, 80), "must be one JSON object");
-  // A misspelt key would otherwise be an input that never arrives.
-  for (const auto& [key, value] : in.items())
-    if (key != "inputs" && key != "end") throw fault(key, value.dump().substr(0, 80), "must be 'inputs' or 'end'");
-  if (in.contains("end")) {
-    if (!in["end"].is_boolean()) throw fault("end", in["end"].dump().substr(0, 80), "must be true or false");
-    if (in["end"].get<bool>()) return false;
-  }
-  if (!in.contains("inputs")) return true;
-  if (!in["inputs"].is_object()) throw fault("inputs", in["inputs"].dump(), "must be an object of names and numbers");
-  for (const auto& [name, value] : in["inputs"].items()) {
-    if (!value.is_number()) throw fault(name, value.dump(), "must be a number");
+  if (!say(out.dump() + "\n")) return false;
+  // Lock step: simulated time stands still until a usable answer is there.
+  for (;;) {
+    std::string line;
+    const Read read = read_line(line);
+    if (read == Read::kStopped) return false;
+    if (read == Read::kEnded) {
+      gone_ = R"(the controller closed standard input without {"end": true})";
+      return false;
+    }
+    ++lines_;
     try {
-      // By name each time: controllers send few inputs, and the map is fast.
-      session_.set(name, value.get<double>());
+      if (read == Read::kTooLong)
+        throw fault("line", "", "must have at most " + std::to_string(kLongestLine) + " bytes");
+      return obey(line);
     } catch (const InputError& error) {
-      // The world knows the channel; here the line is added.
-      const Fault& cause = error.faults().front();
-      throw InputError(Fault{cause.severity, "standard input", static_cast<int>(lines_), cause.element, cause.value,
-                             cause.rule, cause.remedy});
+      // A slip is the controller's to mend, which knows best what it meant.
+      const json answer{{"error", error.what()}, {"line", lines_}};
+      if (!say(answer.dump(-1, ' ', false, json::error_handler_t::replace) + "\n")) return false;
     }
   }
-  return true;
+}
+
+/// False when the line ends the run. All of it is checked before any of it acts.
+bool ControlStdio::obey(const std::string& line) {
+  if (nesting(line) > kDeepestNesting)
+    throw fault("line", beginning(line), "must nest at most " + std::to_string(kDeepestNesting) + " deep");
+  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
+  const json in = json::parse(line, nullptr, false);
+  if (!in.is_object()) throw fault("line", beginning(line), "must be one JSON object");
+  // A misspelt key would otherwise be an input that never arrives.
+  for (const auto& [key, value] : in.items())
+    if (key != "inputs" && key != "end") throw fault(key, beginning(value), "must be 'inputs' or 'end'");
+  if (in.contains("end") && !in["end"].is_boolean()) throw fault("end", beginning(in["end"]), "must be true or false");
+  std::vector<std::pair<int, double>> inputs;
+  if (in.contains("inputs")) {
+    if (!in["inputs"].is_object())
+      throw fault("inputs", beginning(in["inputs"]), "must be an object of names and numbers");
+    for (const auto& [name, value] : in["inputs"].items()) {
+      // No channel's name is so long, and looking for the nearest one costs time.
+      if (name.size() > kLongestName) throw fault(beginning(name), beginning(value), "is no input");
+      if (!value.is_number() || !std::isfinite(value.get<double>()))
+        throw fault(beginning(name), beginning(value), "must be a number");
+      // By name each time: controllers send few inputs, and the map is fast.
+      inputs.emplace_back(world_.input(name), value.get<double>());
+    }
+  }
+  for (const auto& [input, value] : inputs) session_.set(input, value);
+  return !in.value("end", false);
 }
 
 }  // namespace navvy::cli

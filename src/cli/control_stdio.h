@@ -2,6 +2,7 @@
 // Lock-step control over standard input and output: any language can drive.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -11,21 +12,35 @@
 namespace navvy::cli {
 
 /// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line {"inputs": {name:
-/// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} or end of
-/// file ends the run.
+/// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} ends the
+/// run.
+///
+/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...}; simulated time stands still
+/// until one comes that can be used. A controller that goes away, closing either stream, ends the run too.
 class ControlStdio {
  public:
-  /// @param stop asked while it waits for a line: true ends the wait as the end of the stream does
+  /// @param stop asked while it waits for its controller: true ends the wait
   ControlStdio(session::Session& session, double rate, std::function<bool()> stop);
-  /// Exchanges when a control step is due. Returns false when the controller wants to end.
-  /// @throws InputError naming line and key when the line is not as described.
+  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone, or `stop` said so.
   bool exchange();
+  /// How the controller went away without {"end": true}; empty while it is there.
+  const std::string& gone() const { return gone_; }
+
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;  ///< [bytes]
+  static constexpr int kDeepestNesting = 8;                          ///< a line needs 2
 
  private:
-  bool read_line(std::string& line);
+  enum class Read { kLine, kTooLong, kStopped, kEnded };
+  Read read_line(std::string& line);
+  bool say(const std::string& line);
+  bool obey(const std::string& line);
 
   std::function<bool()> stop_;
-  std::string unread_;  ///< what came after the last line
+  std::string unread_;       ///< what came after the last line
+  std::size_t scanned_ = 0;  ///< of `unread_`: no line ends before it
+  bool skipping_ = false;    ///< within a line that is too long
+  bool ended_ = false;       ///< nothing more will come
+  std::string gone_;
   session::Session& session_;
   const sim::World& world_;
   /// Exchanges fall on multiples of it.

@@ -5,10 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/crash.h"
 #include "cli/exit_code.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -68,9 +70,8 @@ int guarded(const cli::Action& action) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The whole program, from its command line on.
+int run(int argc, char** argv) {
   // The first lines of the help are what a newcomer types.
   CLI::App app(
       "Navvy: terrain and excavation simulator on OpenCL.\n"
@@ -80,9 +81,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
-      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a program of it did "
-      "not\n"
-      "come to its end (summary.json: programs), 130 interrupted.\n"
+      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a program of it did\n"
+      "not come to its end (summary.json: programs), 130 interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went\n"
+      "away); above 130 a crash of Navvy's own, which says where.\n"
       "scenarios/README.md explains scene files from the first line on.");
   // Filled by the subcommand that was typed.
   cli::Action action;
@@ -111,5 +112,17 @@ int main(int argc, char** argv) {
   }
   // Only now: parsing says what it has to say by itself.
   install_log_sink();
-  return guarded(action);
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::install_crash_report();
+  // A reader that went away and a file that grew past its limit are errors of the call that writes, told like others.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const int status = guarded([&] { return run(argc, argv); });
+  cli::expect_exit();
+  return status;
 }

@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,20 +13,18 @@
 #include "cli/control_stdio.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
+#include "cli/stop_signals.h"
 #include "cli/validators.h"
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "record/recorder.h"
+#include "record/run_folder.h"
 #include "session/session.h"
 
 namespace navvy::cli {
 namespace {
-
-// A signal may come at any moment and may do no more than this.
-std::atomic<bool> interrupted{false};
-extern "C" void on_signal(int) { interrupted = true; }
 
 struct RunOptions {
   SceneOptions scene;
@@ -72,18 +68,19 @@ class ProgressLine {
 std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
 
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
-int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder) {
+int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
+                    StopSignals& signals) {
   ProgressLine line(options.quiet || !options.control.empty());
   // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
   if (!options.control.empty())
-    control = std::make_unique<ControlStdio>(session, options.control_rate, [] { return interrupted.load(); });
+    control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked);
   bool snapshot_due = !options.snapshot.empty();
   try {
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
-    while (!session.done() && !interrupted) {
+    while (!session.done() && !StopSignals::asked()) {
       if (control && !control->exchange()) break;
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
@@ -95,13 +92,10 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
       line.show(recorder.progress());
     }
   } catch (const std::exception& error) {
-    // The first cause is what the user reads; a second one in closing the files is only logged.
+    // The first cause is what the user reads; a second one in closing the files is only logged by the recorder.
     line.end();
-    try {
-      recorder.finish("failed", error.what());
-    } catch (const std::exception& second) {
-      log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + second.what());
-    }
+    signals.obeyed();
+    recorder.finish("failed", error.what());
     // The exit status says which kind of failure it was.
     throw;
   }
@@ -109,11 +103,15 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // Asked for and not written: that must not go unnoticed.
   if (snapshot_due)
     log_warning("no snapshot: the run ended at " + std::to_string(session.world().time()) + " s, before --snapshot-at");
+  // From here on nobody hurries: the files are closed in their order.
+  const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
+  signals.obeyed();
   const bool complete = session.complete();
-  recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete");
+  recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
   if (interrupted) return kInterrupted;
-  // Whoever gives --duration asks for no more than that: a program that it cuts off is told, and no failure.
-  const bool cut_as_asked = options.scene.duration > 0 && !session.fell_short();
+  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
+  // failure.
+  const bool cut_as_asked = (options.scene.duration > 0 || control) && !session.fell_short();
   return complete || cut_as_asked ? kOk : kIncomplete;
 }
 
@@ -139,34 +137,31 @@ int run(const RunOptions& options) {
   if (!options.control.empty() && options.control != "stdio")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control, "only 'stdio' is known",
                            "leave it out to let the scene's program drive"});
+  // Before anything that may take long, such as a driver that compiles.
+  StopSignals signals;
   // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
   record::Options record_options;
   const scene::Scene description = options.scene.load(&record_options.scene_text);
+  record_options.directory = options.out.empty() ? default_out(description) : options.out;
+  // Taken before minutes are spent, emptied when the run begins.
+  auto folder = std::make_unique<record::RunFolder>(
+      record_options.directory, std::vector<std::string>{options.resume, description.file, description.ground.file});
   // The scene is sound from here on; a device may still be missing.
   device::Device device(options.scene.device);
   // Said before the run: the first thing to look at when it is slow.
   if (!options.quiet) log_info("device " + device.info().text());
   record_options.command = options.command;
-  record_options.directory = options.out.empty() ? default_out(description) : options.out;
   record_options.render = description.recording.render;
   record_options.hash_every = options.hash_every;
   // The session builds the world; from here on errors leave a folder behind.
   session::Session session(description, device);
   // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume);
-  record::Recorder recorder(session, record_options);
   // Hours must not end at a path that cannot be written.
   if (!options.snapshot.empty()) require_writable(options.snapshot);
-  // Ctrl-C ends the run between two steps, with all results written.
-  struct sigaction action = {};
-  action.sa_handler = on_signal;
-  // A read of standard input must end at Ctrl-C, or a silent controller could hold the program for ever.
-  action.sa_flags = options.control.empty() ? SA_RESTART : 0;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
-  const int code = step_to_the_end(options, session, recorder);
+  record::Recorder recorder(session, record_options, std::move(folder));
+  const int code = step_to_the_end(options, session, recorder, signals);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
   if (code != kInterrupted) tell_programs(say, session);

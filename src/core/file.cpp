@@ -56,7 +56,11 @@ void commit_file(const std::string& path) {
   const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   // Without the flush a crash of the machine could leave the new name on an empty file: the rename may reach the disk
   // before the data does.
-  if (fd < 0) fail("open", part, errno);
+  if (fd < 0) {
+    const int cause = errno;
+    ::unlink(part.c_str());
+    fail("open", part, cause);
+  }
   const int flushed = ::fsync(fd);
   const int code = errno;
   ::close(fd);

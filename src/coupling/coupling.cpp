@@ -33,8 +33,9 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       ruts_(ground) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    vehicle::Engine& home = placed.machine.kinematic ? kinematic : engine;
-    homes_.push_back({&home, home.add_machine(placed.machine, place(placed, ground))});
+    // Both engines number their machines from 0: who asks for one says its number in the scene.
+    vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
+    placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
       ToolLoad load;
@@ -114,10 +115,10 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
 }
 
 void Coupling::press_ruts(double dt) {
-  for (std::size_t m = 0; m < homes_.size(); ++m) {
+  for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w)
-      ruts_.press(machine.wheels[w], homes_[m].engine->wheel(homes_[m].index, static_cast<int>(w)),
+      ruts_.press(machine.wheels[w], placed_[m].engine->wheel(placed_[m].index, static_cast<int>(w)),
                   kSinkSpeed * kRutInterval * dt);
   }
 }
@@ -126,9 +127,9 @@ void Coupling::update_ground_patch() {
   if (dynamic_.machine_count() == 0) return;
   heightfield::CellRect need;
   const double cell = ground_.cell();
-  for (const Home& home : homes_) {
-    if (home.engine != &dynamic_) continue;
-    const Vec3 p = home.engine->link(home.index, 0).X_WL.translation();
+  for (const PlacedMachine& machine : placed_) {
+    if (machine.engine != &dynamic_) continue;
+    const Vec3 p = machine.engine->link(machine.index, 0).X_WL.translation();
     const Vec2i low = ground_.column_at(p.x() - kPatchMargin, p.y() - kPatchMargin);
     const Vec2i high = ground_.column_at(p.x() + kPatchMargin, p.y() + kPatchMargin);
     need.include({low.x(), low.y(), high.x() + 1, high.y() + 1});

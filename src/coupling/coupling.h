@@ -51,17 +51,18 @@ class Coupling {
   /// Soil carried by a tool [kg]; what a bucket holds inside a bed is the bucket's.
   double payload(const ToolLoad& tool) const;
   /// The engine that moves machine `m` of the world, and its index there.
-  vehicle::Engine& engine(int m) const { return *homes_[static_cast<std::size_t>(m)].engine; }
-  int index(int m) const { return homes_[static_cast<std::size_t>(m)].index; }
+  vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
+  int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
   /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
   /// @throws InputError for another scene's tools or a ground patch that cannot be.
   void visit(Archive& a);
 
  private:
-  struct Home {
-    vehicle::Engine* engine = nullptr;
-    int index = 0;
+  /// Where a machine of the scene is moved.
+  struct PlacedMachine {
+    vehicle::Engine* engine = nullptr;  ///< one of the two given
+    int index = 0;                      ///< of the machine in that engine
   };
   void update_ground_patch();
   void upload_ground_patch();
@@ -79,7 +80,7 @@ class Coupling {
   heightfield::Ground& ground_;
   GroundView view_;
   Ruts ruts_;
-  std::vector<Home> homes_;
+  std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;
   // Patch of ground that rigid bodies collide with: its columns, every how many of them, their heights.

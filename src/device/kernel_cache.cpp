@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -225,6 +226,9 @@ void KernelCache::seal() noexcept {
 
 namespace {
 
+/// Of a temporary folder, for whoever cannot wait for a destructor.
+std::atomic<const char*> temporary_folder{nullptr};
+
 /// The process's folder, and how it came about. The status is filled by the constructor and does not change afterwards,
 /// so references to it may be kept.
 struct ProcessCache {
@@ -294,6 +298,7 @@ ProcessCache::ProcessCache() {
                 "): set POCL_CACHE_DIR to one that can");
     return;
   }
+  if (status.temporary) temporary_folder = status.folder.c_str();
   // Loud where the user pays for it at every run, quiet where it happened once.
   if (status.temporary) log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
@@ -308,6 +313,7 @@ ProcessCache::ProcessCache() {
 ProcessCache::~ProcessCache() {
   // The cache closes its lock before the folder of a temporary one is removed.
   cache.reset();
+  temporary_folder = nullptr;
   std::error_code ignored;
   if (status.temporary) fs::remove_all(status.folder, ignored);
 }
@@ -325,6 +331,12 @@ const KernelCacheStatus& prepare_kernel_cache() { return process_cache().status;
 
 void seal_kernel_cache() noexcept {
   if (process_cache().cache) process_cache().cache->seal();
+}
+
+void abandon_kernel_cache() noexcept {
+  const char* folder = temporary_folder;
+  std::error_code ignored;
+  if (folder != nullptr) fs::remove_all(folder, ignored);
 }
 
 }  // namespace navvy::device

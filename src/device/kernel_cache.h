@@ -71,5 +71,7 @@ struct KernelCacheStatus {
 const KernelCacheStatus& prepare_kernel_cache();
 /// Lists the kernels compiled so far (KernelCache::seal of the process's folder).
 void seal_kernel_cache() noexcept;
+/// Removes the folder if it was a temporary one: for a process that is about to end without its destructors.
+void abandon_kernel_cache() noexcept;
 
 }  // namespace navvy::device

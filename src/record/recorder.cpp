@@ -3,14 +3,15 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <exception>
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "core/stopwatch.h"
 #include "record/hash_log.h"
+#include "record/last_words.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
@@ -18,7 +19,6 @@
 #include "sim/frame_builder.h"
 
 namespace navvy::record {
-namespace fs = std::filesystem;
 namespace {
 
 /// How many whole periods of `rate` [Hz] have passed by `time` (with a hair for rounding of time = steps x dt).
@@ -29,8 +29,13 @@ std::uint64_t count_at(double time, double rate) { return static_cast<std::uint6
 
 struct Recorder::State {
   // Telemetry and frames look at the same session; neither keeps more than a reference.
-  State(session::Session& s, Options o)
-      : session(s), options(std::move(o)), telemetry(s, options.directory + "/telemetry.csv"), frames(s.world()) {
+  State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
+      : session(s),
+        options(std::move(o)),
+        folder(std::move(f)),
+        last_words(folder->path("summary.reserve"), folder->path("summary.json")),
+        telemetry(s, folder->path("telemetry.csv")),
+        frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
     // Frames are counted from time zero: a resumed run goes on with the numbers of the whole one.
@@ -42,6 +47,8 @@ struct Recorder::State {
   // Telemetry is written at checkpoints, pictures and hashes at once.
   session::Session& session;
   Options options;
+  std::unique_ptr<RunFolder> folder;
+  LastWords last_words;
   Telemetry telemetry;
   sim::FrameBuilder frames;
   std::unique_ptr<render::Renderer> renderer;
@@ -52,11 +59,13 @@ struct Recorder::State {
   Stopwatch total, since_checkpoint;
   bool finished = false;
 
-  std::string path(const std::string& name) const { return options.directory + "/" + name; }
+  std::string path(const std::string& name) { return folder->path(name); }
   void sample_when_due();
   void draw_when_due();
   void hash_when_due();
   void checkpoint(bool force);
+  void write_summary(bool with_hash);
+  void write_start();
 };
 
 namespace {
@@ -67,50 +76,39 @@ bool due(double time, std::uint64_t count, double rate) {
   return rate > 0 && time * rate >= static_cast<double>(count) - 1e-9;
 }
 
-/// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
-std::string clean(const std::string& directory) {
-  // A path that ends in a slash has no file name; its parent is the folder.
-  const fs::path path = fs::path(directory).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).string();
-}
-
-void make_directory(const std::string& directory) {
-  // Results of hours are never overwritten; only one generation is kept.
-  std::error_code code;
-  if (fs::exists(directory + "/summary.json", code)) {
-    fs::remove_all(directory + ".previous", code);
-    fs::rename(directory, directory + ".previous", code);
-    if (code) throw FileError("cannot move earlier results '" + directory + "' aside: " + code.message());
-  }
-  // Also every folder above: --out may be deep.
-  fs::create_directories(directory + "/frames", code);
-  if (code) throw FileError("cannot create '" + directory + "': " + code.message());
-}
-
 }  // namespace
 
-Recorder::Recorder(session::Session& session, Options options) {
+Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
   // Nothing is written before the folder stands; what cannot be made is told before the first step.
-  options.directory = clean(options.directory);
-  make_directory(options.directory);
+  if (!folder) folder = std::make_unique<RunFolder>(options.directory);
+  folder->begin();
   // Telemetry and frames are made with their paths in the new folder.
-  state_ = std::make_unique<State>(session, std::move(options));
-  State& s = *state_;
-  // First of all: whatever becomes of the run, its folder says what it was.
+  state_ = std::make_unique<State>(session, std::move(options), std::move(folder));
+  try {
+    state_->write_start();
+  } catch (const std::exception& error) {
+    leave_last_words("failed", error.what());
+    throw;
+  }
+}
+
+void Recorder::State::write_start() {
+  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can be left that says
+  // how it ended.
+  write_summary(false);
+  // What it was comes next.
   const scene::Scene& scene = session.world().description();
-  if (!s.options.scene_text.empty()) write_file_atomically(s.path("scene.sdf"), s.options.scene_text);
-  write_file_atomically(s.path("run.json"),
-                        run_json({kRunFormat, navvy_version(), s.options.command, scene.file, session.device_name()}));
-  write_terrain(session.world(), s.path("terrain_start.tif"));
+  if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
+  write_file_atomically(path("run.json"),
+                        run_json({kRunFormat, navvy_version(), options.command, scene.file, session.device_name()}));
+  write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
-  s.sample_when_due();
+  sample_when_due();
   // The renderer takes a graphics context, which runs without pictures do not need.
-  if (s.options.render) s.renderer = std::make_unique<render::Renderer>();
-  s.draw_when_due();
-  if (s.options.hash_every > 0)
-    s.hashes = std::make_unique<HashLog>(session, s.path("hashes.csv"), s.options.hash_every);
-  // A summary from the start on: its being there marks the folder as a run's.
-  s.checkpoint(true);
+  if (options.render) renderer = std::make_unique<render::Renderer>();
+  draw_when_due();
+  if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
+  checkpoint(true);
 }
 
 Recorder::~Recorder() = default;
@@ -161,9 +159,16 @@ void Recorder::State::checkpoint(bool force) {
   // At most every other second unless it is the last.
   telemetry.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
-  write_file_atomically(path("summary.json"), summary_json(session, status, force));
+  write_summary(force);
   // Counted from the end of the writing, or a slow disk would do nothing else.
   since_checkpoint.restart();
+}
+
+/// Kept ready as well, for whoever has to leave it in a hurry.
+void Recorder::State::write_summary(bool with_hash) {
+  const std::string text = summary_json(session, status, with_hash);
+  last_words.keep(text);
+  write_file_atomically(path("summary.json"), text);
 }
 
 /// In the order of cost: a full disk is noticed at the cheapest.
@@ -181,14 +186,49 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  if (status == "failed") {
-    // The state of the fault, to be looked at or gone on from.
-    s.session.save(s.path("failed.snapshot"));
-  }
-  if (s.hashes) s.hashes->finish();
+  // Each file for itself: one that the disk refuses keeps none of the others from being written, and the summary, which
+  // comes last, tells of it.
+  std::exception_ptr first;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      // The first cause is what the user reads.
+      if (s.status.status == "failed")
+        log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + error.what());
+      else
+        s.status.message = error.what();
+      s.status.status = "failed";
+      if (!first) first = std::current_exception();
+    }
+  };
+  // The state of the fault, to be looked at or gone on from.
+  if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
+  attempt([&] {
+    if (s.hashes) s.hashes->finish();
+  });
   // The end of the ground, also of a run that failed: it shows where.
-  write_terrain(s.session.world(), s.path("terrain_end.tif"));
-  s.checkpoint(true);
+  attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
+  attempt([&] { s.telemetry.checkpoint(true); });
+  std::string text;
+  bool written = false;
+  attempt([&] {
+    s.status.wall_time = s.total.seconds() - s.status.render_time - s.status.record_time;
+    text = summary_json(s.session, s.status, true);
+    write_file_atomically(s.path("summary.json"), text);
+    written = true;
+  });
+  // The disk takes no new file: the room that was taken at the start serves.
+  if (!written) {
+    try {
+      text = summary_json(s.session, s.status, true);
+    } catch (const std::exception&) {
+      text.clear();
+    }
+    if (text.empty() || !s.last_words.write(text)) leave_last_words("failed", s.status.message.c_str());
+  }
+  // A failed run has told its cause already.
+  if (first && status != "failed") std::rethrow_exception(first);
 }
 
 RunProgress Recorder::progress() const {

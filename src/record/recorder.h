@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "record/run_folder.h"
 #include "record/summary.h"
 #include "session/session.h"
 
@@ -15,7 +16,7 @@ namespace navvy::record {
 
 /// What a caller wants of a run's folder; defaults are those of `navvy run`.
 struct Options {
-  std::string directory;  ///< results go here; one that holds an earlier run is kept as "<directory>.previous"
+  std::string directory;  ///< results go here; what an earlier run wrote there moves to "<directory>.previous"
   bool render = true;
   double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
   double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
@@ -39,16 +40,19 @@ struct RunProgress {
 /// failure, failed.snapshot. Not thread-safe; draws on the calling thread.
 class Recorder {
  public:
-  /// Makes the directory and writes what is known at the start. @throws FileError.
-  Recorder(session::Session& session, Options options);
+  /// Makes the directory and writes what is known at the start; a `folder` that was taken before is used in its place.
+  /// @throws FileError, and InputError as RunFolder does.
+  Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder = nullptr);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
   void observe();
-  /// Writes the final files, once; later calls do nothing. `status` is one of RunStatus::status but "running"; after
-  /// a failure also the snapshot of the last state.
+  /// Writes the final files, once; later calls do nothing. `status` is one of RunStatus::status but "running"; after a
+  /// failure also the snapshot of the last state. A file that cannot be written makes the run a failed one, whose
+  /// summary says so.
+  /// @throws FileError for that file, unless the run had failed before.
   void finish(const std::string& status, const std::string& message = "");
   RunProgress progress() const;
 

@@ -24,6 +24,7 @@
 #include "control/operator.h"
 #include "control/stance.h"
 #include "control/step.h"
+#include "control/step_kinds.h"
 #include "control/tip_path.h"
 #include "core/error.h"
 #include "core/saved_state.h"
@@ -111,6 +112,14 @@ DriveTo ahead() {
 /// A step of every kind but the dig, which has tests of its own.
 std::vector<scene::ProgramStep> one_of_each() {
   return {ahead(), Swing(0.8), Dump(0.5), Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2), path()};
+}
+
+TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
+  std::set<std::string> tried, known;
+  for (const scene::ProgramStep& step : one_of_each()) tried.insert(step->element());
+  for (const scene::StepKind& kind : step_kinds()) known.insert(kind.element);
+  known.erase("dig");  // wants soil: dig_test.cpp
+  EXPECT_EQ(tried, known);
 }
 
 TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -96,7 +98,8 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 
 bool is_system(const std::string& name) {
   // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals need.
-  static const Names posix = {"fcntl.h", "unistd.h", "signal.h", "dlfcn.h", "poll.h", "pthread.h", "termios.h"};
+  static const Names posix = {"fcntl.h",    "unistd.h", "signal.h",  "dlfcn.h",
+                              "execinfo.h", "poll.h",   "pthread.h", "termios.h"};
   return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 || starts_with(name, "sys/");
 }
 
@@ -220,7 +223,7 @@ TEST(Includes, OfClientsNeverReachSoilExchangeOrEngines) {
 TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
   const std::map<std::string, std::string> headers = {{"sim/open.h", "#include \"sim/inside.h\"\n"},
                                                       {"sim/inside.h", "#include \"soil/solver.h\"\n"},
-                                                      {"sim/closed.h", "#include \"scene/world.h\"\n"}};
+                                                      {"sim/closed.h", "#include \"scene/scene.h\"\n"}};
   const auto read = [&](const std::string& name) {
     const auto it = headers.find(name);
     return it == headers.end() ? std::string() : it->second;
@@ -232,6 +235,38 @@ TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
   EXPECT_EQ(way("sim/closed.h"), "");
   EXPECT_EQ(way("vehicle/machine_state.h"), "");
   EXPECT_NE(way("sim/world_parts.h"), "");
+}
+
+/// Rooms and their direct arrows as the table "Module map" of src/README.md has them. Notes in brackets do not count.
+std::map<std::string, Names> map_of_readme(const std::string& page) {
+  std::map<std::string, Names> out;
+  static const std::regex row(R"(\n\| (\w+) \|[^\n|]*\| ([^\n|]*) \|)");
+  for (std::sregex_iterator it(page.begin(), page.end(), row), end; it != end; ++it) {
+    std::istringstream names((*it)[2].str());
+    Names& to = out[(*it)[1].str()];
+    for (std::string name; std::getline(names >> std::ws, name, ',');)
+      if (name.front() != '(') to.insert(name);
+  }
+  return out;
+}
+
+TEST(Includes, ArrowsAreThoseThatTheMapTells) {
+  const std::string page = read_source("src/README.md").text;
+  const std::size_t begin = page.find("## Module map"), end = page.find("\n## ", begin + 1);
+  ASSERT_NE(end, std::string::npos);
+  const std::map<std::string, Names> told = map_of_readme(page.substr(begin, end - begin));
+  for (const auto& [room, to] : arrows()) {
+    if (!exists("src/" + room)) continue;  // to come: told in prose below the table
+    ASSERT_EQ(told.count(room), 1u) << room << " has no row in src/README.md";
+    if (told.at(room) == Names{"everything"}) continue;
+    Names here;
+    for (const std::string& name : to)
+      if (exists("src/" + name)) here.insert(name);
+    Names open = told.at(room);
+    open.erase("core");  // open to all
+    here.erase("core");
+    EXPECT_EQ(open, here) << room;
+  }
 }
 
 TEST(Includes, FollowTheArrowsOfTheModuleMap) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/crash.h"
+
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+
+#include "cli/exit_code.h"
+#include "record/last_words.h"
+
+namespace navvy::cli {
+namespace {
+
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+// A stack that ran over has no room for a handler.
+alignas(16) char stack[64 << 10];
+
+bool holds_any(const char* text, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (std::strstr(text, word) != nullptr) return true;
+  return false;
+}
+
+/// Machine code of kernels counts as the driver's: it made it.
+bool is_driver(const char* file) {
+  return holds_any(file, {"libpocl", "libOpenCL", "opencl", "amdocl", "igdrcl", "navvy/kernels", "navvy-kernels"});
+}
+
+/// These pass on what their callers did.
+bool is_between(const char* file) {
+  return holds_any(file,
+                   {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux", "libasan", "linux-vdso"});
+}
+
+/// Where this was called from, as a text for people: "abort inside the OpenCL driver, in libpocl.so.2". True when that
+/// is the driver.
+bool blame(const char* what, int signal, char* text, std::size_t size) {
+  Dl_info own{};
+  dladdr(reinterpret_cast<void*>(&blame), &own);
+  void* frames[64];
+  const int count = backtrace(frames, 64);
+  const char* where = nullptr;  // innermost that is not between
+  bool driver = false;
+  bool handler = true;  // our frames that come first are this function's and its callers'
+  // From the inside out; other libraries work for the driver (LLVM compiles for it) as long as none of our own code
+  // lies between.
+  for (int i = 0; i < count && !driver; ++i) {
+    Dl_info info;
+    const bool known = dladdr(frames[i], &info) != 0 && info.dli_fname != nullptr;
+    handler = handler && known && info.dli_fbase == own.dli_fbase;
+    if (handler || !known || is_between(info.dli_fname)) continue;
+    if (where == nullptr) where = info.dli_fname;
+    driver = is_driver(info.dli_fname);
+    if (info.dli_fbase == own.dli_fbase) break;
+  }
+  const char* slash = where == nullptr ? nullptr : std::strrchr(where, '/');
+  const char* name = slash != nullptr ? slash + 1 : where != nullptr ? where : "an unknown place";
+  std::snprintf(text, size, "%s inside %s%s", what, driver ? "the OpenCL driver, in " : "", name);
+  const std::size_t used = std::strlen(text);
+  if (signal != 0) std::snprintf(text + used, size - used, " (signal %d)", signal);
+  if (driver)
+    std::strncat(text, "; it may have told its cause above; check disk, memory and the driver's version",
+                 size - std::strlen(text) - 1);
+  return driver;
+}
+
+void tell(const char* text) {
+  record::leave_last_words("failed", text);
+  const char* const parts[] = {"error: ", text, "\n"};
+  for (const char* part : parts)
+    if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+}
+
+extern "C" void on_crash(int signal) {
+  // The second crash, in what follows, ends the process as the system does.
+  for (const int one : kCrashes) ::signal(one, SIG_DFL);
+  char text[512];
+  const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
+  tell(text);
+  if (driver) _exit(kDevice);
+  raise(signal);
+}
+
+std::atomic<bool> exit_expected{false};
+
+extern "C" void on_exit_of_others() {
+  if (exit_expected) return;
+  char text[512];
+  const bool driver = blame("end of the process", 0, text, sizeof text);
+  tell(text);
+  _exit(driver ? kDevice : kInternal);
+}
+
+}  // namespace
+
+void install_crash_report() {
+  // The first call loads a library, which a handler must not.
+  void* frames[4];
+  backtrace(frames, 4);
+  stack_t own{};
+  own.ss_sp = stack;
+  own.ss_size = sizeof stack;
+  sigaltstack(&own, nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  for (const int one : kCrashes) sigaction(one, &action, nullptr);
+  std::atexit(on_exit_of_others);
+}
+
+void expect_exit() { exit_expected = true; }
+
+}  // namespace navvy::cli

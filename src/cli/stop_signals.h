@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C, SIGTERM and SIGHUP end a run: between two steps where it comes to one, from beside it where it does not.
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+namespace navvy::cli {
+
+/// Listens while it lives; one at a time.
+///
+/// A run looks at `asked()` between two steps and says `obeyed()` before it closes its files. A driver that compiles or
+/// does not answer keeps it from looking: then, kPatience after the signal, a thread of this class leaves a summary
+/// that says "interrupted" and ends the process with status 130. So does a second signal, at once.
+class StopSignals {
+ public:
+  /// SIGHUP stays ignored where it was (nohup).
+  StopSignals();
+  /// Puts back what the process did before at these signals.
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  /// True after a signal.
+  static bool asked();
+  /// The run has seen it.
+  void obeyed() { obeyed_ = true; }
+
+  static constexpr int kPatience = 1200;  ///< [ms]
+
+ private:
+  void watch();
+
+  std::atomic<bool> obeyed_{false}, over_{false};
+  std::thread watcher_;
+};
+
+}  // namespace navvy::cli

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/run_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace navvy::record {
+namespace fs = std::filesystem;
+namespace {
+
+const std::string kHead = "navvy run folder 1";
+const std::string kMoving = kHead + " moving";
+/// What runs write: a file of one of these names that no list knows is somebody's own.
+const char* const kNames[] = {"scene.sdf",         "run.json",        "summary.json",    "telemetry.csv",  "hashes.csv",
+                              "terrain_start.tif", "terrain_end.tif", "failed.snapshot", "summary.reserve"};
+
+/// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
+std::string clean(const std::string& directory) {
+  const fs::path path = fs::path(directory).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).string();
+}
+
+/// A list is a file like any other and may be damaged: only names below its own folder are believed.
+bool is_plain(const std::string& name) {
+  const fs::path path(name);
+  if (name.empty() || path.is_absolute()) return false;
+  return std::none_of(path.begin(), path.end(),
+                      [](const fs::path& part) { return part.empty() || part == "." || part == ".."; });
+}
+
+/// Also a link that leads nowhere is something of somebody's.
+bool is_there(const fs::path& path) {
+  std::error_code code;
+  return fs::symlink_status(path, code).type() != fs::file_type::not_found;
+}
+
+[[noreturn]] void refuse(const std::string& folder, const std::string& rule, const std::string& remedy) {
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", folder, rule, remedy});
+}
+
+[[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
+  throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
+}
+
+void write_all(int file, const std::string& text, const std::string& path) {
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t n = ::write(file, text.data() + at, text.size() - at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("write", path, errno);
+    at += static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace
+
+/// An open list: its lock, what it names, and whether its folder was being filled when it was written.
+struct RunFolder::Marker {
+  int file = -1;
+  std::set<std::string> names;
+  bool moving = false;
+};
+
+RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) const {
+  Marker out;
+  const std::string path = folder + "/" + kMarker;
+  out.file = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
+  if (out.file < 0 && errno == ENOENT && !make) return out;
+  if (out.file < 0) fail("write", path, errno);
+  // A file system without locks is used as if alone.
+  if (flock(out.file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(out.file);
+    refuse(folder, "another run is writing into this folder", "choose another with --out, or wait for its end");
+  }
+  try {
+    const std::vector<char> bytes = read_file(path);
+    const std::string text(bytes.begin(), bytes.end());
+    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));  // a line without its end was cut by a kill
+    std::string line;
+    if (std::getline(lines, line)) {
+      out.moving = line == kMoving;
+      if (!out.moving && line != kHead)
+        refuse(folder, "its '" + std::string(kMarker) + "' was not written by this version of Navvy",
+               "choose another folder with --out");
+    }
+    while (std::getline(lines, line))
+      if (is_plain(line)) out.names.insert(line);
+  } catch (...) {
+    ::close(out.file);
+    throw;
+  }
+  return out;
+}
+
+void RunFolder::require_free(const Marker& marker, const std::string& folder) const {
+  for (const char* name : kNames)
+    if (marker.names.count(name) == 0 && is_there(fs::path(folder) / name))
+      refuse(folder, "it holds a '" + std::string(name) + "' that no run wrote here, or one of an older version",
+             "choose another folder with --out, or move the file away");
+}
+
+void RunFolder::require_unread(const Marker& marker, const std::string& folder,
+                               const std::vector<std::string>& reads) const {
+  std::error_code code;
+  for (const std::string& read : reads) {
+    if (read.empty()) continue;
+    for (const std::string& name : marker.names)
+      if (fs::equivalent(read, fs::path(folder) / name, code) && !code)
+        refuse(
+            directory_,
+            "this run reads '" + read + "', which would be removed: the results in '" + directory_ + "' take its place",
+            "choose another folder with --out, or move the file away");
+  }
+}
+
+RunFolder::RunFolder(const std::string& directory, const std::vector<std::string>& reads)
+    : directory_(clean(directory)) {
+  std::error_code code;
+  made_ = fs::create_directories(directory_, code);
+  if (code) throw FileError("cannot create '" + directory_ + "': " + code.message());
+  // Behind a link the results lie elsewhere, and so does what was there before.
+  const fs::path real = fs::canonical(directory_, code);
+  previous_ = (code ? fs::path(directory_) : real).string() + ".previous";
+  try {
+    Marker marker = open_marker(directory_, true);
+    lock_ = marker.file;
+    require_free(marker, directory_);
+    listed_ = std::move(marker.names);
+    // With nothing to move aside, what lies there stays.
+    if (listed_.empty() || !is_there(previous_)) return;
+    marker = open_marker(previous_, false);
+    previous_lock_ = marker.file;
+    require_free(marker, previous_);
+    if (!marker.moving) require_unread(marker, previous_, reads);
+    previous_listed_ = std::move(marker.names);
+    previous_moving_ = marker.moving;
+  } catch (...) {
+    close_previous();
+    if (lock_ >= 0) ::close(lock_);
+    // What was made and refused leaves no trace.
+    if (made_) ::unlink((directory_ + "/" + kMarker).c_str()), ::rmdir(directory_.c_str());
+    throw;
+  }
+}
+
+RunFolder::~RunFolder() {
+  close_previous();
+  if (made_ && !begun_) ::unlink((directory_ + "/" + kMarker).c_str());
+  ::close(lock_);
+  if (made_ && !begun_) ::rmdir(directory_.c_str());
+}
+
+void RunFolder::close_previous() {
+  if (previous_lock_ >= 0) ::close(previous_lock_);
+  previous_lock_ = -1;
+}
+
+/// Cut and written anew under the lock: the file keeps its place, or the lock would be on a file without a name.
+void RunFolder::write_list(const std::string& folder, int file, const std::set<std::string>& names, bool moving) const {
+  const std::string path = folder + "/" + kMarker;
+  if (ftruncate(file, 0) != 0) fail("write", path, errno);
+  std::string text = (moving ? kMoving : kHead) + "\n";
+  for (const std::string& name : names) text += name + "\n";
+  write_all(file, text, path);
+}
+
+namespace {
+
+/// A listed file and what a kill may have left of its writing.
+void remove_listed(const std::string& folder, const std::set<std::string>& names) {
+  std::error_code code;
+  std::set<fs::path> folders;
+  for (const std::string& name : names) {
+    const fs::path path = fs::path(folder) / name;
+    // Folders of that name are nobody's results.
+    if (!fs::is_directory(fs::symlink_status(path, code))) fs::remove(path, code);
+    if (code) throw FileError("cannot remove the earlier result '" + path.string() + "': " + code.message());
+    fs::remove(partial_name(path.string()), code);
+    if (path.parent_path() != fs::path(folder)) folders.insert(path.parent_path());
+  }
+  // Empty ones only: what else lies in them is not ours.
+  for (const fs::path& path : folders) ::rmdir(path.c_str());
+}
+
+}  // namespace
+
+void RunFolder::begin() {
+  begun_ = true;
+  if (!listed_.empty()) {
+    std::error_code code;
+    fs::create_directories(previous_, code);
+    if (code) throw FileError("cannot create '" + previous_ + "': " + code.message());
+    if (previous_lock_ < 0) {
+      Marker marker = open_marker(previous_, true);
+      previous_lock_ = marker.file;
+      require_free(marker, previous_);
+    }
+    // What an unfinished move has brought there is of the run before, not of the one before that.
+    if (!previous_moving_) remove_listed(previous_, previous_listed_);
+    write_list(previous_, previous_lock_, listed_, true);
+    std::set<fs::path> folders;
+    for (const std::string& name : listed_) {
+      const fs::path from = fs::path(directory_) / name, to = fs::path(previous_) / name;
+      fs::remove(partial_name(from.string()), code);
+      if (!is_there(from)) continue;
+      if (is_there(to) && !previous_moving_)
+        throw FileError("cannot move '" + from.string() + "' aside: '" + to.string() + "' is there and of no run");
+      fs::create_directories(to.parent_path(), code);
+      fs::rename(from, to, code);
+      if (code) throw FileError("cannot move '" + from.string() + "' to '" + to.string() + "': " + code.message());
+      if (from.parent_path() != fs::path(directory_)) folders.insert(from.parent_path());
+    }
+    for (const fs::path& path : folders) ::rmdir(path.c_str());
+    write_list(previous_, previous_lock_, listed_, false);
+    close_previous();
+  }
+  listed_.clear();
+  write_list(directory_, lock_, listed_, false);
+}
+
+std::string RunFolder::path(const std::string& name) {
+  const std::string path = directory_ + "/" + name;
+  if (listed_.count(name) > 0) return path;
+  if (!is_plain(name)) throw Error("run folder: '" + name + "' is no name of a file in it");
+  if (is_there(path)) throw FileError("cannot write '" + path + "': it is there and this run did not write it");
+  std::error_code code;
+  fs::create_directories(fs::path(path).parent_path(), code);
+  if (code) throw FileError("cannot create the folder of '" + path + "': " + code.message());
+  // Listed first: a file that is there and not listed would be taken for somebody's own.
+  write_all(lock_, name + "\n", directory_ + "/" + kMarker);
+  listed_.insert(name);
+  return path;
+}
+
+}  // namespace navvy::record

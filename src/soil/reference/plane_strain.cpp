@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/reference/plane_strain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "soil/particles/floor.h"
+#include "soil/reference/double_contact.h"
+
+namespace navvy::soil::reference {
+namespace {
+
+// The contact's reach as the solver ships it [docs/tools.md, contact weights]; a kinematic lip lies 0.2 cells further
+// out.
+constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.8, kEdgeRamp = 1, kKinematicEdge = 0.6;
+constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
+constexpr double kEmpty = 1e-9;            // lighter nodes have no velocity [kg]
+
+struct Weights {
+  int i = 0, k = 0;
+  double fx = 0, fz = 0, wx[3], wz[3];
+  explicit Weights(const PlanePoint& p)
+      : i(static_cast<int>(std::floor(p.x - 0.5))), k(static_cast<int>(std::floor(p.z - 0.5))) {
+    fx = p.x - i;
+    fz = p.z - k;
+    spline(fx, wx);
+    spline(fz, wz);
+  }
+};
+
+/// Calls visit(node, weight, along x, along z) for the nine nodes around a particle, the last two from its base node.
+template <class Visit>
+void for_nodes(PlaneStrain& plane, const Weights& at, const Visit& visit) {
+  for (int b = 0; b < 3; ++b)
+    for (int a = 0; a < 3; ++a) visit(plane.node(at.i + a, at.k + b), at.wx[a] * at.wz[b], a, b);
+}
+
+/// sqrt(2 D : D) of the symmetric part of a gradient without its volume change [1/s].
+double shear_rate(const double* c) {
+  const double third = (c[0] + c[8]) / 3, xx = c[0] - third, zz = c[8] - third, xz = 0.5 * (c[2] + c[6]);
+  return std::sqrt(2 * (xx * xx + zz * zz + third * third) + 4 * xz * xz);
+}
+
+/// Radius of Matsuoka and Nakai's surface over that of plane strain at the Lode angle of a deviator of plane strain
+/// [Matsuoka 1974]: kappa c r^3 - (kappa - 3) r^2 + kappa - 9 = 0, c = -det(s) / q^3, r = sin phi where c is 0.
+double lode_radius(const double* s, double sin_phi) {
+  const double q = std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[5] * s[5]);
+  if (!(q > 1e-3) || !(sin_phi > 0)) return 1;
+  const double kappa = (9 - 3 * sin_phi * sin_phi) / (1 - sin_phi * sin_phi);
+  const double det = s[1] * (s[0] * s[2] - s[5] * s[5]);
+  const double shape = kappa * std::clamp(-det / (q * q * q), -0.3849, 0.3849), flat = kappa - 3;
+  double r = sin_phi;
+  for (int newton = 0; newton < 3; ++newton)
+    r -= (shape * r * r * r - flat * r * r + kappa - 9) / ((3 * shape * r - 2 * flat) * r);
+  return r / sin_phi;
+}
+
+}  // namespace
+
+PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic)
+    : soil_(soil),
+      law_(law_soil(soil, cell)),
+      cell_(cell),
+      sound_(sound_speed(soil)),
+      nx_(nx),
+      nz_(nz),
+      method_(method),
+      periodic_(periodic),
+      nodes_(static_cast<std::size_t>(nx * nz)) {}
+
+void PlaneStrain::fill(double x0, double x1, double z0, double z1, const std::function<bool(double, double)>& inside,
+                       int per_side) {
+  const double apart = 1.0 / per_side;
+  const auto across = static_cast<int>(std::lround((x1 - x0) / apart));
+  const auto rows = static_cast<int>(std::lround((z1 - z0) / apart));
+  for (int k = 0; k < rows; ++k)
+    for (int i = 0; i < across; ++i) {
+      PlanePoint p;
+      p.x = x0 + (i + 0.5) * apart;
+      p.z = z0 + (k + 0.5) * apart;
+      if (inside && !inside(p.x, p.z)) continue;
+      p.j = p.j0 = 1;
+      p.mass = soil_.bank_density * std::pow(cell_, 3) * apart * apart;
+      points.push_back(p);
+    }
+}
+
+void PlaneStrain::settle(const std::function<double(double)>& top) {
+  const double k0 = soil_.poisson / (1 - soil_.poisson);
+  for (PlanePoint& p : points) {
+    const double down = soil_.bank_density * gravity.y() * std::max(top(p.x) - p.z, 0.0) * cell_, side = k0 * down;
+    const double pressure = -(down + 2 * side) / 3;
+    p.j = 1 - pressure / law_.bulk;
+    p.s[0] = p.s[1] = side + pressure;
+    p.s[2] = down + pressure;
+    p.pressure = pressure;
+  }
+}
+
+double PlaneStrain::longest_step(double courant) const { return courant * cell_ / sound_; }
+
+void PlaneStrain::mix(double dt) {
+  struct Sums {
+    double volume = 0, bank = 0, open = 0;
+  };
+  std::vector<Sums> cells(nodes_.size());
+  const auto sums = [&](const PlanePoint& p) -> Sums& {
+    const Weights at(p);
+    return cells[static_cast<std::size_t>(wrap(at.i) + nx_ * at.k)];
+  };
+  for (const PlanePoint& p : points) {
+    Sums& s = sums(p);
+    s.volume += p.mass / kMassQuantum * p.j;
+    s.bank += p.mass / kMassQuantum * p.j0;
+    s.open += p.j > p.j0 ? 1 : 0;
+  }
+  for (PlanePoint& p : points) {
+    const Sums& s = sums(p);
+    p.j = mixed(p.j, p.j0, mean_opening(s.volume, s.bank, s.open), std::min(1.0, dt / mixing_time()));
+  }
+}
+
+void PlaneStrain::advance_law(PlanePoint& p, double dt, double* sigma) {
+  LawSoil law = law_;
+  double strength = 1;
+  if (method_.matsuoka_nakai) strength *= lode_radius(p.s, law_.alpha);
+  if (method_.static_share > 0)
+    strength *= 1 + method_.static_share * std::max(1 - shear_rate(p.c) / method_.static_rate, 0.0);
+  law.alpha *= strength;
+  law.k_residual *= strength;
+  law.k_bond *= strength;
+  const double slipped = p.shear;
+  law_update(p.c, dt, &law, &p, sigma);
+  const double volume = p.mass / soil_.bank_density * p.j;
+  const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]) + p.s[5] * p.s[5]);
+  energy_.plastic += volume * q * (p.shear - slipped);
+  p.pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
+  if (method_.bulk_damping > 0 && p.j < p.j0) {
+    const double damped =
+        std::max(p.pressure - method_.bulk_damping * soil_.bank_density * sound_ * cell_ * (p.c[0] + p.c[8]), 0.0);
+    for (int i = 0; i < 3; ++i) sigma[i] -= damped - p.pressure;
+  }
+}
+
+void PlaneStrain::scatter(double dt, bool first) {
+  for (Node& node : nodes_) {
+    if (first) node = Node{};
+    node.fx = node.fz = 0;
+  }
+  double moving = 0;
+  for (PlanePoint& p : points) {
+    double sigma[6], start[3], a[9];
+    advance_law(p, dt, sigma);
+    const Weights at(p);
+    // The force alone is what the shared arithmetic makes of no velocity and no gradient.
+    const double none[9] = {0}, still[3] = {0, 0, 0}, f[3] = {at.fx, 0, at.fz};
+    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, dt, cell_, start, a);
+    const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6], cz = cell_ * p.c[8];
+    moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
+    for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
+      if (first) {
+        const double rx = i - at.fx, rz = k - at.fz;
+        node.mass += w * p.mass;
+        node.vx += w * p.mass * (p.vx + cx * rx + cxz * rz);
+        node.vz += w * p.mass * (p.vz + czx * rx + cz * rz);
+      }
+      node.fx += w * (start[0] + a[0] * i + a[2] * k);
+      node.fz += w * (start[2] + a[6] * i + a[8] * k);
+    });
+  }
+  kinetic_before_ = moving;
+}
+
+double PlaneStrain::room_at(int i, int k) const {
+  double room = kernel_share(k - floor);
+  if (has_plate && k > plate.tip) room *= kernel_share(i - plate.x);
+  if (wall_x0 >= 0) room *= kernel_share(i - wall_x0);
+  if (wall_x1 >= 0) room *= kernel_share(wall_x1 - i);
+  return std::max(room, static_cast<double>(LEAST_ROOM));
+}
+
+void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
+  const bool kinematic = method_.contact == PlaneMethod::Contact::kKinematic;
+  const double rate = kinematic ? 1 : dt / longest_step(kReferenceCourant);
+  const Reach reach{kReach, kRamp, kinematic ? kKinematicEdge : kEdge, kEdgeRamp, rate, 0, 0};
+  const double clearance = i - plate.x, inset = k - plate.tip;
+  if (clearance < -3) return;
+  double weight = contact_weight(clearance, inset, &reach);
+  if (kinematic) weight *= contact_along(inset, &reach);
+  if (!(weight > 0)) return;
+  const double along = node.vz, mass = node.mass;
+  double push, share = 1;
+  if (kinematic) {
+    const double allowed = plate.speed - (1 - weight) * std::max(plate.speed, 0.0);
+    push = mass * std::max(allowed - node.vx, 0.0);
+  } else {
+    share = weight;
+    push = mass * std::max(plate.speed - node.vx, 0.0);
+  }
+  const double rub = std::clamp(-mass * along, -plate.friction * push, plate.friction * push);
+  node.vx += share * push / mass;
+  node.vz += share * rub / mass;
+  plate.impulse += share * push;
+  plate.lift += share * rub;
+  energy_.tool += share * push * plate.speed;
+}
+
+void PlaneStrain::update_nodes(double dt, bool first) {
+  double moving = 0;
+  for (Node& node : nodes_) {
+    if (node.mass <= kEmpty) {
+      node = Node{};
+      continue;
+    }
+    if (first) {
+      node.vx /= node.mass;
+      node.vz /= node.mass;
+    }
+    moving += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
+    node.vx += node.fx / node.mass + dt * gravity.x();
+    node.vz += node.fz / node.mass + dt * gravity.y();
+  }
+  if (first) energy_.transfer += kinetic_before_ - moving;
+  if (on_nodes) on_nodes(*this, dt);
+  plate.impulse = plate.lift = 0;
+  for (int k = 0; k < nz_; ++k)
+    for (int i = 0; i < nx_; ++i) {
+      Node& node = nodes_[static_cast<std::size_t>(i + nx_ * k)];
+      if (node.mass <= kEmpty) continue;
+      energy_.gravity += dt * node.mass * (gravity.x() * node.vx + gravity.y() * node.vz);
+      if (has_plate) meet_plate(node, i, k, dt);
+      if (wall_x0 >= 0 && i <= wall_x0 + kHeldMargin && (!has_plate || k <= plate.tip)) node.vx = 0;
+      if (wall_x1 >= 0 && i >= wall_x1 - kHeldMargin) node.vx = 0;
+      if (k <= floor + kHeldMargin) node.vx = node.vz = 0;
+      node.moved_x += dt * node.vx;
+      node.moved_z += dt * node.vz;
+      if (first) node.room = node.mass / room_at(i, k);
+    }
+}
+
+void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
+  if (!(std::min(p.j, p.j0) - packed_mass(1, 1) / std::max(p.density, 1e-9) > 0)) return;
+  const Weights at(p);
+  double mass = 0, lean_x = 0, lean_z = 0;
+  for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
+    mass += w * node.room;
+    lean_x += w * node.room * (i - at.fx);
+    lean_z += w * node.room * (k - at.fz);
+  });
+  // tuned: none yet; a shear strain of 0.1 takes soil apart once [docs/soil.md, closing].
+  const double part = std::min(dt_interval * shear_rate(p.c) / 0.1, 1.0);
+  p.x += std::clamp(-part * lean_x / mass, -0.05, 0.05);
+  p.z += std::clamp(-part * lean_z / mass, -0.05, 0.05);
+}
+
+void PlaneStrain::gather(double dt, bool last) {
+  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / closing_time());
+  double on_grid = 0, moving = 0, fastest = 0;
+  if (last)
+    for (const Node& node : nodes_) on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
+  for (PlanePoint& p : points) {
+    const Weights at(p);
+    double v[2] = {0, 0}, moment[4] = {0, 0, 0, 0}, moved[2] = {0, 0}, room = 0;
+    for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
+      room += w * node.room;
+      v[0] += w * node.vx;
+      v[1] += w * node.vz;
+      moment[0] += w * node.vx * i;
+      moment[1] += w * node.vx * k;
+      moment[2] += w * node.vz * i;
+      moment[3] += w * node.vz * k;
+      moved[0] += w * node.moved_x;
+      moved[1] += w * node.moved_z;
+    });
+    p.c[0] = velocity_gradient(moment[0], at.fx, v[0], cell_);
+    p.c[2] = velocity_gradient(moment[1], at.fz, v[0], cell_);
+    p.c[6] = velocity_gradient(moment[2], at.fx, v[1], cell_);
+    p.c[8] = velocity_gradient(moment[3], at.fz, v[1], cell_);
+    p.density = room / (soil_.bank_density * std::pow(cell_, 3));
+    if (method_.crowding == PlaneMethod::Crowding::kClosing) p.j = closed(p.j, p.j0, room, full, closing);
+    fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
+    if (!last) continue;
+    p.vx = v[0];
+    p.vz = v[1];
+    if (method_.crowding == PlaneMethod::Crowding::kShear) spread(p, held_time_);
+    p.x += moved[0] / cell_;
+    p.z += moved[1] / cell_;
+    if (periodic_) p.x -= nx_ * std::floor(p.x / nx_);
+  }
+  fastest_ = fastest;
+  if (!last) return;
+  for (const PlanePoint& p : points) moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz);
+  energy_.transfer += on_grid - moving;
+  for (const PlanePoint& p : points)
+    for (const int i : {0, 2, 6, 8}) energy_.transfer -= 0.125 * p.mass * cell_ * cell_ * p.c[i] * p.c[i];
+}
+
+void PlaneStrain::step(double dt) {
+  const bool first = held_ == 0;
+  if (first) held_time_ = held_motion_ = 0;
+  if (method_.mixing) mix(dt);
+  scatter(dt, first);
+  update_nodes(dt, first);
+  ++held_;
+  held_time_ += dt;
+  // What the next step would add must still fit; free fall is the least that has to be expected.
+  held_motion_ += dt * (fastest_ + std::abs(gravity.y()) * held_time_) / cell_;
+  const double next = dt * (fastest_ + std::abs(gravity.y()) * (held_time_ + dt)) / cell_;
+  const bool last = held_ >= method_.hold || held_motion_ + next > method_.most_motion;
+  gather(dt, last);
+  if (last) {
+    held_ = 0;
+    ++transfers_;
+  }
+}
+
+double PlaneStrain::kinetic() const {
+  double sum = 0;
+  for (const PlanePoint& p : points) {
+    double affine = 0;
+    for (const int i : {0, 2, 6, 8}) affine += p.c[i] * p.c[i];
+    sum += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * cell_ * cell_ * affine);
+  }
+  return sum;
+}
+
+}  // namespace navvy::soil::reference

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The particle method in plane strain, in doubles and on the host, with ingredients that can be changed one by one.
+//
+// A cure of the method is tried here in seconds before it is built into two schedules and the twin. Law, particle and
+// contact arithmetic are the kernels' own; what a cure adds stands in plane_strain.cpp until it proves itself.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/soil.h"
+#include "soil/reference/double_law.h"
+
+namespace navvy::soil::reference {
+
+/// What of the method may be changed; as it stands here it is that of the kernels.
+struct PlaneMethod {
+  /// kFraction: the contact's weight is a share of the impulse, made independent of the step
+  /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times
+  /// the plate's speed.
+  enum class Contact { kFraction, kKinematic };
+  /// Where particles crowd: kClosing takes it out of J [docs/soil.md, closing]; kShear moves them apart by their
+  /// shear rate and leaves J alone; kNone does nothing.
+  enum class Crowding { kNone, kClosing, kShear };
+
+  Contact contact = Contact::kFraction;
+  Crowding crowding = Crowding::kClosing;
+  bool mixing = true;
+  /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.
+  int hold = 1;
+  double most_motion = 0.2;     ///< a transfer comes early when the fastest particle has moved this far [cells]
+  double bulk_damping = 0;      ///< viscosity of closed soil against volume change / (density x sound speed x cell)
+  bool matsuoka_nakai = false;  ///< radius of the yield surface by the third invariant, matched in plane strain
+  double static_share = 0;      ///< growth of the friction at rest
+  double static_rate = 0.1;     ///< shear rate at which it is gone [1/s]
+};
+
+/// A particle: the law's state, place [cells], velocity [m/s], gradient as in kernels/soil/point.h (x and z only).
+struct PlanePoint : LawState {
+  PlanePoint() : LawState{} {}
+  double x = 0, z = 0, vx = 0, vz = 0;
+  double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  double mass = 0;      ///< of a slice one cell thick [kg]
+  double pressure = 0;  ///< of the last step [Pa]
+  double density = 0;   ///< mass per room of its nodes / bank density, of the last transfer [-]
+};
+
+/// A plate standing upright, with soil on its +x side above its tip.
+struct PlanePlate {
+  double x = 0, tip = 0;         ///< [cells]
+  double speed = 0;              ///< along +x [m/s]
+  double friction = 0;           ///< tan of the friction angle
+  double impulse = 0, lift = 0;  ///< on the soil by the last step, along x and z [N s], of the slice
+};
+
+/// Work since the start [J] of a slice one cell thick.
+struct PlaneEnergy {
+  double tool = 0, gravity = 0, plastic = 0, transfer = 0;
+};
+
+/// Soil over a rigid floor (nodes at or below `floor` are held) in a box of nodes.
+class PlaneStrain {
+ public:
+  /// `periodic`: what leaves at one end in x comes in at the other.
+  PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic = false);
+
+  std::vector<PlanePoint> points;
+  PlanePlate plate;
+  bool has_plate = false;
+  double floor = 3;                   ///< [cells]
+  double wall_x0 = -1, wall_x1 = -1;  ///< smooth walls [cells]; < 0: none. The first ends at the plate's tip
+  Vec2 gravity{0, -kGravity};         ///< along x and z [m/s2]
+  /// Called with node velocities after forces, before contact; for rigs that hold nodes themselves.
+  std::function<void(PlaneStrain&, double dt)> on_nodes;
+
+  /// Particles on a lattice of `per_side` a cell in a box [cells], of those where `inside(x, z)` [cells].
+  void fill(double x0, double x1, double z0, double z1, const std::function<bool(double, double)>& inside,
+            int per_side = 2);
+  /// Stress of rest below a level surface `top(x)` [cells].
+  void settle(const std::function<double(double)>& top);
+
+  double longest_step(double courant) const;
+  void step(double dt);
+
+  double cell() const { return cell_; }
+  const LawSoil& law() const { return law_; }
+  const scene::Soil& soil() const { return soil_; }
+  int nx() const { return nx_; }
+  int nz() const { return nz_; }
+  struct Node {
+    double mass = 0, vx = 0, vz = 0, fx = 0, fz = 0, moved_x = 0, moved_z = 0, room = 1;
+  };
+  Node& node(int i, int k) { return nodes_[static_cast<std::size_t>(wrap(i) + nx_ * k)]; }
+  const PlaneEnergy& energy() const { return energy_; }
+  double kinetic() const;  ///< of the particles with their affine part [J]
+  int transfers() const { return transfers_; }
+
+ private:
+  int wrap(int i) const { return periodic_ ? ((i % nx_) + nx_) % nx_ : i; }
+  void mix(double dt);
+  void advance_law(PlanePoint& p, double dt, double* sigma);
+  void scatter(double dt, bool first);
+  void update_nodes(double dt, bool first);
+  void meet_plate(Node& node, int i, int k, double dt);
+  void gather(double dt, bool last);
+  void spread(PlanePoint& p, double dt_interval);
+  double room_at(int i, int k) const;
+
+  scene::Soil soil_;
+  LawSoil law_;
+  double cell_, sound_;
+  int nx_, nz_;
+  PlaneMethod method_;
+  bool periodic_;
+  std::vector<Node> nodes_;
+  PlaneEnergy energy_;
+  double kinetic_before_ = 0;
+  int held_ = 0, transfers_ = 0;
+  double held_time_ = 0, held_motion_ = 0, fastest_ = 0;
+};
+
+}  // namespace navvy::soil::reference

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers that slip, flood, or go away.
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "folder.h"
+#include "paths.h"
+#include "process.h"
+
+namespace navvy {
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+class Control : public testing::Test {
+ protected:
+  std::vector<std::string> arguments() const {
+    return {"run",          navvy::source_dir() + "/scenarios/bucket_path.sdf",
+            "--no-render",  "--control",
+            "stdio",        "--out",
+            folder_ / "out"};
+  }
+  /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to `lines`.
+  int drive(const std::string& input, std::vector<json>& lines) {
+    std::ofstream(folder_ / "in") << input;
+    const int status = test::wait_for(
+        test::start({NAVVY_PROGRAM, arguments(), {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
+    std::istringstream said(text_of(folder_ / "stdout"));
+    for (std::string line; std::getline(said, line);) lines.push_back(json::parse(line));
+    return status;
+  }
+  json summary() const { return json::parse(text_of(folder_ / "out/summary.json"), nullptr, false); }
+  std::string complained() const { return text_of(folder_ / "stderr"); }
+
+  const test::Folder folder_;
+};
+
+TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {R"({"inputs": {"bucket/slyde_x/velocity": 1}})", "bucket/slide_x/velocity"},
+      {R"({"inputs": {"bucket/slide_x/velocity": 1, "bucket/slyde_x/velocity": 1}})", "bucket/slide_x/velocity"},
+      {R"({"inputs": {"bucket/slide_x/velocity": "fast"}})", "must be a number"},
+      {R"({"inputs": {"bucket/slide_x/velocity": 1e999}})", "one JSON object"},
+      {R"({"inputs": [1, 2]})", "object of names"},
+      {R"({"input": {}})", "'inputs' or 'end'"},
+      {R"({"end": "now"})", "true or false"},
+      {"", "one JSON object"},
+      {"drive!", "one JSON object"},
+      {"\"\xff\xfe\"", "one JSON object"},
+      {"null", "one JSON object"},
+  };
+  std::string input;
+  for (const auto& [line, message] : bad) input += line + "\n";
+  input += "{\"inputs\": {\"bucket/slide_x/velocity\": 0}}\n{\"end\": true}\n";
+  std::vector<json> lines;
+  ASSERT_EQ(drive(input, lines), 0) << complained();
+  ASSERT_EQ(lines.size(), bad.size() + 2);
+  EXPECT_EQ(lines[0].at("time"), 0);
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    EXPECT_EQ(lines[i + 1].at("line"), i + 1);
+    EXPECT_NE(lines[i + 1].at("error").get<std::string>().find(bad[i].second), std::string::npos)
+        << bad[i].first << ": " << lines[i + 1];
+  }
+  // The second bad line named a good input as well: none of it acted.
+  EXPECT_NEAR(lines.back().at("time").get<double>(), 0.02, 0.003);
+  EXPECT_EQ(summary().at("status"), "finished");
+}
+
+TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
+  const std::string deep(100000, '['), wide = "{\"inputs\": {\"" + std::string(900000, 'x') + "\": 1}}";
+  std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})";
+  const auto begun = std::chrono::steady_clock::now();
+  std::vector<json> lines;
+  ASSERT_EQ(
+      drive(deep + "\n" + wide + "\n" + std::string(100000000, 'y') + "\n" + hidden + "\n{}\n{\"end\": true}", lines),
+      0)
+      << complained();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
+  ASSERT_EQ(lines.size(), 6u);
+  const char* const said[] = {"nest at most", "is no input", "at most 1048576 bytes", "no input 'a[[["};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NE(lines[static_cast<std::size_t>(i) + 1].at("error").get<std::string>().find(said[i]), std::string::npos)
+        << lines[static_cast<std::size_t>(i) + 1].dump().substr(0, 300);
+  EXPECT_TRUE(lines[4].contains("error")) << "brackets within a text are no nesting, the name is unknown";
+  std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n", spent.count());
+}
+
+TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {
+  std::vector<json> lines;
+  EXPECT_EQ(drive("{}\n{}\n", lines), 130) << complained();
+  EXPECT_EQ(lines.size(), 3u);
+  EXPECT_EQ(summary().at("status"), "interrupted");
+  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard input"), std::string::npos);
+}
+
+TEST_F(Control, AClosedStandardOutputEndsTheRun) {
+  // Pipes both ways; ours of its output is closed after the first line.
+  int in[2], out[2];
+  ASSERT_EQ(pipe2(in, O_CLOEXEC), 0);
+  ASSERT_EQ(pipe2(out, O_CLOEXEC), 0);
+  const auto by_number = [](int file) { return "/dev/fd/" + std::to_string(file); };
+  const pid_t child =
+      test::start({NAVVY_PROGRAM, arguments(), {}, by_number(in[0]), by_number(out[1]), folder_ / "stderr"});
+  close(in[0]);
+  close(out[1]);
+  char first[4096];
+  ASSERT_GT(read(out[0], first, sizeof first), 0);
+  close(out[0]);
+  // Many answers at once: the run is not held up by a question.
+  std::string answers;
+  for (int i = 0; i < 1000; ++i) answers += "{}\n";
+  ASSERT_GT(write(in[1], answers.data(), answers.size()), 0);
+  EXPECT_EQ(test::wait_for(child), 130) << complained();
+  close(in[1]);
+  EXPECT_EQ(summary().at("status"), "interrupted");
+  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard output"), std::string::npos);
+  EXPECT_LT(summary().at("simulated_time_s").get<double>(), 0.1);
+}
+
+}  // namespace
+}  // namespace navvy

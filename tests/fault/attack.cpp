@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fault/attack.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "paths.h"
+#include "process.h"
+
+namespace navvy::fault {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// Rows of as many cells as the header has.
+bool is_table(const std::string& text) {
+  if (!ends_with(text, "\n")) return false;
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const auto columns = std::count(line.begin(), line.end(), ',');
+  while (std::getline(lines, line))
+    if (std::count(line.begin(), line.end(), ',') != columns) return false;
+  return true;
+}
+
+/// Little-endian, and its directory lies within it.
+bool is_geotiff(const std::string& text) {
+  if (text.size() < 8 || text.rfind("II", 0) != 0) return false;
+  std::uint32_t directory = 0;
+  std::memcpy(&directory, text.data() + 4, sizeof directory);
+  return directory >= 8 && directory < text.size();
+}
+
+std::vector<std::pair<std::string, std::string>> environment_of(const Attack& with) {
+  auto out = with.environment;
+  if (!with.fault.empty()) out.emplace_back("NAVVY_FAULT", with.fault);
+  if (!with.hang.empty()) out.emplace_back("NAVVY_HANG", with.hang);
+  out.emplace_back("LD_PRELOAD", NAVVY_FAULT_SHIM);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> small_run(bool drawing) {
+  std::vector<std::string> out{
+      "run", navvy::source_dir() + "/scenarios/bucket_path.sdf", "--duration", "0.2", "--hash-every", "0.1", "--device",
+      "cpu"};
+  if (drawing)
+    out.insert(out.end(), {"--set", "camera.rate_hz=10"});
+  else
+    out.emplace_back("--no-render");
+  return out;
+}
+
+std::string broken_files(const std::string& out) {
+  if (!fs::exists(out)) return "";
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = entry.path().filename().string(), text = text_of(entry.path());
+    bool whole = true;
+    if (ends_with(name, ".json"))
+      whole = nlohmann::json::accept(text);
+    else if (ends_with(name, ".csv"))
+      whole = is_table(text);
+    else if (ends_with(name, ".tif"))
+      whole = is_geotiff(text);
+    else if (ends_with(name, ".png"))
+      whole = ends_with(text, std::string("IEND\xAE\x42\x60\x82", 8));
+    else if (ends_with(name, ".sdf"))
+      whole = ends_with(text, "</sdf>\n");
+    if (!whole) return name + " is not whole";
+  }
+  return "";
+}
+
+Outcome attack(const std::string& folder, const std::vector<std::string>& arguments, const Attack& with,
+               const std::string& hash) {
+  const std::string out = folder + "/out";
+  fs::create_directories(folder);
+  fs::remove_all(out);
+  std::vector<std::string> all = arguments;
+  all.insert(all.end(), {"--out", out});
+  const auto begun = std::chrono::steady_clock::now();
+  const pid_t child =
+      test::start({NAVVY_PROGRAM, all, environment_of(with), "/dev/null", "/dev/null", folder + "/stderr"});
+  if (with.kill_after > 0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(with.kill_after));
+    kill(child, SIGKILL);
+  }
+  Outcome got;
+  got.status = test::wait_for(child);
+  got.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  got.said = text_of(folder + "/stderr");
+  const auto summary = nlohmann::json::parse(text_of(out + "/summary.json"), nullptr, false);
+  if (summary.is_object()) {
+    got.summary = summary.value("status", "");
+    if (summary.contains("state_hash") && summary["state_hash"].is_string()) got.hash = summary["state_hash"];
+  }
+  const bool killed = with.kill_after > 0 && got.status == -SIGKILL;
+  static const std::set<int> kTable = {0, 1, 2, 3, 4, 5, 6, 130};
+  got.broken = broken_files(out);
+  if (!got.broken.empty()) return got;
+  if (killed) return got;
+  if (kTable.count(got.status) == 0)
+    got.broken = "ended with " + std::to_string(got.status);
+  else if (got.status != 0 && got.said.empty())
+    got.broken = "said nothing";
+  else if (got.said.find("internal error") != std::string::npos)
+    got.broken = "an internal error";
+  else if (got.summary == "running")
+    got.broken = "the summary still says running";
+  else if (got.status == 0 && got.summary != "finished" && got.summary != "incomplete")  // --duration cuts it off
+    got.broken = "status 0 and a summary that says '" + got.summary + "'";
+  else if (got.status == 0 && !hash.empty() && got.hash != hash)
+    got.broken = "another result";
+  return got;
+}
+
+std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
+                                                      const std::vector<std::string>& arguments, const Attack& with) {
+  Attack counting = with;
+  fs::create_directories(folder);
+  const std::string file = folder + "/counts";
+  fs::remove(file);
+  counting.environment.emplace_back("NAVVY_FAULT_COUNT", file);
+  attack(folder, arguments, counting);
+  std::vector<std::pair<std::string, long>> out;
+  std::istringstream lines(text_of(file));
+  std::string name;
+  long count = 0;
+  // Programs that the driver starts tell theirs as well, before; the last five lines are navvy's own.
+  while (lines >> name >> count) out.emplace_back(name, count);
+  if (out.size() > 5) out.erase(out.begin(), out.end() - 5);
+  return out;
+}
+
+}  // namespace navvy::fault

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sample of the campaign (`./dev fault`): calls that fail, disks that fill up, kills.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/random.h"
+#include "fault/attack.h"
+#include "folder.h"
+
+namespace navvy::fault {
+namespace {
+
+/// With a kernel cache of the test's own: what a fault leaves in it must not meet other tests.
+Attack with(const test::Folder& folder, const std::string& fault) {
+  Attack out;
+  out.fault = fault;
+  out.environment = {{"POCL_CACHE_DIR", folder / "cache"}};
+  return out;
+}
+
+TEST(Fault, OneCallInManyFailsAndTheRunTellsOrGoesOn) {
+  const test::Folder folder;
+  const auto arguments = small_run(false);
+  const Outcome sound = attack(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(sound.status, 0) << sound.said;
+  ASSERT_EQ(sound.broken, "") << sound.said;
+  const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(calls.size(), 5u);
+  // Spread over the whole run; the campaign walks every one.
+  constexpr long kSamples = 5;
+  for (const auto& [call, count] : calls) {
+    ASSERT_GT(count, 0) << call;
+    const char* const code = call == "open" ? "EMFILE" : call == "new" ? "ENOMEM" : call == "write" ? "ENOSPC" : "EIO";
+    int told = 0;
+    for (long i = 0; i < kSamples; ++i) {
+      const long n = 1 + (2 * i + 1) * count / (2 * kSamples);
+      const std::string fault = call + ":" + std::to_string(n) + ":" + code;
+      const Outcome got = attack(folder.path().string(), arguments, with(folder, fault), sound.hash);
+      EXPECT_EQ(got.broken, "") << fault << " ended with " << got.status << "\n" << got.said;
+      told += got.status != 0;
+    }
+    std::printf("%s: %ld calls, %ld failed, %d told\n", call.c_str(), count, kSamples, told);
+  }
+}
+
+TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
+  const test::Folder folder;
+  const auto arguments = small_run(false);
+  ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0) << "kernels are compiled once";
+  const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(calls.size(), 5u);
+  ASSERT_EQ(calls[1].first, "write");
+  // Full before the driver has its kernels, among the results, and at the very last.
+  int with_summary = 0;
+  for (const long before_the_end : {calls[1].second / 2, 30L, 20L, 12L, 6L, 2L}) {
+    const long n = std::max(1L, calls[1].second - before_the_end);
+    const std::string fault = "write:" + std::to_string(n) + "+:ENOSPC";
+    const Outcome got = attack(folder.path().string(), arguments, with(folder, fault));
+    EXPECT_EQ(got.broken, "") << fault << "\n" << got.said;
+    EXPECT_NE(got.status, 0) << fault;
+    with_summary += got.summary == "failed";
+    if (!got.summary.empty()) {
+      EXPECT_EQ(got.summary, "failed") << fault;
+      EXPECT_EQ(got.status, got.said.find("OpenCL driver") == std::string::npos ? 4 : 3) << fault << "\n" << got.said;
+    }
+  }
+  EXPECT_GT(with_summary, 1);
+}
+
+TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
+  const test::Folder folder;
+  const auto arguments = small_run(true);
+  const Outcome cold = attack(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(cold.broken, "") << cold.said;
+  const Outcome warm = attack(folder.path().string(), arguments, with(folder, ""));
+  ASSERT_EQ(warm.broken, "") << warm.said;
+  Random random(5);
+  for (int i = 0; i < 8; ++i) {
+    // Every other one with an empty cache: most of its time is compiling.
+    const bool compiling = i % 2 == 0;
+    if (compiling) std::filesystem::remove_all(folder / "cache");
+    Attack killed = with(folder, "");
+    killed.kill_after = random.uniform(0.05, 1.0) * (compiling ? cold.seconds : warm.seconds);
+    const Outcome got = attack(folder.path().string(), arguments, killed, warm.hash);
+    EXPECT_EQ(got.broken, "") << killed.kill_after << " s, ended with " << got.status << "\n" << got.said;
+  }
+  // What the kills left in the kernel cache is found out.
+  const Outcome after = attack(folder.path().string(), arguments, with(folder, ""), warm.hash);
+  EXPECT_EQ(after.status, 0) << after.said;
+  EXPECT_EQ(after.broken, "");
+}
+
+}  // namespace
+}  // namespace navvy::fault

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whose files lie in a run's folder: what a run wrote is moved and removed, what anybody else put there stays.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "folder.h"
+#include "record/last_words.h"
+#include "record/run_folder.h"
+
+namespace navvy::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const std::string& path, const std::string& text) {
+  fs::create_directories(fs::path(path).parent_path());
+  write_file_atomically(path, text);
+}
+std::string text_of(const std::string& path) {
+  const std::vector<char> bytes = read_file(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// A run that leaves three files with its number in them.
+void run(const std::string& out, int number) {
+  RunFolder folder(out);
+  folder.begin();
+  for (const char* name : {"summary.json", "telemetry.csv", "frames/left_00001.png"})
+    write_file_atomically(folder.path(name), std::to_string(number));
+}
+
+std::string refusal(const std::string& out, const std::vector<std::string>& reads = {}) {
+  try {
+    RunFolder folder(out, reads);
+    folder.begin();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunFolderLock, KeepsOneEarlierRun) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  for (int number = 1; number <= 3; ++number) run(out, number);
+  EXPECT_EQ(text_of(out + "/summary.json"), "3");
+  EXPECT_EQ(text_of(out + ".previous/summary.json"), "2");
+  EXPECT_EQ(text_of(out + ".previous/frames/left_00001.png"), "2");
+}
+
+TEST(RunFolderLock, FilesOfOnesOwnSurviveAnyNumberOfRuns) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  run(out, 1);
+  const std::vector<std::string> own = {out + "/notes.txt", out + "/frames/mine.png", out + "/deep/er/notes.txt"};
+  for (const std::string& path : own) write(path, path);
+  run(out, 2);
+  write(out + ".previous/notes.txt", "beside the earlier run");
+  for (int number = 3; number <= 6; ++number) run(out, number);
+  for (const std::string& path : own) EXPECT_EQ(text_of(path), path);
+  EXPECT_EQ(text_of(out + ".previous/notes.txt"), "beside the earlier run");
+  EXPECT_EQ(text_of(out + "/summary.json"), "6");
+  EXPECT_EQ(text_of(out + ".previous/summary.json"), "5");
+}
+
+TEST(RunFolderLock, AFolderOfSomebodyElsesResultsIsRefusedUntouched) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  write(out + "/summary.json", "of another program");
+  write(out + "/thesis.tex", "years of work");
+  EXPECT_NE(refusal(out).find("'summary.json' that no run wrote"), std::string::npos) << refusal(out);
+  EXPECT_NE(refusal(out).find("--out"), std::string::npos);
+  EXPECT_EQ(text_of(out + "/summary.json"), "of another program");
+  EXPECT_EQ(text_of(out + "/thesis.tex"), "years of work");
+  // The same where the earlier run would go.
+  run(folder / "mine", 1);
+  write(folder / "mine.previous/summary.json", "of another program");
+  EXPECT_NE(refusal(folder / "mine"), "");
+  EXPECT_EQ(text_of(folder / "mine.previous/summary.json"), "of another program");
+  EXPECT_EQ(text_of(folder / "mine/summary.json"), "1");
+}
+
+TEST(RunFolderLock, TwoRunsIntoOneFolderAreRefused) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  run(out, 1);
+  {
+    RunFolder first(out);
+    first.begin();
+    write_file_atomically(first.path("summary.json"), std::string("first"));
+    EXPECT_NE(refusal(out).find("another run is writing"), std::string::npos) << refusal(out);
+    EXPECT_NE(refusal(out + "/"), "");
+    EXPECT_EQ(text_of(out + "/summary.json"), "first");
+  }
+  EXPECT_EQ(refusal(out), "");
+}
+
+TEST(RunFolderLock, WhatTheRunReadsIsNotRemovedUnderIt) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  {
+    RunFolder failed(out);
+    failed.begin();
+    for (const char* name : {"summary.json", "failed.snapshot"})
+      write_file_atomically(failed.path(name), std::string("1"));
+  }
+  // From the present results: they are moved, not removed.
+  EXPECT_EQ(refusal(out, {out + "/failed.snapshot"}), "");
+  EXPECT_EQ(text_of(out + ".previous/failed.snapshot"), "1");
+  // The run that went on from there has left results of its own; once more from the same snapshot.
+  run(out, 2);
+  const std::string said = refusal(out, {"", out + ".previous/failed.snapshot"});
+  EXPECT_NE(said.find("would be removed"), std::string::npos) << said;
+  EXPECT_EQ(text_of(out + ".previous/failed.snapshot"), "1");
+  EXPECT_EQ(text_of(out + "/summary.json"), "2");
+}
+
+TEST(RunFolderLock, AMoveThatWasCutShortIsGoneOnWith) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  run(out, 1);
+  run(out, 2);
+  // As a kill leaves it: the list says "moving", one file of three has come.
+  write(out + ".previous/navvy.run", "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
+  fs::rename(out + "/summary.json", out + ".previous/summary.json");
+  fs::remove(out + ".previous/telemetry.csv");
+  fs::remove_all(out + ".previous/frames");
+  run(out, 3);
+  for (const char* name : {"/summary.json", "/telemetry.csv", "/frames/left_00001.png"}) {
+    EXPECT_EQ(text_of(out + ".previous" + name), "2") << name;
+    EXPECT_EQ(text_of(out + name), "3") << name;
+  }
+}
+
+TEST(RunFolderLock, ADamagedListReachesNothingElse) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  write(folder / "precious", "mine");
+  write(out + ".previous/navvy.run", "navvy run folder 1\n../precious\n" + (folder / "precious") + "\n./x\n\nsumm");
+  run(out, 1);
+  run(out, 2);
+  EXPECT_EQ(text_of(folder / "precious"), "mine");
+  write(out + ".previous/navvy.run", "something else\n");
+  EXPECT_NE(refusal(out).find("navvy.run"), std::string::npos);
+}
+
+TEST(RunFolderLock, AFileThatComesInBetweenIsNotOverwritten) {
+  const test::Folder folder;
+  RunFolder own(folder / "out");
+  own.begin();
+  write(folder / "out/frames/left_00007.png", "mine");
+  EXPECT_THROW(own.path("frames/left_00007.png"), FileError);
+  EXPECT_NO_THROW(own.path("frames/left_00008.png"));
+}
+
+TEST(RunFolderLock, AFolderThatWasTakenAndNotUsedGoesAgain) {
+  const test::Folder folder;
+  { const RunFolder unused(folder / "out"); }
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(LastWords, PutStatusAndMessageIntoTheLastSummary) {
+  const test::Folder folder;
+  LastWords words(folder / "reserve", folder / "summary.json");
+  EXPECT_GE(fs::file_size(folder / "reserve"), 64u << 10);
+  EXPECT_FALSE(leave_last_words("failed", "nothing was kept")) << "and it may be asked once only";
+  LastWords again(folder / "reserve2", folder / "summary.json");
+  nlohmann::json summary{{"status", "running"}, {"steps", 7}, {"cycles", nlohmann::json::array()}};
+  for (int i = 0; i < 5000; ++i) summary["cycles"].push_back("a line a cycle: it grows beyond what was taken at first");
+  again.keep(summary.dump(2));
+  summary["steps"] = 8;
+  again.keep(summary.dump(2));
+  ASSERT_TRUE(leave_last_words("failed", "a \"quote\", a \\ and\na line"));
+  const auto left = nlohmann::json::parse(text_of(folder / "summary.json"));
+  EXPECT_EQ(left.at("status"), "failed");
+  EXPECT_EQ(left.at("message"), "a 'quote', a   and;a line");
+  EXPECT_EQ(left.at("steps"), 8);
+  EXPECT_EQ(left.at("cycles").size(), 5000u);
+  EXPECT_FALSE(fs::exists(folder / "reserve2"));
+}
+
+}  // namespace
+}  // namespace navvy::record
