@@ -83,6 +83,7 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
       faults.error(element,
                    std::to_string(triangle[0]) + " " + std::to_string(triangle[1]) + " " + std::to_string(triangle[2]),
                    "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
+      shell.triangles.clear();
       return shell;
     }
   }

@@ -36,6 +36,7 @@ void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults
       .number("cell_m", solver.cell, {0.005, 2})
       .number("courant", solver.courant, {0.05, 1})
       .number("max_step_s", solver.max_step, {1e-6, 0.02})
+      .number("control_rate_hz", solver.control_rate, {0.001, 1e5})
       .whole("max_particles", solver.max_particles, {1000, limits::kParticles})
       .finish();
 }

@@ -40,12 +40,11 @@ void check_awake(const scene::Scene& scene, const heightfield::Ground& ground) {
         const double thickness = std::max(0.0, ground.height(ix, iy) - std::max(awake.bottom, ground.datum()));
         particles += thickness * ground.cell() * ground.cell() / each;
         if (particles <= most && ++columns <= most) continue;
-        throw InputError(Fault{Fault::Severity::kError, scene.file, 0,
-                               "world/navvy:ground/awake[" + std::to_string(i + 1) + "]",
-                               std::to_string(rect.area()) + " columns",
-                               "holds more soil than the " + std::to_string(scene.solver.max_particles) +
-                                   " particles of max_particles",
-                               "make the box smaller, or max_particles larger (216 bytes each)"});
+        throw InputError(Fault{
+            Fault::Severity::kError, scene.file, 0, "world/navvy:ground/awake[" + std::to_string(i + 1) + "]",
+            std::to_string(rect.area()) + " columns",
+            "holds more soil than the " + std::to_string(scene.solver.max_particles) + " particles of max_particles",
+            "make the box smaller, or max_particles larger (216 bytes each)"});
       }
   }
 }

@@ -18,8 +18,8 @@ std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::G
 /// The columns of an awake box, rounded to whole ones and cut at the site's edge.
 heightfield::CellRect awake_columns(const scene::AwakeSoil& awake, const heightfield::Ground& ground);
 
-/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is asked for. Looks at as
-/// many columns as the budget has particles at most. @throws InputError naming the box.
+/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is asked for. Looks at
+/// as many columns as the budget has particles at most. @throws InputError naming the box.
 void check_awake(const scene::Scene& scene, const heightfield::Ground& ground);
 
 }  // namespace navvy::sim

@@ -147,7 +147,7 @@ TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
            vertices + "</vertices_m><triangles>" + triangles + "</triangles></navvy:shell></model>";
   };
   // One triangle of 1000 m would be cut to some twenty million pieces of 0.3 m.
-  EXPECT_TRUE(refused(world_text(shell("0 0 0 1000 0 0 0 1000 0", "0 1 2")), "at most 100000 pieces of three cells"));
+  EXPECT_TRUE(refused(world_text(shell("0 0 0 1000 0 0 0 1000 0", "0 1 2")), "at most 1000000 pieces of three cells"));
   EXPECT_FALSE(read(world_text(shell("0 0 0 10 0 0 0 10 0", "0 1 2"))).has_errors());
   std::string vertices, triangles;
   for (std::size_t i = 0; i <= limits::kShellTriangles; ++i) {
