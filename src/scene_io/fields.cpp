@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 namespace navvy::scene_io {
 
@@ -160,14 +161,15 @@ Fields& Fields::vec3(const char* name, Vec3& out, Range range) {
 }
 
 Fields& Fields::direction(const char* name, Vec3& out) {
-  Vec3 v = out;
-  vec3(name, v, {-1e6, 1e6});
-  // An absent element leaves the default, which is a direction already; the length decides only what the file says.
-  if (v.norm() > 1e-6) {
-    out = v.normalized();
-  } else if (Element* child = element_.FirstChildElement(name)) {
+  // An absent element leaves the default, which is a direction already.
+  std::vector<double> v;
+  Element* child = take(name);
+  if (!child || !read_numbers(*child, 3, {-1e6, 1e6}, v, faults_)) return *this;
+  const Vec3 read(v[0], v[1], v[2]);
+  if (read.norm() > 1e-6)
+    out = read.normalized();
+  else
     faults_.error(*child, text_of(*child), "a direction must not be zero");
-  }
   return *this;
 }
 
@@ -209,13 +211,14 @@ void Fields::one_of(const Element& child, const std::string& value, const std::v
 }
 
 void Fields::finish() {
+  std::set<std::string> seen;
   // One walk over the children that are there, against what the tables asked for.
   for (const Element* child = element_.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (!contains(known_, name)) {
-      faults_.error(*child, text_of(*child), "unknown element", suggestion(name, known_));
+      faults_.error(*child, text_of(*child), "unknown element", faults_.nearest(name, known_));
       // The second one is blamed, as readers took the first.
-    } else if (!contains(repeatable_, name) && element_.FirstChildElement(child->Name()) != child) {
+    } else if (!contains(repeatable_, name) && !seen.insert(name).second) {
       faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
     }
     // Values hold text only; what holds elements is read by its own table.
@@ -226,7 +229,7 @@ void Fields::finish() {
   }
   for (const auto* at = element_.FirstAttribute(); at; at = at->Next())
     if (!contains(attributes_, at->Name()))
-      faults_.error(element_, at->Name(), "unknown attribute", suggestion(at->Name(), attributes_));
+      faults_.error(element_, at->Name(), "unknown attribute", faults_.nearest(at->Name(), attributes_));
   // A value's own text has been read; text between elements is mostly a forgotten tag.
   if (!text_of(element_).empty() && !known_.empty())
     faults_.error(element_, text_of(element_), "text is not allowed between the elements here", "remove it");

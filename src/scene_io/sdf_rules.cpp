@@ -321,7 +321,9 @@ void check_children(const Element& element, Faults& faults) {
   std::set<std::string> once, names;
   for (const Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const char* name = child->Name();
-    if (!may_repeat(name) && !once.insert(name).second)
+    // What is unknown is told as such, and once.
+    const bool known = is_extension(*child) || find_rule(element.Name(), name);
+    if (known && !may_repeat(name) && !once.insert(name).second)
       faults.error(*child, "", "must occur only once", "remove one of them");
     // Links, joints, frames and nested models share one space of names in SDF; visuals and collisions have one each.
     const bool scoped = std::strcmp(name, "link") == 0 || std::strcmp(name, "joint") == 0 ||
@@ -345,14 +347,14 @@ void check_sdf(const Element& element, Faults& faults) {
     for (const Extension& extension : kExtensions)
       if (std::strcmp(extension.parent, parent) == 0 && std::strcmp(extension.name, name) == 0) return;
     faults.error(element, "", std::string("unknown extension element in <") + parent + ">",
-                 suggestion(name, names_in(parent)));
+                 faults.nearest(name, names_in(parent)));
     return;
   }
   if (parent_node) {
     const Rule* rule = find_rule(parent, name);
     if (!rule) {
       faults.error(element, text_of(element), std::string("unknown element in <") + parent + ">",
-                   suggestion(name, names_in(parent)));
+                   faults.nearest(name, names_in(parent)));
       return;
     }
     if (rule->support == Support::kError) faults.error(element, text_of(element), "is not supported", rule->why);
@@ -370,8 +372,11 @@ void check_sdf(const Element& element, Faults& faults) {
 bool is_used_sdf(const Element& element) {
   const auto* parent = element.Parent() ? element.Parent()->ToElement() : nullptr;
   if (is_extension(element)) return false;
-  if (!parent) return true;
-  const Rule* rule = find_rule(parent->Name(), element.Name());
+  return !parent || is_used_sdf(parent->Name(), element.Name());
+}
+
+bool is_used_sdf(const char* parent, const char* name) {
+  const Rule* rule = find_rule(parent, name);
   // Without a rule it is unknown, and check_sdf has said so.
   return rule && rule->support == Support::kUsed;
 }

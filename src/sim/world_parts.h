@@ -50,7 +50,8 @@ struct WorldParts {
   ArrayOutputs arrays;
   /// In the order in which they were added, which is that of sampling, hash and snapshot.
   std::vector<std::unique_ptr<SamplerSlot>> samplers;
-  double dt = 0;  ///< base step [s]
+  double longest_step = 0;  ///< that soil and scene allow [s]
+  double dt = 0;            ///< base step [s]
   std::uint64_t steps = 0;
 
  private:
