@@ -90,6 +90,23 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
   return true;
 }
 
+namespace {
+
+/// Degrees that are a well-known angle in radians to four digits, such as 0.7854 or 1.571, are likely radians.
+void ask_about_radians(const Element& element, double value, Faults& faults) {
+  constexpr double kStep = kPi / 12;  // 15 deg
+  const double steps = std::round(std::abs(value) / kStep);
+  const std::string text = text_of(element);
+  const std::size_t point = text.find('.');
+  const bool digits = point != std::string::npos && text.size() - point > 3;
+  if (!digits || steps < 1 || steps > 24 || std::abs(std::abs(value) - steps * kStep) > 5e-4) return;
+  faults.warning(element, text,
+                 "is " + std::to_string(static_cast<int>(steps) * 15) + " deg in radians; were radians meant?",
+                 "this element counts in degrees");
+}
+
+}  // namespace
+
 Element* Fields::take(const char* name) {
   // Whatever is asked for counts as known, also when it is not there: the list serves `finish` and suggestions.
   known_.push_back(name);
@@ -99,7 +116,10 @@ Element* Fields::take(const char* name) {
 Fields& Fields::number(const char* name, double& out, Range range, double factor) {
   std::vector<double> v;
   // A value with a fault leaves the default in place, so reading goes on and finds the other faults.
-  if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) out = v[0] * factor;
+  if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) {
+    out = v[0] * factor;
+    if (factor == kDegree) ask_about_radians(*child, v[0], faults_);
+  }
   return *this;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/sdf_rules.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 
@@ -251,6 +253,22 @@ std::vector<std::string> names_in(const char* parent) {
   return names;
 }
 
+/// Angles of a pose are radians unless it says otherwise; more than a turn of them is likely meant as degrees.
+void ask_about_turns(const Element& element, Faults& faults) {
+  constexpr double kTurn = 2 * kPi + 0.01;
+  if (attribute(element, "degrees") == "true" || attribute(element, "degrees") == "1") return;
+  if (attribute(element, "rotation_format") == "quat_xyzw") return;
+  const std::vector<std::string> words = words_of(text_of(element));
+  for (std::size_t i = 3; i < 6 && i < words.size(); ++i) {
+    if (std::abs(std::strtod(words[i].c_str(), nullptr)) <= kTurn) continue;
+    faults.warning(
+        element, text_of(element),
+        "the angles of a pose are in radians: " + words[i] + " is more than a whole turn; were degrees meant?",
+        "write <pose degrees=\"true\">, or give radians");
+    return;
+  }
+}
+
 void check_value(const Element& element, const Rule& rule, Faults& faults) {
   std::vector<double> numbers;
   bool flag = false;
@@ -276,7 +294,7 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       read_flag(element, flag, faults);
       break;
     case Type::kPose:
-      read_pose(element, pose, faults);
+      if (read_pose(element, pose, faults)) ask_about_turns(element, faults);
       break;
     case Type::kText:
       if (text_of(element).empty()) faults.error(element, "", "must not be empty");
