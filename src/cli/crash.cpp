@@ -81,12 +81,19 @@ void tell(const char* text) {
 
 extern "C" void on_crash(int signal) {
   // The second crash, in what follows, ends the process as the system does.
-  for (const int one : kCrashes) ::signal(one, SIG_DFL);
+  for (const int one : kCrashes) std::signal(one, SIG_DFL);
   char text[512];
   const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
   tell(text);
   if (driver) _exit(kDevice);
   raise(signal);
+}
+
+/// As the C library tells a failed assertion.
+void say_assertion(const char* what, const char* file, unsigned line, const char* function) {
+  char text[512];
+  std::snprintf(text, sizeof text, "%s:%u: %s: assertion '%s' failed\n", file, line, function, what);
+  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
 std::atomic<bool> exit_expected{false};
@@ -100,6 +107,15 @@ extern "C" void on_exit_of_others() {
 }
 
 }  // namespace
+
+// Takes the place of the C library's for every library of the process: LLVM, which a driver compiles with, puts handlers
+// of its own where ours stood, and an assertion of the driver would end the process without a word of ours.
+extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
+                                           const char* function) noexcept {
+  say_assertion(what, file, line, function);
+  on_crash(SIGABRT);
+  std::abort();
+}
 
 void install_crash_report() {
   // The first call loads a library, which a handler must not.
