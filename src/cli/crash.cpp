@@ -108,8 +108,8 @@ extern "C" void on_exit_of_others() {
 
 }  // namespace
 
-// Takes the place of the C library's for every library of the process: LLVM, which a driver compiles with, puts handlers
-// of its own where ours stood, and an assertion of the driver would end the process without a word of ours.
+// Takes the place of the C library's for every library of the process: LLVM, which a driver compiles with, puts
+// handlers of its own where ours stood, and an assertion of the driver would end the process without a word of ours.
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
   say_assertion(what, file, line, function);
