@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as an OBJ file: refused with InputError, or a mesh that all of geometry can take.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+#include "geometry/hull.h"
+#include "geometry/obj/read_obj.h"
+#include "geometry/topology.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace navvy::geometry;
+  const int file = ::memfd_create("mesh", 0);
+  if (file < 0) return 0;
+  if (::write(file, data, size) == static_cast<ssize_t>(size)) {
+    try {
+      const TriangleMesh mesh = read_obj("/proc/self/fd/" + std::to_string(file));
+      inspect(mesh);
+      is_solid(mesh);
+      find_winding_clash(mesh);
+      if (mesh.vertices.size() <= 500) convex_hull(mesh.vertices);
+    } catch (const navvy::InputError&) {
+    }
+  }
+  ::close(file);
+  return 0;
+}
