@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "heightfield/site.h"
+#include "sim/snapshot.h"
 
 namespace navvy::sim {
 namespace {
@@ -34,6 +35,8 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
       coupling(description, *dynamic, *kinematic, soil, ground) {
+  start = start_of(description, ground);
+  start_hash = hash_of_start(start);
   // The step of everything is what waves in the stiffest soil and the fastest tool allow.
   dt = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
   if (!(dt > 0) || !std::isfinite(dt))
