@@ -29,6 +29,9 @@ struct Observation {
   const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
   double payload = 0;                    ///< soil in the bucket [kg]
   double force = 0;                      ///< low-passed soil force on the bucket [N]
+  vehicle::Stability stability;          ///< how the machine stands
+  Vec3 tyre_force = Vec3::Zero();        ///< of all wheels together, by the ground [N] in W
+  double wheels_under = 0;               ///< share of the wheels whose tops lie below the resting ground
   const std::map<std::string, ProgramProgress>* programs = nullptr;  ///< of all machines of the world, by name
 };
 

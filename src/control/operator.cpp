@@ -7,6 +7,7 @@
 
 #include "control/activity.h"
 #include "control/step.h"
+#include "control/watch.h"
 
 namespace navvy::control {
 
@@ -20,6 +21,7 @@ struct Operator::State {
   Workplace place;
   std::unique_ptr<Activity> active;  // of steps[step], null between steps
   std::int64_t step = 0;
+  Watch watch;
   double started = 0;                   // the running step [s]
   std::vector<StepReport> reports;      // of the steps that are over
   std::vector<std::uint8_t> commanded;  // by joint: the program has
@@ -143,10 +145,15 @@ Command Operator::update(const Observation& seen, double time, double dt) {
       s.started = time;
       s.active->begin(seen);
     }
-    const bool over = s.active->advance(seen, dt, out);
-    s.event = s.active->take_event();
-    // The next step begins with the next control step: telemetry sees "idle" between them.
-    if (over) s.finish(s.active->state(), s.active->reason(), seen, time);
+    std::string reason;
+    if (const StepState state = s.watch.look(seen, dt, reason); fell_short(state)) {
+      s.finish(state, reason, seen, time);
+    } else {
+      const bool over = s.active->advance(seen, dt, out);
+      s.event = s.active->take_event();
+      // The next step begins with the next control step: telemetry sees "idle" between them.
+      if (over) s.finish(s.active->state(), s.active->reason(), seen, time);
+    }
     if (s.failed()) {
       s.note(out);
       return s.stop();
@@ -159,12 +166,13 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  // Version 5: reports of the steps, what was commanded.
-  a.section("operator", 5, [&] {
+  // Version 5: reports of the steps, what was commanded; 6: how the machine stands.
+  a.section("operator", 6, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");
     a("handover", s.place.handover);
+    a("watch", s.watch);
     a("started", s.started);
     a("reports", s.reports);
     // One a step that is over, and what became of the rest follows from the last.

@@ -37,6 +37,7 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
   if (!description.buckets.empty()) bucket_ = machine_.tool(description.buckets[0].shell);
   if (!description.beds.empty()) bed_ = machine_.tool(description.beds[0].shell);
   for (std::size_t j = 0; j < description.joints.size(); ++j) joints_.push_back(machine_.joint(static_cast<int>(j)));
+  for (std::size_t w = 0; w < description.wheels.size(); ++w) wheels_.push_back(machine_.wheel(static_cast<int>(w)));
   // Sized once: observing takes no memory.
   seen_.joints.resize(joints_.size());
   seen_.ground = &world.ground();
@@ -63,6 +64,16 @@ void OperatedMachine::observe(control::Observation& seen) const {
   const vehicle::LinkState base = base_.state();
   seen.X_WB = base.X_WL;
   seen.v_WB = base.v_WL;
+  seen.stability = machine_.stability();
+  seen.tyre_force.setZero();
+  seen.wheels_under = 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    const vehicle::WheelState wheel = wheels_[w].state();
+    seen.tyre_force += wheel.force_W;
+    // The resting ground alone: soil in flight buries nobody.
+    const Vec3 top = wheel.X_WWheel.translation() + Vec3(0, 0, machine_.description().wheels[w].radius);
+    if (world_.ground().sample(top.x(), top.y()) > top.z()) seen.wheels_under += 1.0 / double(wheels_.size());
+  }
   // A machine without a bucket carries no load that a gauge would show.
   if (!bucket_) return;
   // Low-passed: an operator reacts to the push, not to single particles.

@@ -66,6 +66,7 @@ class OperatedMachine {
   sim::MachineHandle machine_;
   sim::LinkHandle base_;
   std::vector<sim::JointHandle> joints_;
+  std::vector<sim::WheelHandle> wheels_;
   std::optional<sim::ToolHandle> bucket_, bed_;
   // The operator's own memory is in it; what it saw last is beside it.
   control::Operator op_;

@@ -5,6 +5,7 @@
 
 #include "sim/names.h"
 #include "sim/world_parts.h"
+#include "vehicle/stability.h"
 
 namespace navvy::sim {
 namespace {
@@ -153,6 +154,9 @@ vehicle::PumpState MachineHandle::pump() const {
 }
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
+}
+vehicle::Stability MachineHandle::stability() const {
+  return vehicle::stability(description(), parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
 }
 double MachineHandle::work() const { return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_)); }
 

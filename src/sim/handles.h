@@ -138,6 +138,8 @@ class MachineHandle {
   vehicle::PumpState pump() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake.
   vehicle::DriveInput drive() const;
+  /// How it stands on its wheels. Costs a pass over its links.
+  vehicle::Stability stability() const;
   /// Done by drives and cylinders since the start [J].
   double work() const;
 

@@ -43,6 +43,15 @@ struct LinkState {
   Vec3 w_WL = Vec3::Zero();  ///< [rad/s]
 };
 
+/// How a machine stands: what tells that it tips over.
+struct Stability {
+  bool free = false;     ///< it has wheels and masses and can tip at all; else the rest says nothing
+  double tilt = 0;       ///< of the base link's z axis from the vertical [rad]
+  double tilt_rate = 0;  ///< [rad/s], positive while it grows
+  /// Seen from above: how far the centre of mass is within the polygon of the wheels' feet, negative outside [m].
+  double margin = 0;
+};
+
 /// A wheel after the last step, its tyre's force included. Engines without forces leave force, slip and sinkage 0.
 struct WheelState {
   Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre

@@ -114,6 +114,55 @@ TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
   EXPECT_LT(a.miss, goal.tolerance);
 }
 
+/// A machine that stands whatever it is told: the wheels' spin [rad/s] and the tyres' push [N] are given.
+StepReport stuck(double spin, const Vec3& push, double speed = 1) {
+  scene::Machine machine = ew180_like();
+  scene::Wheel wheel;
+  wheel.joint = machine.joints[0].name;
+  wheel.driven = true;
+  wheel.radius = 0.5;
+  machine.wheels.push_back(wheel);
+  // 18 t in all, whatever the links of the test machine weigh.
+  for (scene::Link& link : machine.links) link.mass = 18000.0 / static_cast<double>(machine.links.size());
+  Operator op(machine, {{to(-4, 0, 0, speed)}, {}}, "digger");
+  Observation seen;
+  seen.joints.resize(machine.joints.size());
+  seen.joints[0].velocity = spin;
+  seen.tyre_force = push + Vec3(0, 0, 18000 * kGravity);
+  seen.X_WB = make_pose(-9, 0, 0, 0, 0, 0);
+  double time = 0;
+  for (; time < 60 && !op.ended(); time += kStep) op.update(seen, time, kStep);
+  return op.present(seen, time);
+}
+
+TEST(Drive, AgainstAnObstacleIsBlocked) {
+  // With wheels that hold and with wheels that spin: what counts is that something pushes back.
+  for (const double spin : {0.0, 2.0}) {
+    const StepReport report = stuck(spin, Vec3(25e3, 0, 0));
+    EXPECT_EQ(report.state, StepState::kBlocked);
+    EXPECT_NEAR(report.end, 5, 0.05);
+    EXPECT_EQ(report.reason,
+              "it has stood for 5.00 s, 5.00 m from the target: something holds it while its tyres push with 25.00 kN");
+  }
+}
+
+TEST(Drive, WithWheelsThatSpinIsStalled) {
+  const StepReport report = stuck(2, Vec3::Zero());
+  EXPECT_EQ(report.state, StepState::kStalled);
+  EXPECT_NE(report.reason.find("its wheels have spun for 5.00 m"), std::string::npos) << report.reason;
+}
+
+TEST(Drive, ThatDoesNotTurnItsWheelsIsStalled) {
+  const StepReport report = stuck(0, Vec3::Zero());
+  EXPECT_EQ(report.state, StepState::kStalled);
+  EXPECT_NE(report.reason.find("does not turn its wheels"), std::string::npos) << report.reason;
+}
+
+TEST(Drive, ThatIsToldToCreepIsGivenTimeForIt) {
+  // At 5 mm/s the 5 cm that count as motion take 10 s.
+  EXPECT_NEAR(stuck(0, Vec3::Zero(), 0.005).end, 40, 0.1);
+}
+
 TEST(Pursuit, ForetellsWhereTheMachineEnds) {
   const auto about = std::get<scene::AckermannDrive>(ew180_like().drive);
   const PlanePose start{Vec2(0, 0), 0};

@@ -141,6 +141,41 @@ TEST(Outcome, OfARunningStepIsToldWithoutChangingIt) {
   EXPECT_EQ(hash_of(trial.op).digest(), before);
 }
 
+/// What a program of one long wait comes to while the machine stands like this for `time` [s].
+StepReport standing(const vehicle::Stability& stands, double time, double wheels_under = 0) {
+  Operator op(ew180_like(), {{Wait(100)}, {}});
+  Observation seen;
+  seen.joints.resize(4);
+  seen.stability = stands;
+  seen.wheels_under = wheels_under;
+  double t = 0;
+  for (; t < time && !op.ended(); t += kStep) op.update(seen, t, kStep);
+  return op.present(seen, t);
+}
+
+TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
+  const StepReport past = standing({true, radians(50), 0, 0.3}, 1);
+  EXPECT_EQ(past.state, StepState::kTipped);
+  EXPECT_EQ(past.reason, "it tilts by 50.00 deg");
+  EXPECT_EQ(past.end, 0);
+  const StepReport over = standing({true, radians(31), 0.3, -0.12}, 1);
+  EXPECT_EQ(over.state, StepState::kTipped);
+  EXPECT_EQ(over.reason, "its centre of mass is 0.12 m outside its wheels and it tilts by 31.00 deg");
+  EXPECT_NEAR(over.end, 0.2, 2 * kStep);
+}
+
+TEST(Watch, LeavesAMachineAloneThatComesBackOrCannotTip) {
+  EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning) << "steep, within its feet";
+  EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning) << "it falls back";
+  EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning) << "a moment on a stone";
+  EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning) << "kinematic or held";
+}
+
+TEST(Watch, EndsAProgramWhoseMachineIsBuried) {
+  EXPECT_EQ(standing({true, 0, 0, 1}, 1, 0.25).state, StepState::kRunning);
+  EXPECT_EQ(standing({true, 0, 0, 1}, 1, 0.5).state, StepState::kBuried);
+}
+
 TEST(Outcome, IsSavedAndHashedToTheByte) {
   for (const double time : {0.05, 0.4, 5.0}) {
     Trial whole(StepState::kTipped), resumed(StepState::kTipped);

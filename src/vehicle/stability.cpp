@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvy::vehicle {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Corners of the hull, counter-clockwise, by the monotone chain.
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::vector<Vec2> hull;
+  // Once along the lower side, once back along the upper one; what turns to the right is no corner.
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t from = hull.size();
+    for (const Vec2& p : points) {
+      while (hull.size() >= from + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+}  // namespace
+
+double support_margin(std::vector<Vec2> feet, const Vec2& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec2& foot : feet) nearest = std::min(nearest, (p - foot).norm());
+  const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
+  if (hull.size() < 3) return -nearest;
+  bool inside = true;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+    inside = inside && cross(edge, p - a) >= 0;
+    // To the edge itself and not to its line: beyond a corner the corner is nearest.
+    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - a - t * edge).norm());
+  }
+  return inside ? least : -least;
+}
+
+Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < machine.links.size(); ++i) {
+    const scene::Link& link = machine.links[i];
+    sum += link.mass * (engine.link(index, static_cast<int>(i)).X_WL * link.p_LCom);
+    mass += link.mass;
+  }
+  return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
+}
+
+Stability stability(const scene::Machine& machine, const Engine& engine, int index) {
+  Stability out;
+  out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();
+  if (!out.free) return out;
+  const LinkState base = engine.link(index, 0);
+  const Vec3 up = base.X_WL.linear().col(2);
+  out.tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
+  // d/dt of up = w x up, and of its height cos(tilt); an upright axis has no direction to tilt to yet.
+  const double sine = std::sin(out.tilt);
+  if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
+  std::vector<Vec2> feet;
+  for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+    const Pose X = engine.wheel(index, static_cast<int>(w)).X_WWheel;
+    // Straight down from the centre, in the wheel's plane: an axle that is tilted has its foot aside.
+    const Vec3 axis = X.linear().col(1);
+    const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
+    const Vec3 foot = X.translation() + machine.wheels[w].radius * down.stableNormalized();
+    feet.push_back(foot.head<2>());
+  }
+  out.margin = support_margin(std::move(feet), centre_of_mass(machine, engine, index).head<2>());
+  return out;
+}
+
+}  // namespace navvy::vehicle

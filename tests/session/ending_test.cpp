@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines with masses that do not get where their programs want them: told as what it is, and the others go on.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "control/step_kinds.h"
+#include "core/saved_state.h"
+#include "device/device.h"
+#include "paths.h"
+#include "scene_io/loader.h"
+#include "session/session.h"
+
+namespace navvy::session {
+namespace {
+
+using control::StepState;
+
+scene::Scene load(const std::string& ground, const std::string& machines) {
+  const std::string text =
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"ends\"><navvy:soil ref=\"loam\"/>\n<navvy:ground>" +
+      ground + "</navvy:ground><navvy:solver><cell_m>0.2</cell_m></navvy:solver>\n" + machines +
+      "<navvy:recording><duration_s>20</duration_s><settle_s>0.1</settle_s><render>false</render></navvy:recording>" +
+      "</world></sdf>";
+  return scene_io::load_scene_from_string(text, navvy::source_dir() + "/scenarios/ends.sdf", control::step_kinds());
+}
+
+std::string machine(const std::string& model, const std::string& name, const std::string& pose,
+                    const std::string& program) {
+  return "<include><uri>model://" + model + "</uri><name>" + name + "</name><pose>" + pose + "</pose>" +
+         (program.empty() ? "" : "<navvy:program>" + program + "</navvy:program>") + "</include>\n";
+}
+
+TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
+  device::Device device;
+  Session session(load("<size_m>30 12</size_m>",
+                       machine("ew180", "parked", "3 0 0 0 0 0", "") +
+                           machine("dumper", "truck", "-5 0 0 0 0 0",
+                                   "<drive_to><target_m>12 0</target_m><speed_m_per_s>1.5</speed_m_per_s></drive_to>"
+                                   "<tip><angle_deg>60</angle_deg></tip>")),
+                  device);
+  while (!session.done()) session.step();
+  EXPECT_FALSE(session.complete());
+  EXPECT_TRUE(session.fell_short());
+  const ProgramReport report = session.programs().at(0);
+  EXPECT_EQ(report.machine, 1);
+  EXPECT_EQ(report.steps, 2);
+  ASSERT_EQ(report.list.size(), 1u) << "it does not tip its bed somewhere on the way";
+  EXPECT_EQ(report.last().state, StepState::kBlocked);
+  EXPECT_NE(report.last().reason.find("something holds it"), std::string::npos) << report.last().reason;
+  // Where it stands, and 5 s after it came to a stand.
+  EXPECT_LT(report.last().place.x(), 3);
+  EXPECT_GT(report.last().place.x(), -5);
+  EXPECT_LT(report.last().end, 14);
+  EXPECT_EQ(session.phase(1), "blocked");
+  EXPECT_TRUE(session.world().machine("truck").drive().brake);
+}
+
+TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
+  // Across a slope of 30 deg the tyres' compliance does the rest; straight up it stands.
+  device::Device device;
+  const auto make = [&] {
+    return std::make_unique<Session>(
+        load("<size_m>36 20</size_m><slope><angle_deg>30</angle_deg><yaw_deg>90</yaw_deg></slope>",
+             machine("ew180", "across", "-8 0 0 0 0 0", "<wait><duration_s>10</duration_s></wait>") +
+                 machine("ew180", "upwards", "8 -4 0 0 0 1.5707963", "<wait><duration_s>1</duration_s></wait>")),
+        device);
+  };
+  const auto session = make();
+  while (session->phase(0) != "tipped" && !session->done()) session->step();
+  const std::vector<char> bytes = saved(*session);
+  while (!session->done()) session->step();
+  EXPECT_FALSE(session->complete());
+  const ProgramReport across = session->programs().at(0), upwards = session->programs().at(1);
+  EXPECT_EQ(across.last().state, StepState::kTipped);
+  EXPECT_LT(across.last().end, 2);
+  EXPECT_NE(across.last().reason.find("outside its wheels"), std::string::npos) << across.last().reason;
+  EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
+  EXPECT_GT(upwards.last().end, across.last().end);
+  // It was no false alarm: what was called tipped has gone on to lie on its side.
+  EXPECT_GT(session->world().machine("across").stability().tilt, radians(40));
+  // The report outlives a snapshot.
+  const auto resumed = make();
+  load_saved(bytes, *resumed);
+  while (!resumed->done()) resumed->step();
+  EXPECT_EQ(resumed->programs().at(0).last().reason, across.last().reason);
+  EXPECT_EQ(resumed->state_hash(), session->state_hash());
+}
+
+}  // namespace
+}  // namespace navvy::session
