@@ -22,6 +22,8 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
 void add_check(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);
 void add_soils(CLI::App& app, Action& action);
+void add_machines(CLI::App& app, Action& action);
+void add_scenes(CLI::App& app, Action& action);
 void add_channels(CLI::App& app, Action& action);
 /// Virtual soil rigs, and rows of measured speed.
 void add_lab(CLI::App& app, Action& action);

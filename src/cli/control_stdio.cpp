@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "sim/timing.h"
 
 namespace navvy::cli {
 
@@ -56,12 +57,10 @@ InputError fault(const std::string& element, const std::string& value, const std
 
 }  // namespace
 
-/// A control step is a whole number of base steps: exchanges fall on the same steps on every machine.
+/// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest
+/// step.
 ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop)
-    : stop_(std::move(stop)),
-      session_(session),
-      world_(session.world()),
-      interval_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * world_.dt()))))) {}
+    : stop_(std::move(stop)), session_(session), world_(session.world()), rate_(rate) {}
 
 /// The next line without its end. Every byte is looked at once, whatever the pieces that it comes in.
 ControlStdio::Read ControlStdio::read_line(std::string& line) {
@@ -124,7 +123,7 @@ bool ControlStdio::say(const std::string& line) {
 
 /// Outputs first, then inputs: the controller answers what it has just been told.
 bool ControlStdio::exchange() {
-  if (world_.steps() % interval_ != 0) return true;
+  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return true;
   json out;
   out["time"] = world_.time();
   json& values = out["outputs"];

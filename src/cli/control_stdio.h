@@ -43,8 +43,7 @@ class ControlStdio {
   std::string gone_;
   session::Session& session_;
   const sim::World& world_;
-  /// Exchanges fall on multiples of it.
-  std::uint64_t interval_;  ///< base steps per control step
+  double rate_;  ///< of exchanges [1/s]
   std::uint64_t lines_ = 0;
 };
 

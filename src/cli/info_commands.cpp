@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy check`, `devices`, `soils`, `channels`: commands that only tell.
+// `navvy check`, `devices`, `channels`: commands that only tell.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -15,15 +17,40 @@
 #include "device/device.h"
 #include "scene_io/loader.h"
 #include "session/program_check.h"
+#include "sim/start_check.h"
 #include "sim/world.h"
 #include "sim/world_channels.h"
 
 namespace navvy::cli {
 namespace {
 
+/// Lets the machines settle, says how each stands, and adds what is wrong with that.
+void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
+  sim::StartCheck start = sim::check_start(scene);
+  for (std::size_t m = 0; m < start.standing.size(); ++m) {
+    const vehicle::Stability& stands = start.standing[m];
+    if (!stands.free) continue;
+    std::printf("'%s' stands: tilt %.1f deg, centre of mass %.2f m %s its wheels\n", scene.machines[m].name.c_str(),
+                degrees(stands.tilt), std::abs(stands.margin), stands.margin >= 0 ? "within" : "outside");
+  }
+  // A ground that cannot be laid has been told of by the programs' check.
+  for (Fault& fault : start.faults)
+    if (std::none_of(faults.begin(), faults.end(), [&](const Fault& one) { return one.text() == fault.text(); }))
+      faults.push_back(std::move(fault));
+  std::fflush(stdout);
+}
+
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   int errors = 0, warnings = 0;
-  for (const std::string& file : files) {
+  for (const std::string& name : files) {
+    std::string file;
+    try {
+      file = find_scene(name);
+    } catch (const InputError& fault) {
+      std::cout << fault.what() << "\n";
+      ++errors;
+      continue;
+    }
     // One pass over all files: a user fixes every fault in one go.
     std::optional<scene::Scene> world;
     // Machine and soil files are checked by themselves and give no world.
@@ -31,6 +58,8 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
       for (Fault& fault : session::check_programs(*world)) faults.push_back(std::move(fault));
+    // And what its machines do in their first second.
+    if (world) check_machines(*world, faults);
     for (const Fault& fault : faults) {
       // On standard output: it is what was asked for.
       std::cout << fault.text() << "\n";
@@ -54,22 +83,6 @@ int devices() {
   return kDevice;
 }
 
-int soils() {
-  // The first data directory that has them, as a scene would find them.
-  const std::string directory = scene_io::find_data("terrain/soils");
-  if (directory.empty())
-    throw InputError(Fault{Fault::Severity::kError, "terrain/soils", 0, "", "", "the shipped soils were not found",
-                           "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
-  std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg", "c kPa", "c_r kPa",
-              "E MPa", "source");
-  // In units that people use for soil; the files have SI with the unit in each name.
-  for (const scene::Soil& soil : scene_io::load_soils(directory))
-    std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(), soil.bank_density / 1000,
-                soil.swell, degrees(soil.friction_angle), soil.cohesion / 1000, soil.residual_cohesion / 1000,
-                soil.young_modulus / 1e6, soil.source.c_str());
-  return kOk;
-}
-
 int channels(const SceneOptions& options) {
   device::Device device(options.device);
   // The channels of a scene are those of its machines: it has to be built, but not run.
@@ -83,9 +96,11 @@ int channels(const SceneOptions& options) {
 void add_check(CLI::App& app, Action& action) {
   // Options outlive the parse in a shared pointer that the action keeps.
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* command =
-      app.add_subcommand("check", "validate scene, machine or soil files, the reach of digs too, without running them");
-  command->add_option("files", *files, "SDF files")->required();
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "validate scene, machine or soil files without running them: also the reach of digs, and whether\n"
+      "machines overlap or tip over in their first second");
+  command->add_option("files", *files, "SDF files, or names of shipped scenes")->required();
   auto values = std::make_shared<SceneOptions>();
   values->add_values_to(*command);
   command->callback(
@@ -94,10 +109,6 @@ void add_check(CLI::App& app, Action& action) {
 
 void add_devices(CLI::App& app, Action& action) {
   app.add_subcommand("devices", "list OpenCL devices")->callback([&action] { action = devices; });
-}
-
-void add_soils(CLI::App& app, Action& action) {
-  app.add_subcommand("soils", "list the shipped soils")->callback([&action] { action = soils; });
 }
 
 void add_channels(CLI::App& app, Action& action) {

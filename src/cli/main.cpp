@@ -7,11 +7,15 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/crash.h"
 #include "cli/exit_code.h"
+#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "device/error.h"
@@ -25,7 +29,11 @@ void install_log_sink() {
   // stderr, so that results on stdout stay clean for pipes.
   auto logger = spdlog::stderr_color_mt("navvy");
   logger->set_pattern("%^%l%$: %v");
-  set_log_sink([logger](LogLevel level, const std::string& text) {
+  // A warning that comes again word for word says nothing new; the bound is for runs of hours.
+  auto told = std::make_shared<std::set<std::string>>();
+  set_log_sink([logger, told](LogLevel level, const std::string& text) {
+    constexpr std::size_t kRemembered = 1000;
+    if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second) return;
     switch (level) {
       case LogLevel::kDebug:
         logger->debug(text);
@@ -41,6 +49,28 @@ void install_log_sink() {
         break;
     }
   });
+}
+
+/// What the parser complains of, in one line: an unknown option with the nearest known one.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::vector<const CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
+  const CLI::App* chosen = &app;
+  for (const CLI::App* command : all)
+    if (argc > 1 && command->get_name() == argv[1]) chosen = command;
+  const std::string where = "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError))
+    return std::string(error.what()) + " " + where;
+  std::vector<std::string> known;
+  for (const CLI::Option* option : chosen->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  // The first word with a dash that nobody knows; what follows it may be its value.
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (word.rfind("-", 0) == 0 && std::find(known.begin(), known.end(), word) == known.end() && word.size() > 2)
+      return "'" + word + "' is no option of `navvy " + chosen->get_name() + "`; " + suggestion(word, known) + " " +
+             where;
+  }
+  return std::string(error.what()) + " " + where;
 }
 
 /// Every kind of failure has an exit status of its own, which scripts may rely on (cli/exit_code.h).
@@ -91,6 +121,8 @@ int run(int argc, char** argv) {
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
   cli::add_devices(app, action);
+  cli::add_scenes(app, action);
+  cli::add_machines(app, action);
   cli::add_soils(app, action);
   cli::add_channels(app, action);
   cli::add_lab(app, action);
@@ -99,16 +131,18 @@ int run(int argc, char** argv) {
   const std::vector<CLI::App*> commands = app.get_subcommands({});
   const auto is_chosen = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_chosen)) {
-    std::cerr << "error: '" << argv[1] << "' is no command; there are:";
-    for (const CLI::App* command : commands) std::cerr << " " << command->get_name();
-    std::cerr << " (navvy --help)\n";
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    std::cerr << "error: '" << argv[1] << "' is no command; " << suggestion(argv[1], names) << " (navvy --help)\n";
     return cli::kBadInput;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version end well; whatever else the parser complains of is bad input.
-    return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
+    std::cerr << "error: " << complaint(app, error, argc, argv) << "\n";
+    return cli::kBadInput;
   }
   // Only now: parsing says what it has to say by itself.
   install_log_sink();

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,7 @@
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "record/rates_note.h"
 #include "record/recorder.h"
 #include "record/run_folder.h"
 #include "session/session.h"
@@ -143,7 +145,14 @@ int run(const RunOptions& options) {
   // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
   record::Options record_options;
-  const scene::Scene description = options.scene.load(&record_options.scene_text);
+  // The rate goes into the scene, which is written beside the results: base steps follow from it.
+  SceneOptions scene = options.scene;
+  if (!options.control.empty()) {
+    char rate[40];
+    *std::to_chars(rate, rate + sizeof rate - 1, options.control_rate).ptr = '\0';
+    scene.set.push_back(std::string("solver.control_rate_hz=") + rate);
+  }
+  const scene::Scene description = scene.load(&record_options.scene_text);
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
   // Taken before minutes are spent, emptied when the run begins.
   auto folder = std::make_unique<record::RunFolder>(
@@ -159,6 +168,9 @@ int run(const RunOptions& options) {
   session::Session session(description, device);
   // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume, options.resume_anyway);
+  // What comes out other than asked is said before the first step.
+  const std::string rates = record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
+  if (!options.quiet && !rates.empty()) log_info(rates);
   // Hours must not end at a path that cannot be written.
   if (!options.snapshot.empty()) require_writable(options.snapshot);
   record::Recorder recorder(session, record_options, std::move(folder));
@@ -181,8 +193,10 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command->add_option("--out", options->out, "directory of the results");
   command->add_option("--control", options->control,
                       "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
-  command->add_option("--control-rate", options->control_rate, "control steps per simulated second")
-      ->check(above_zero)
+  command
+      ->add_option("--control-rate", options->control_rate,
+                   "control steps per simulated second (50); the base step divides their period")
+      ->check(CLI::Range(0.001, 1e5))
       ->needs("--control");
   command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
   command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");

@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <set>
 
 #include "cli/validators.h"
 #include "control/step_kinds.h"
+#include "core/edit_distance.h"
 #include "core/error.h"
 
 namespace navvy::cli {
@@ -29,22 +29,32 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
                          "for example " + option + " 120,80"});
 }
 
-/// Names the shipped ones: a name without a path was meant to be one of them, or a file here.
-InputError no_such_scene(const std::string& name) {
-  // All data directories, as the look-up goes through all of them.
-  std::set<std::string> known;
+}  // namespace
+
+std::map<std::string, std::string> shipped_scenes() {
+  std::map<std::string, std::string> out;
   std::error_code ignored;
+  // All data directories, as the look-up goes through all of them; the first that has it wins.
   for (const std::string& directory : scene_io::data_directories())
     for (const auto& entry : std::filesystem::directory_iterator(directory + "/scenarios", ignored))
       // Their READMEs and maps lie beside them.
-      if (entry.path().extension() == ".sdf") known.insert(entry.path().stem().string());
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-  return InputError(Fault{Fault::Severity::kError, "", 0, "scene", name, "no such file here and no such shipped scene",
-                          list.empty() ? "set NAVVY_DATA_DIR" : "shipped are " + list});
+      if (entry.path().extension() == ".sdf") out.emplace(entry.path().stem().string(), entry.path().string());
+  return out;
 }
 
-}  // namespace
+std::string find_scene(const std::string& name) {
+  // A file of the user's goes before a shipped scene of the same name.
+  if (std::filesystem::exists(name)) return name;
+  for (const std::string& candidate : {name, "scenarios/" + name, "scenarios/" + name + ".sdf"})
+    if (const std::string found = scene_io::find_data(candidate); !found.empty()) return found;
+  // With a path the loader's own message is the better one.
+  if (name.find('/') != std::string::npos) return name;
+  std::vector<std::string> known;
+  for (const auto& [scene, path] : shipped_scenes()) known.push_back(scene);
+  throw InputError(
+      Fault{Fault::Severity::kError, "", 0, "scene", name, "no such file here and no such shipped scene",
+            known.empty() ? "set NAVVY_DATA_DIR" : suggestion(name, known) + " `navvy scenes` lists them"});
+}
 
 void SceneOptions::add_values_to(CLI::App& command) {
   // One value each, or the scene's name after it would be taken for a second one.
@@ -52,7 +62,7 @@ void SceneOptions::add_values_to(CLI::App& command) {
       ->allow_extra_args(false);
   // A seed of a hill's own stays.
   command.add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number);
   command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
   command.add_option("--at", at,
                      "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
@@ -92,21 +102,7 @@ scene_io::Overrides SceneOptions::overrides() const {
 }
 
 scene::Scene SceneOptions::load(std::string* resolved) const {
-  // A file of the user's goes before a shipped scene of the same name.
-  std::string path = file;
-  if (!std::filesystem::exists(path)) {
-    for (const std::string& candidate : {file, "scenarios/" + file, "scenarios/" + file + ".sdf"}) {
-      const std::string found = scene_io::find_data(candidate);
-      // First match wins, as everywhere data is looked for.
-      if (!found.empty()) {
-        path = found;
-        break;
-      }
-    }
-  }
-  // With a path the loader's own message is the better one.
-  if (!std::filesystem::exists(path) && path.find('/') == std::string::npos) throw no_such_scene(path);
-  return scene_io::load_scene(path, control::step_kinds(), overrides(), resolved);
+  return scene_io::load_scene(find_scene(file), control::step_kinds(), overrides(), resolved);
 }
 
 }  // namespace navvy::cli

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace navvy::cli {
 
@@ -11,6 +12,13 @@ std::string above_zero(const std::string& text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool ok = code == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value > 0;
   return ok ? "" : "'" + text + "': must be a number above 0";
+}
+
+std::string whole_number(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool ok = code == std::errc() && end == text.data() + text.size();
+  return ok ? "" : "'" + text + "': must be a whole number from 0 to 18446744073709551615";
 }
 
 }  // namespace navvy::cli

@@ -19,8 +19,13 @@ std::string metres(double value) { return number_text(value, "m"); }
 std::string place_text(const Vec2& p) { return "(" + number_text(p.x(), "") + ", " + number_text(p.y(), "") + ")"; }
 
 ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-                       const SurfaceView& surface_in, std::string file)
-    : machine(machine_in), surface(surface_in), X_WB(X_WB_at_start), program_(program), file_(std::move(file)) {}
+                       const SurfaceView& surface_in, std::string file, std::string name)
+    : machine(machine_in),
+      surface(surface_in),
+      X_WB(X_WB_at_start),
+      program_(program),
+      file_(std::move(file)),
+      name_(name.empty() ? machine_in.name : std::move(name)) {}
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
@@ -37,8 +42,7 @@ void ReachCheck::fault(const std::string& element, const std::string& value, con
   // Programs built in C++ have no lines.
   const int line = index_ < program_.lines.size() ? program_.lines[index_] : 0;
   faults_.push_back({Fault::Severity::kError, file_, line,
-                     machine.name + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element, value, rule,
-                     remedy});
+                     name_ + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element, value, rule, remedy});
 }
 
 void ReachCheck::require_swing(const Arm& arm, const char* element, double swing, const char* remedy) {
@@ -51,8 +55,8 @@ void ReachCheck::require_swing(const Arm& arm, const char* element, double swing
 }
 
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const SurfaceView& surface, const std::string& file) {
-  return ReachCheck(machine, program, X_WB, surface, file).run();
+                               const SurfaceView& surface, const std::string& file, const std::string& name) {
+  return ReachCheck(machine, program, X_WB, surface, file, name).run();
 }
 
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,

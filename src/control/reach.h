@@ -19,9 +19,10 @@ namespace navvy::control {
 /// What a step sees when it is asked whether its targets can be reached, and where it tells what cannot.
 class ReachCheck {
  public:
-  /// `file` and the program's lines are for messages. The machine stands at `X_WB_at_start`.
+  /// `file`, the program's lines and the machine's `name` in the scene are for messages. The machine stands at
+  /// `X_WB_at_start`.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-             const SurfaceView& surface_in, std::string file);
+             const SurfaceView& surface_in, std::string file, std::string name);
 
   const scene::Machine& machine;  ///< whose program it is
   const SurfaceView& surface;     ///< what digs and drives look at
@@ -38,7 +39,7 @@ class ReachCheck {
  private:
   // Index of the present step, for messages.
   const scene::Program& program_;
-  std::string file_;
+  std::string file_, name_;
   std::size_t index_ = 0;
   std::vector<Fault> faults_;
 };
@@ -51,8 +52,9 @@ std::string place_text(const Vec2& p);
 
 /// Every target of the program that cannot be reached from where the machine will then stand: needed and possible
 /// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.
+/// Messages call it `name`, as the scene does; empty: by its model.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const SurfaceView& surface, const std::string& file);
+                               const SurfaceView& surface, const std::string& file, const std::string& name = "");
 
 /// Poses of the base link where a program makes the machine stand: `X_WB` at the start, then the end of every drive.
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,

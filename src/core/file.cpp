@@ -93,13 +93,32 @@ void write_file_atomically(const std::string& path, const std::vector<char>& con
   write_bytes(path, content.data(), content.size());
 }
 
-std::vector<char> read_file(const std::string& path) {
+void require_regular(const std::string& path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode)) return;
+  const char* what = S_ISDIR(found.st_mode)    ? "a directory"
+                     : S_ISFIFO(found.st_mode) ? "a pipe"
+                     : S_ISSOCK(found.st_mode) ? "a socket"
+                                               : "a device";
+  throw FileError("cannot read '" + path + "': it is " + what + ", a plain file is needed");
+}
+
+std::vector<char> read_file(const std::string& path, std::size_t most) {
+  // Asked before it is opened: opening a pipe waits, and some devices act on it.
+  require_regular(path);
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) fail("read", path, errno);
   std::vector<char> content;
   char buffer[65536];
   std::size_t n;
-  while ((n = std::fread(buffer, 1, sizeof buffer, file)) > 0) content.insert(content.end(), buffer, buffer + n);
+  while ((n = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
+    // Counted while reading, as some files do not tell their size.
+    if (n > most - content.size()) {
+      std::fclose(file);
+      throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) + " bytes");
+    }
+    content.insert(content.end(), buffer, buffer + n);
+  }
   // Asked for before fclose, after which the stream is gone and errno may be another.
   const bool bad = std::ferror(file) != 0;
   const int code = errno;

@@ -2,6 +2,8 @@
 // Files that are either old or new, never half: write to a neighbour, flush to disk, rename.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +27,13 @@ std::string partial_name(const std::string& path);
 /// Flushes `partial_name(path)` to disk and renames it to `path`. @throws FileError; the partial file is removed then.
 void commit_file(const std::string& path);
 
+/// Refuses what is not a plain file (links are followed): a pipe would wait for a writer, a device may have no end.
+/// What is not there is left to whoever opens it. @throws FileError naming path and what it is.
+void require_regular(const std::string& path);
+
 // The whole file as bytes, in memory at once. A file that does not exist is an error, never an empty answer.
-/// @throws FileError naming path and cause.
-std::vector<char> read_file(const std::string& path);
+/// @throws FileError naming path and cause; also of what is no plain file, and of more than `most` bytes, before they
+/// are in memory.
+std::vector<char> read_file(const std::string& path, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace navvy

@@ -63,6 +63,17 @@ double Coupling::payload(const ToolLoad& tool) const {
   return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
+std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
+  std::vector<soil::PlacedTool> containers;
+  for (const ToolLoad& tool : tools_) {
+    const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
+    // Soil before a blade lies on the ground, whatever the blade's hull says.
+    if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
+      containers.push_back({tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
+  }
+  return solver_.held(particles, containers);
+}
+
 void Coupling::step(double dt) {
   if (steps_ % kPatchInterval == 0) {
     const Lap lap(time_share_.ground);

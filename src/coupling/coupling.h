@@ -2,6 +2,8 @@
 // The exchange between machines, soil and ground, once per base step. Alone sees all three.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/archive.h"
@@ -50,6 +52,8 @@ class Coupling {
   const TimeShare& time_share() const { return time_share_; }
   /// Soil carried by a tool [kg]; what a bucket holds inside a bed is the bucket's.
   double payload(const ToolLoad& tool) const;
+  /// By particle, whether a bucket or a bed holds it: 1 or 0.
+  std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// The engine that moves machine `m` of the world, and its index there.
   vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
   int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }

@@ -28,6 +28,7 @@ LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
       column.top += grains[i].volume / area;
       column.soil = grains[i].soil;
       column.specific_volume = grains[i].specific_volume;
+      grains_.push_back(grains[i]);
     }
     column.depth = column.top - bottom;
     // Where all of it is in the air, one sees the column.

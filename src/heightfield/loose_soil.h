@@ -16,6 +16,7 @@ struct LooseGrain {
   double volume = 0;          ///< with its pores [m3]
   std::uint16_t soil = 0;     ///< index into the site's soils
   float specific_volume = 1;  ///< volume / bank volume
+  std::int64_t mass = 0;      ///< [kMassQuantum]; for who counts what lies
 };
 
 /// The surface of loose soil, column by column.
@@ -37,9 +38,12 @@ class LooseSoil {
   LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains);
   /// Row by row, each row from least x.
   const std::vector<Column>& columns() const { return columns_; }
+  /// The grains that lie, column by column like those, each column from below.
+  const std::vector<LooseGrain>& grains() const { return grains_; }
 
  private:
   std::vector<Column> columns_;
+  std::vector<LooseGrain> grains_;
 };
 
 }  // namespace navvy::heightfield

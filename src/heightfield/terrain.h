@@ -17,8 +17,10 @@ namespace navvy::heightfield {
 /// Which surface a reader asks for. Every client names it where it takes its view, so that it changes its mind in one
 /// place.
 enum class SurfaceKind : std::uint8_t {
-  kColumns,       ///< the resting columns alone
-  kWithLooseSoil  ///< and what lies on them as particles: what an eye or a lidar sees
+  kColumns,        ///< the resting columns alone
+  kWithLooseSoil,  ///< and what lies on them as particles: what an eye or a lidar sees, also in a bucket near the
+                   ///< ground
+  kMapped          ///< and what lies on them, less what buckets and beds hold: what maps, files and volumes count
 };
 
 /// The readable side of a ground, the same for both kinds there are: `Ground`, whose columns are those of this very

@@ -3,9 +3,9 @@
 
 namespace navvy::heightfield {
 
-TerrainView TerrainView::with(const LooseSoil& loose) const {
+TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const {
   TerrainView out = *this;
-  out.surface_ = SurfaceKind::kWithLooseSoil;
+  out.surface_ = surface;
   for (const LooseSoil::Column& column : loose.columns()) {
     // Everything in a view is shared, so the first column of a tile makes the copy that the others write to.
     SurfaceTile& tile = out.table_.own(column.ix / kTileSide, column.iy / kTileSide, *out.start_);

@@ -19,8 +19,8 @@ class TerrainView final : public Terrain {
   SurfaceKind surface() const { return surface_; }  ///< what its heights are those of
 
   /// The same instant as one sees it: height, soil and density state are those of the loose soil where some lies.
-  /// Costs a copy of every tile on which there is any.
-  TerrainView with(const LooseSoil& loose) const;
+  /// Costs a copy of every tile on which there is any. `surface` says which of the loose soil was handed in.
+  TerrainView with(const LooseSoil& loose, SurfaceKind surface = SurfaceKind::kWithLooseSoil) const;
 
  private:
   friend class Ground;

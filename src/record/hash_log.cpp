@@ -5,21 +5,23 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/file.h"
-
 namespace navvy::record {
 namespace {
 
 /// time = steps x dt is rounded: a distance counts as reached this much early.
 constexpr double kHair = 1e-9;
 
+/// Names the parts there are: a scene with sensors has more columns.
+std::string header_of(const session::Session& session) {
+  std::string header = "step,time_s,state";
+  for (const auto& [part, hash] : session.hash_parts()) header += "," + part;
+  return header;
+}
+
 }  // namespace
 
 HashLog::HashLog(const session::Session& session, std::string path, double every)
-    : session_(session), path_(std::move(path)), every_(every), text_("step,time_s,state") {
-  // The header names the parts there are: a scene with sensors has more columns.
-  for (const auto& [part, hash] : session_.hash_parts()) text_ += "," + part;
-  text_ += '\n';
+    : session_(session), file_(std::move(path), header_of(session)), every_(every) {
   const sim::World& world = session_.world();
   // A resumed run goes on at the next distance, so that its rows equal those of the whole run.
   if (world.steps() > 0) next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
@@ -31,13 +33,12 @@ void HashLog::row() {
   // Time with six digits tells steps apart; the step itself is exact.
   char start[64];
   std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()), world.time());
-  text_ += start + session_.state_hash();
-  for (const auto& [part, hash] : session_.hash_parts()) text_ += "," + hash;
-  text_ += '\n';
-  empty_ = false;
+  std::string text = start + session_.state_hash();
+  for (const auto& [part, hash] : session_.hash_parts()) text += "," + hash;
   last_step_ = world.steps();
-  // Replaced whole: a kill leaves complete rows.
-  write_file_atomically(path_, text_);
+  file_.add(text);
+  // A row costs a pass over the whole state: a kill in the next step shall not take it.
+  file_.flush();
 }
 
 void HashLog::observe() {
@@ -50,7 +51,8 @@ void HashLog::observe() {
 
 void HashLog::finish() {
   // The last state has a row even between two distances.
-  if (empty_ || last_step_ != session_.world().steps()) row();
+  if (file_.rows() == 0 || last_step_ != session_.world().steps()) row();
+  file_.sync();
 }
 
 }  // namespace navvy::record

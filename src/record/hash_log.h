@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "record/row_file.h"
 #include "session/session.h"
 
 namespace navvy::record {
@@ -15,7 +16,7 @@ class HashLog {
  public:
   /// `every` [s]; a row at the start of a fresh run, none where a resumed one begins.
   HashLog(const session::Session& session, std::string path, double every);
-  /// Called after each step: adds the row that is due and replaces the file whole. @throws FileError.
+  /// Called after each step: appends the row that is due. @throws FileError.
   /// At most one row a step.
   void observe();
   /// The state the run ends with. @throws FileError.
@@ -25,12 +26,10 @@ class HashLog {
   void row();
 
   const session::Session& session_;
-  std::string path_;
+  RowFile file_;
   double every_;
   std::uint64_t next_ = 0;       ///< counts distances
   std::uint64_t last_step_ = 0;  ///< of the last row, no row = none written
-  bool empty_ = true;
-  std::string text_;
 };
 
 }  // namespace navvy::record

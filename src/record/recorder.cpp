@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -17,15 +16,9 @@
 #include "record/terrain_files.h"
 #include "render/renderer.h"
 #include "sim/frame_builder.h"
+#include "sim/timing.h"
 
 namespace navvy::record {
-namespace {
-
-/// How many whole periods of `rate` [Hz] have passed by `time` (with a hair for rounding of time = steps x dt).
-// A count is exact where a sum of periods would drift.
-std::uint64_t count_at(double time, double rate) { return static_cast<std::uint64_t>(std::floor(time * rate + 1e-9)); }
-
-}  // namespace
 
 struct Recorder::State {
   // Telemetry and frames look at the same session; neither keeps more than a reference.
@@ -38,10 +31,6 @@ struct Recorder::State {
         frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
-    // Frames are counted from time zero: a resumed run goes on with the numbers of the whole one.
-    for (const scene::Camera& camera : s.world().description().cameras)
-      next_frame.push_back(count_at(status.start_time, camera.rate));
-    next_sample = count_at(status.start_time, s.world().description().recording.telemetry_rate);
   }
 
   // Telemetry is written at checkpoints, pictures and hashes at once.
@@ -53,13 +42,13 @@ struct Recorder::State {
   sim::FrameBuilder frames;
   std::unique_ptr<render::Renderer> renderer;
   std::unique_ptr<HashLog> hashes;
-  std::vector<std::uint64_t> next_frame;  ///< per camera, counts frames
-  std::uint64_t next_sample = 0;
   RunStatus status;
   Stopwatch total, since_checkpoint;
   bool finished = false;
 
   std::string path(const std::string& name) { return folder->path(name); }
+  /// Whether the present step is the nearest to a period of `rate` [1/s].
+  bool due(double rate) const;
   void sample_when_due();
   void draw_when_due();
   void hash_when_due();
@@ -67,16 +56,6 @@ struct Recorder::State {
   void write_summary(bool with_hash);
   void write_start();
 };
-
-namespace {
-
-/// True when `count / rate` has been reached by `time` (with a hair for rounding of time = steps x dt).
-// Counted periods, not a time of the next sample: rounding then never adds up.
-bool due(double time, std::uint64_t count, double rate) {
-  return rate > 0 && time * rate >= static_cast<double>(count) - 1e-9;
-}
-
-}  // namespace
 
 Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
   // Nothing is written before the folder stands; what cannot be made is told before the first step.
@@ -113,33 +92,36 @@ void Recorder::State::write_start() {
 
 Recorder::~Recorder() = default;
 
+bool Recorder::State::due(double rate) const {
+  // By the step's number, counted from time zero: a resumed run records the steps that the whole one would.
+  return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
+}
+
 /// At most one row a step: a rate above the step's gives every step.
 void Recorder::State::sample_when_due() {
-  const double rate = session.world().description().recording.telemetry_rate;
-  const double time = session.world().time();
-  if (!due(time, next_sample, rate)) return;
+  const bool first = telemetry.rows() == 0;
+  if (!first && !due(session.world().description().recording.telemetry_rate)) return;
   const Lap lap(status.record_time);
   telemetry.sample();
-  next_sample = count_at(time, rate) + 1;
 }
 
 void Recorder::State::draw_when_due() {
   // One frame for all cameras of this instant: filling it costs more than a view of it.
   if (!renderer) return;
   const auto& cameras = session.world().description().cameras;
-  const double time = session.world().time();
+  const sim::World& world = session.world();
   const scene::Frame* frame = nullptr;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (!due(time, next_frame[i], cameras[i].rate)) continue;
+  for (const scene::Camera& camera : cameras) {
+    if (!due(camera.rate)) continue;
     // Drawing is counted apart: the real-time factor is the simulation's.
     const Lap lap(status.render_time);
     if (frame == nullptr) frame = &frames.build();
-    const render::Image image = renderer->render(*frame, frames.camera(cameras[i]));
-    char name[32];
-    std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(next_frame[i]));
-    render::write_png(path("frames/" + cameras[i].name + name), image);
+    const render::Image image = renderer->render(*frame, frames.camera(camera));
     // The number of a picture tells its time: name_N.png is N periods from the start.
-    next_frame[i] = count_at(time, cameras[i].rate) + 1;
+    char name[32];
+    const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
+    std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(number));
+    render::write_png(path("frames/" + camera.name + name), image);
     ++status.frames;
   }
 }

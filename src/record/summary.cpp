@@ -2,10 +2,11 @@
 #include "record/summary.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "record/earthwork.h"
 #include "record/program_list.h"
+#include "sim/terrain_view.h"
 
 namespace navvy::record {
 namespace {
@@ -70,7 +71,7 @@ json carried(const session::Session& session) {
 }
 
 /// In integers as the books are kept; kilograms are for people.
-json ledger(const session::Session& session) {
+json ledger(const session::Session& session, const sim::AwakePlaces& awake) {
   const sim::MassLedger sums = session.world().mass_ledger();
   json soils = json::array();
   // By soil, under the scene's names.
@@ -78,69 +79,21 @@ json ledger(const session::Session& session) {
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_change_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
+                     {"lying_kg", kilograms(awake.lies[i])},
+                     {"held_kg", kilograms(awake.held[i])},
+                     {"elsewhere_kg", kilograms(awake.elsewhere[i])},
                      {"left_site_kg", kilograms(sums.left_site[i])},
                      {"loaded_kg", kilograms(sums.inserted[i])}});
   return {{"error_units", sums.error}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
-/// Bank volume of each soil in a column [m3].
-void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vector<scene::Soil>& soils,
-                  std::vector<double>& volumes) {
-  // The caller keeps the vector: this is called for every touched column.
-  volumes.assign(soils.size(), 0.0);
-  for (const heightfield::Layer& layer : column)
-    volumes[layer.soil] += kilograms(layer.mass) / soils[layer.soil].bank_density;
-}
-
 }  // namespace
-
-/// Awake soil counts where it lies: what is still in flight or in a bucket over its own column has not been dug.
-Earthwork measure_earthwork(const sim::World& world) {
-  const heightfield::Ground& ground = world.ground();
-  const std::vector<scene::Soil>& soils = ground.setup().soils;
-  // Only touched columns can have changed, and only they are looked at.
-  std::map<std::pair<int, int>, std::vector<double>> awake;  // bank volumes over columns [m3]
-  for (const sim::LooseSoil& loose : world.loose_soil()) {
-    std::vector<double>& volumes = awake[{loose.ix, loose.iy}];
-    volumes.resize(soils.size());
-    volumes[loose.soil] += kilograms(loose.mass) / soils[loose.soil].bank_density;
-  }
-  Earthwork sum;
-  sum.soils.resize(soils.size());
-  // Awake soil over the site's edge has no column: the ledger has it.
-  const heightfield::CellRect rect = ground.touched_rect();
-  const double area = ground.cell() * ground.cell();
-  // A twentieth of a cell keeps the rounding of woken and rebooked columns out of the sums.
-  const double least = 0.05 * area * ground.cell();
-  std::vector<heightfield::Layer> now, start;
-  std::vector<double> after, before;
-  for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, ground.ny()); ++iy)
-    for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
-      // As it lies against as it lay.
-      ground.column(ix, iy, now);
-      ground.start_column(ix, iy, start);
-      bank_volumes(now, soils, after);
-      bank_volumes(start, soils, before);
-      const auto above = awake.find({ix, iy});
-      double gain = 0;
-      // By soil: a layer dug away and another dumped in its place are both earthwork.
-      for (std::size_t i = 0; i < soils.size(); ++i) {
-        const double change = after[i] + (above == awake.end() ? 0.0 : above->second[i]) - before[i];
-        gain += change;
-        if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
-        if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
-      }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained.
-      if (gain < -least) sum.bank_volume -= gain;
-      if (gain > least) sum.loose_volume += area * (ground.height(ix, iy) - ground.start_height(ix, iy));
-    }
-  return sum;
-}
 
 /// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
-  const Earthwork earth = measure_earthwork(world);
+  const sim::AwakePlaces awake = sim::awake_places(world);
+  const Earthwork earth = measure_earthwork(world, awake.lying);
   const sim::SoilCounts counts = world.soil_counts();
   json out;
   // What it was, how it stands, how fast it went.
@@ -189,7 +142,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["woken_columns"] = counts.woken_columns;
   out["deposited_blocks"] = counts.deposited_blocks;
   out["frames"] = status.frames;
-  out["mass_ledger"] = ledger(session);
+  out["mass_ledger"] = ledger(session, awake);
   // Null while it runs: the hash costs a pass over everything.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
   return out.dump(2) + "\n";

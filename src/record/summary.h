@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "record/earthwork.h"
 #include "session/session.h"
 
 namespace navvy::record {
@@ -26,19 +27,5 @@ struct RunStatus {
 /// The file's text: JSON, keys sorted, SI units in the names.
 /// The hash costs a pass over the whole state; without it `state_hash` is null.
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash = true);
-
-/// Mass of one soil that left columns and that came to others [kg].
-struct SoilMoved {
-  double dug = 0, spoil = 0;
-};
-
-/// Earth moved by digging and dumping, wheel ruts apart: columns whose mass changed.
-struct Earthwork {
-  double bank_volume = 0;        ///< mass taken out of columns / bank density [m3]
-  double loose_volume = 0;       ///< rise of the columns that gained mass [m3]
-  std::vector<SoilMoved> soils;  ///< as the scene lists them
-};
-/// Soil that is awake over the column it came from does not count as dug.
-Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

@@ -3,34 +3,36 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
-#include <vector>
 
+#include "record/row_file.h"
 #include "session/session.h"
 
 namespace navvy::record {
 
-/// Collects rows and replaces the file whole, so that a reader (or a kill) finds only complete rows.
+/// Simulated time [s] as text of at most twelve digits: two steps of one run never share a stamp.
+std::string time_stamp(double time);
+
+/// Appends a row for each sample (record/row_file.h): what it costs, in memory and on disk, does not grow with the run.
 ///
-/// The first line holds the channel names with units in brackets, then machine phases as text. Rewrites come at growing
-/// distances (a tenth of the rows), so the total cost stays linear. Outputs that a sampler adds later are left out: add
-/// samplers first.
+/// The first line holds the channel names with units in brackets, then machine phases as text. Outputs that a sampler
+/// adds later are left out: add samplers first.
 class Telemetry {
  public:
   /// Writes nothing yet. The session must outlive it.
   Telemetry(const session::Session& session, std::string path);
-  /// One row of what the outputs say now.
+  /// One row of what the outputs say now. @throws FileError when many rows wait and the disk takes none.
   void sample();
-  /// Writes the file when enough rows have come since the last time, or always when `force`. @throws FileError.
-  void checkpoint(bool force);
-  std::size_t rows() const { return rows_; }
+  /// Appends what waits to the file; at the `end` also waits until the disk has it. @throws FileError.
+  void checkpoint(bool end) { end ? file_.sync() : file_.flush(); }
+  std::uint64_t rows() const { return file_.rows(); }
 
  private:
   const session::Session& session_;
-  std::string path_;
-  std::string text_;
-  std::size_t channels_ = 0;  ///< outputs there were when the header was written
-  std::size_t rows_ = 0, written_rows_ = 0;
+  RowFile file_;
+  std::size_t channels_;  ///< outputs there were when the header was written
+  std::string row_;       ///< the one being made; kept, so that rows take no memory anew
 };
 
 }  // namespace navvy::record

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/terrain_files.h"
 
+#include <vector>
+
 #include "core/error.h"
 #include "sim/terrain_view.h"
 #ifdef NAVVY_WITH_GDAL
@@ -10,14 +12,16 @@
 namespace navvy::record {
 namespace {
 
-// What a map in a run's folder shows.
-[[maybe_unused]] constexpr heightfield::SurfaceKind kMapped = heightfield::SurfaceKind::kColumns;
+// Beside the heights, in files of ground that does not all rest.
+[[maybe_unused]] const std::vector<std::string> kAwake = {"loose_depth"};
 
 }  // namespace
 
 void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  heightfield::write_geotiff(sim::terrain_view(world, kMapped), path);
+  const bool awake = world.soil_counts().particles > 0;
+  heightfield::write_geotiff(sim::terrain_view(world, heightfield::SurfaceKind::kMapped), path,
+                             awake ? kAwake : std::vector<std::string>{});
 #else
   (void)world;
   throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");

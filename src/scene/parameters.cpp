@@ -82,7 +82,9 @@ void put(const Writer& w, const Soil& soil) {
 }
 
 void put(const Writer& w, const SolverSettings& solver) {
-  const auto& [cell, courant, max_step, max_particles, exchange] = solver;
+  // The control rate acts through the base step alone, which the state holds: left out, so that a plain run's snapshot
+  // can be gone on from under a controller.
+  const auto& [cell, courant, max_step, control_rate, max_particles, exchange] = solver;
   w("cell", cell);
   w("courant", courant);
   w("max_step", max_step);

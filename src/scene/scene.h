@@ -18,6 +18,7 @@ struct SolverSettings {
   double cell = 0.1;            ///< edge of a soil cell and of a column [m]
   double courant = 0.5;         ///< share of cell / sound speed
   double max_step = 0.0017;     ///< base step never exceeds this [s]
+  double control_rate = 0;      ///< a whole number of base steps makes up its period [1/s]; 0: no such rate
   int max_particles = 2000000;  ///< the awake budget
   bool exchange = true;         ///< false: ground neither wakes nor takes soil back by itself (rigs, tests)
 };

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 namespace navvy::scene_io {
 
@@ -89,6 +90,23 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
   return true;
 }
 
+namespace {
+
+/// Degrees that are a well-known angle in radians to four digits, such as 0.7854 or 1.571, are likely radians.
+void ask_about_radians(const Element& element, double value, Faults& faults) {
+  constexpr double kStep = kPi / 12;  // 15 deg
+  const double steps = std::round(std::abs(value) / kStep);
+  const std::string text = text_of(element);
+  const std::size_t point = text.find('.');
+  const bool digits = point != std::string::npos && text.size() - point > 3;
+  if (!digits || steps < 1 || steps > 24 || std::abs(std::abs(value) - steps * kStep) > 5e-4) return;
+  faults.warning(element, text,
+                 "is " + std::to_string(static_cast<int>(steps) * 15) + " deg in radians; were radians meant?",
+                 "this element counts in degrees");
+}
+
+}  // namespace
+
 Element* Fields::take(const char* name) {
   // Whatever is asked for counts as known, also when it is not there: the list serves `finish` and suggestions.
   known_.push_back(name);
@@ -98,7 +116,10 @@ Element* Fields::take(const char* name) {
 Fields& Fields::number(const char* name, double& out, Range range, double factor) {
   std::vector<double> v;
   // A value with a fault leaves the default in place, so reading goes on and finds the other faults.
-  if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) out = v[0] * factor;
+  if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) {
+    out = v[0] * factor;
+    if (factor == kDegree) ask_about_radians(*child, v[0], faults_);
+  }
   return *this;
 }
 
@@ -160,14 +181,15 @@ Fields& Fields::vec3(const char* name, Vec3& out, Range range) {
 }
 
 Fields& Fields::direction(const char* name, Vec3& out) {
-  Vec3 v = out;
-  vec3(name, v, {-1e6, 1e6});
-  // An absent element leaves the default, which is a direction already; the length decides only what the file says.
-  if (v.norm() > 1e-6) {
-    out = v.normalized();
-  } else if (Element* child = element_.FirstChildElement(name)) {
+  // An absent element leaves the default, which is a direction already.
+  std::vector<double> v;
+  Element* child = take(name);
+  if (!child || !read_numbers(*child, 3, {-1e6, 1e6}, v, faults_)) return *this;
+  const Vec3 read(v[0], v[1], v[2]);
+  if (read.norm() > 1e-6)
+    out = read.normalized();
+  else
     faults_.error(*child, text_of(*child), "a direction must not be zero");
-  }
   return *this;
 }
 
@@ -209,13 +231,14 @@ void Fields::one_of(const Element& child, const std::string& value, const std::v
 }
 
 void Fields::finish() {
+  std::set<std::string> seen;
   // One walk over the children that are there, against what the tables asked for.
   for (const Element* child = element_.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (!contains(known_, name)) {
-      faults_.error(*child, text_of(*child), "unknown element", suggestion(name, known_));
+      faults_.error(*child, text_of(*child), "unknown element", faults_.nearest(name, known_));
       // The second one is blamed, as readers took the first.
-    } else if (!contains(repeatable_, name) && element_.FirstChildElement(child->Name()) != child) {
+    } else if (!contains(repeatable_, name) && !seen.insert(name).second) {
       faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
     }
     // Values hold text only; what holds elements is read by its own table.
@@ -226,7 +249,7 @@ void Fields::finish() {
   }
   for (const auto* at = element_.FirstAttribute(); at; at = at->Next())
     if (!contains(attributes_, at->Name()))
-      faults_.error(element_, at->Name(), "unknown attribute", suggestion(at->Name(), attributes_));
+      faults_.error(element_, at->Name(), "unknown attribute", faults_.nearest(at->Name(), attributes_));
   // A value's own text has been read; text between elements is mostly a forgotten tag.
   if (!text_of(element_).empty() && !known_.empty())
     faults_.error(element_, text_of(element_), "text is not allowed between the elements here", "remove it");

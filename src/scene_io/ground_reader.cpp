@@ -22,7 +22,7 @@ void require_soil(const Element& element, const std::string& name, const std::ve
     names.push_back(soil.name);
   }
   faults.error(element, name, "no soil of this name in the world",
-               names.empty() ? "add <navvy:soil ref=\"" + name + "\"/>" : suggestion(name, names));
+               names.empty() ? "add <navvy:soil ref=\"" + name + "\"/>" : faults.nearest(name, names));
 }
 
 scene::GroundLayer read_layer(Element& element, const std::vector<scene::Soil>& soils, Faults& faults) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/mesh_path.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/edit_distance.h"
 #include "geometry/obj/read_obj.h"
 #include "scene_io/loader.h"
 
@@ -43,6 +45,17 @@ std::string locate(const Element& uri, const std::string& text) {
   return fs::exists(path, ignored) ? path.string() : "";
 }
 
+/// "model://NAME" of each, for messages.
+std::vector<std::string> shipped_models() {
+  std::vector<std::string> out;
+  std::error_code ignored;
+  for (const std::string& directory : data_directories())
+    for (const auto& entry : fs::directory_iterator(directory + "/vehicles", ignored))
+      if (fs::exists(entry.path() / "model.sdf", ignored)) out.push_back("model://" + entry.path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 std::string absolute(const std::string& path) {
   std::error_code failed;
   // Also where the path does not exist yet; a failure leaves it as it was.
@@ -75,8 +88,10 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   std::string found = locate(uri, text);
   if (!found.empty() && fs::is_directory(found, ignored)) found = (fs::path(found) / "model.sdf").string();
   if (found.empty() || !fs::is_regular_file(found, ignored)) {
-    faults.error(uri, text, "no such model",
-                 "give a path from this file to an SDF file or its directory, or model://NAME of a shipped machine");
+    const std::string way =
+        "give a path from this file to an SDF file or its directory, or model://NAME of a shipped machine";
+    const std::string meant = text.rfind("model://", 0) == 0 ? suggestion(text, shipped_models()) + " " : "";
+    faults.error(uri, text, "no such model", meant + way);
     return false;
   }
   // Not resolved through links: messages name the path that the user knows.

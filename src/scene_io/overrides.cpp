@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/overrides.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
+#include "core/utf8.h"
 #include "scene_io/fields.h"
 
 namespace navvy::scene_io {
@@ -54,14 +57,25 @@ void key_fault(const std::string& key, const std::string& value, const std::stri
   faults.add(fault);
 }
 
+/// "ew180" of model://ew180, ../ew180/model.sdf, ew180/ and ew180.sdf.
+std::string model_of(std::string uri) {
+  const std::string file = "/model.sdf", ending = ".sdf";
+  if (uri.size() >= file.size() && uri.compare(uri.size() - file.size(), file.size(), file) == 0)
+    uri.resize(uri.size() - file.size());
+  while (!uri.empty() && uri.back() == '/') uri.pop_back();
+  uri = uri.substr(uri.rfind('/') == std::string::npos ? 0 : uri.rfind('/') + 1);
+  if (uri.size() > ending.size() && uri.compare(uri.size() - ending.size(), ending.size(), ending) == 0)
+    uri.resize(uri.size() - ending.size());
+  return uri;
+}
+
 bool is_called(const Element& element, const std::string& which, int place) {
   // By place, counted from 1 among those that match, by name, or by the name of what it refers to.
   if (which.empty() || which == std::to_string(place)) return true;
   if (attribute(element, "name") == which || child_text(element, "name") == which) return true;
   if (!element.Attribute("name") && attribute(element, "ref") == which) return true;
   // An included machine without a <name> goes by its file's directory.
-  const std::string uri = child_text(element, "uri");
-  return !element.FirstChildElement("name") && uri.find("/" + which) != std::string::npos;
+  return !element.FirstChildElement("name") && model_of(child_text(element, "uri")) == which;
 }
 
 bool matches(const Element& element, const std::string& name) {
@@ -85,16 +99,31 @@ void set_value(Element& parent, const std::string& name, const std::string& valu
   parent.InsertNewChildElement(name.c_str())->SetText(value.c_str());
 }
 
+/// Roll, pitch and yaw of a turn, as make_pose takes them [rad].
+Vec3 euler_of(const Mat3& R) {
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+}
+
 // x_m, y_m, z_m and yaw_deg of a machine are parts of its <pose>.
 bool set_place(Element& machine, const std::string& name, const std::string& value) {
   const std::vector<std::string> names = {"x_m", "y_m", "z_m", "", "", "yaw_deg"};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] != name) continue;
+    if (names[i].empty() || names[i] != name) continue;
     Element* pose = machine.FirstChildElement("pose");
     std::vector<std::string> words = pose ? words_of(text_of(*pose)) : std::vector<std::string>{};
     const bool in_degrees = pose && (attribute(*pose, "degrees") == "true" || attribute(*pose, "degrees") == "1");
+    bool quaternion = pose && attribute(*pose, "rotation_format") == "quat_xyzw";
+    // A quaternion stays as it is where only the place is set, and gives way to angles for a new yaw.
+    Pose X;
+    Faults unread;
+    if (quaternion && i == 5 && read_pose(*pose, X, unread)) {
+      const Vec3 turn = euler_of(X.linear());
+      words.resize(6);
+      for (int k = 0; k < 3; ++k) words[static_cast<std::size_t>(3 + k)] = shortest(turn[k]);
+      quaternion = false;
+    }
     // A pose that is not there, or is shorter than six numbers, counts as zeros.
-    words.resize(6, "0");
+    if (words.size() < 6) words.resize(6, "0");
     double number = 0;
     words[i] = value;
     // A pose counts in radians unless it says otherwise; the key says degrees.
@@ -104,6 +133,7 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     if (pose) machine.DeleteChild(pose);
     pose = machine.InsertNewChildElement("pose");
     pose->SetText(text.c_str());
+    if (quaternion) pose->SetAttribute("rotation_format", "quat_xyzw");
     if (in_degrees) pose->SetAttribute("degrees", "true");
     return true;
   }
@@ -119,8 +149,12 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
   const std::vector<std::string> objects = {"soil", "ground", "solver", "recording", "camera", "machine"};
   bool known = false;
   for (const std::string& object : objects) known = known || object == parts[0].name;
+  if (first_bad_utf8(key + value) != std::string::npos) {
+    key_fault("", "", "a setting must be text in UTF-8", "check the terminal's encoding", faults);
+    return;
+  }
   if (!known) {
-    key_fault(key, value, "unknown object '" + parts[0].name + "'", suggestion(parts[0].name, objects), faults);
+    key_fault(key, value, "unknown object '" + parts[0].name + "'", faults.nearest(parts[0].name, objects), faults);
     return;
   }
   std::vector<Element*> targets = {&world};
@@ -147,7 +181,7 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
     // program.
     if (parts[0].name == "machine" && parts.size() == 2) {
       if (!set_place(*target, leaf, value))
-        key_fault(key, value, "unknown element '" + leaf + "'", suggestion(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}),
+        key_fault(key, value, "unknown element '" + leaf + "'", faults.nearest(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}),
                   faults);
       continue;
     }

@@ -30,13 +30,13 @@ int needed(const Waiting& wait, const scene::MachineInWorld& other) {
 
 bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, const scene::Scene& world,
                 Faults& faults) {
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < world.machines.size(); ++m)
-    if (m != waiting) names.push_back(world.machines[m].name);
   // The name first, then whether it can be waited for, then how long.
   const int index = world.machine_index(wait.machine);
   if (index < 0) {
-    faults.error(at, wait.machine, "no machine of this name in the world", suggestion(wait.machine, names));
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < world.machines.size(); ++m)
+      if (m != waiting) names.push_back(world.machines[m].name);
+    faults.error(at, wait.machine, "no machine of this name in the world", faults.nearest(wait.machine, names));
     return false;
   }
   if (index == static_cast<int>(waiting)) {

@@ -10,6 +10,7 @@
 
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
+#include "scene_io/sdf_schema_private.h"
 
 namespace navvy::scene_io {
 
@@ -275,13 +276,10 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
   const std::size_t before = faults.error_count();
   // Its console would print beside our messages.
   sdf::Console::Instance()->SetQuiet(true);
-  sdf::ParserConfig config;
-  // Its warnings count as errors: check_sdf has let through only what is understood, so one of them means a misreading.
-  config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
-  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  ++faults.work.models;
   sdf::Root root;
   try {
-    report(model, root.LoadSdfString(as_sdf_text(model), config), faults);
+    report(model, parse_model(as_sdf_text(model), root), faults);
     if (faults.error_count() > before || !root.Model()) return false;
     const sdf::Model& from = *root.Model();
     machine.name = from.Name();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links and joints of an SDF model: the only file pair that includes libsdformat.
+// Links and joints of an SDF model: with sdf_schema all that includes libsdformat.
 #pragma once
 
 #include "scene/machine.h"
@@ -9,7 +9,7 @@ namespace navvy::scene_io {
 
 /// Reads links, inertias, shapes and joints of a <model> through libsdformat, which resolves frames and relative poses.
 /// The links come out as a tree, base first and every parent before its children; joint i moves link i + 1. A fixed
-/// joint to the world becomes `fixed_base`. Call only when `check_sdf` and `check_model_names` found no fault. Faults
+/// joint to the world becomes `fixed_base`. Call only when `check_sdf` found no fault. Faults
 /// that only libsdformat finds are reported at the element they name.
 bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/sdf_rules.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 
@@ -251,6 +253,22 @@ std::vector<std::string> names_in(const char* parent) {
   return names;
 }
 
+/// Angles of a pose are radians unless it says otherwise; more than a turn of them is likely meant as degrees.
+void ask_about_turns(const Element& element, Faults& faults) {
+  constexpr double kTurn = 2 * kPi + 0.01;
+  if (attribute(element, "degrees") == "true" || attribute(element, "degrees") == "1") return;
+  if (attribute(element, "rotation_format") == "quat_xyzw") return;
+  const std::vector<std::string> words = words_of(text_of(element));
+  for (std::size_t i = 3; i < 6 && i < words.size(); ++i) {
+    if (std::abs(std::strtod(words[i].c_str(), nullptr)) <= kTurn) continue;
+    faults.warning(
+        element, text_of(element),
+        "the angles of a pose are in radians: " + words[i] + " is more than a whole turn; were degrees meant?",
+        "write <pose degrees=\"true\">, or give radians");
+    return;
+  }
+}
+
 void check_value(const Element& element, const Rule& rule, Faults& faults) {
   std::vector<double> numbers;
   bool flag = false;
@@ -276,7 +294,7 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       read_flag(element, flag, faults);
       break;
     case Type::kPose:
-      read_pose(element, pose, faults);
+      if (read_pose(element, pose, faults)) ask_about_turns(element, faults);
       break;
     case Type::kText:
       if (text_of(element).empty()) faults.error(element, "", "must not be empty");
@@ -321,7 +339,9 @@ void check_children(const Element& element, Faults& faults) {
   std::set<std::string> once, names;
   for (const Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const char* name = child->Name();
-    if (!may_repeat(name) && !once.insert(name).second)
+    // What is unknown is told as such, and once.
+    const bool known = is_extension(*child) || find_rule(element.Name(), name);
+    if (known && !may_repeat(name) && !once.insert(name).second)
       faults.error(*child, "", "must occur only once", "remove one of them");
     // Links, joints, frames and nested models share one space of names in SDF; visuals and collisions have one each.
     const bool scoped = std::strcmp(name, "link") == 0 || std::strcmp(name, "joint") == 0 ||
@@ -345,14 +365,14 @@ void check_sdf(const Element& element, Faults& faults) {
     for (const Extension& extension : kExtensions)
       if (std::strcmp(extension.parent, parent) == 0 && std::strcmp(extension.name, name) == 0) return;
     faults.error(element, "", std::string("unknown extension element in <") + parent + ">",
-                 suggestion(name, names_in(parent)));
+                 faults.nearest(name, names_in(parent)));
     return;
   }
   if (parent_node) {
     const Rule* rule = find_rule(parent, name);
     if (!rule) {
       faults.error(element, text_of(element), std::string("unknown element in <") + parent + ">",
-                   suggestion(name, names_in(parent)));
+                   faults.nearest(name, names_in(parent)));
       return;
     }
     if (rule->support == Support::kError) faults.error(element, text_of(element), "is not supported", rule->why);
@@ -370,8 +390,11 @@ void check_sdf(const Element& element, Faults& faults) {
 bool is_used_sdf(const Element& element) {
   const auto* parent = element.Parent() ? element.Parent()->ToElement() : nullptr;
   if (is_extension(element)) return false;
-  if (!parent) return true;
-  const Rule* rule = find_rule(parent->Name(), element.Name());
+  return !parent || is_used_sdf(parent->Name(), element.Name());
+}
+
+bool is_used_sdf(const char* parent, const char* name) {
+  const Rule* rule = find_rule(parent, name);
   // Without a rule it is unknown, and check_sdf has said so.
   return rule && rule->support == Support::kUsed;
 }

@@ -13,6 +13,8 @@ void check_sdf(const Element& element, Faults& faults);
 
 /// True for elements of SDF that Navvy uses; false for extension elements, unknown and ignored ones.
 bool is_used_sdf(const Element& element);
+/// The same by names: an element `name` below one called `parent`.
+bool is_used_sdf(const char* parent, const char* name);
 
 /// Root <sdf> with a version that is understood. False after a fault.
 bool check_root(const Element& root, Faults& faults);

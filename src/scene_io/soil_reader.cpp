@@ -61,7 +61,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
         if (entry.path().extension() == ".sdf") known.push_back(entry.path().stem().string());
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
-    faults.error(element, ref, "no such soil", suggestion(ref, known));
+    faults.error(element, ref, "no such soil", faults.nearest(ref, known));
     return false;
   }
   // Its faults go to the same list, with the file's own name and lines.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 
+#include "core/limits.h"
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/machine_reader.h"
@@ -13,10 +15,17 @@
 #include "scene_io/program_reader.h"
 #include "scene_io/sdf_rules.h"
 #include "scene_io/soil_reader.h"
+#include "scene_io/xml_limits.h"
 
 namespace navvy::scene_io {
 
 namespace {
+
+/// What has been read of a machine's file.
+struct MachineFile {
+  scene::Machine machine;
+  std::size_t elements = 0;
+};
 
 void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults) {
   // A cell below 5 mm or above 2 m is a slip of units; the particles' number follows from its cube.
@@ -24,7 +33,8 @@ void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults
       .number("cell_m", solver.cell, {0.005, 2})
       .number("courant", solver.courant, {0.05, 1})
       .number("max_step_s", solver.max_step, {1e-6, 0.02})
-      .whole("max_particles", solver.max_particles, {1000, 1e9})
+      .number("control_rate_hz", solver.control_rate, {0.001, 1e5})
+      .whole("max_particles", solver.max_particles, {1000, limits::kParticles})
       .finish();
 }
 
@@ -76,7 +86,7 @@ scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& f
   if (index < 0) {
     for (const auto& machine : world.machines) names.push_back(machine.name);
     faults.error(*fields.child("machine"), camera.machine, "no machine of this name in the world",
-                 suggestion(camera.machine, names));
+                 faults.nearest(camera.machine, names));
     return camera;
   }
   const scene::Machine& machine = world.machines[static_cast<std::size_t>(index)].machine;
@@ -84,7 +94,7 @@ scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& f
   if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0) return camera;
   for (const scene::Link& link : machine.links) names.push_back(link.name);
   faults.error(*fields.child("link"), camera.link, "no link of this name in the machine",
-               suggestion(camera.link, names));
+               faults.nearest(camera.link, names));
   return camera;
 }
 
@@ -96,7 +106,8 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   }
   scene::Light light;
   std::vector<double> v;
-  if (Element* e = element.FirstChildElement("direction"); e && read_numbers(*e, 3, {}, v, faults)) {
+  Faults seen;  // check_sdf has told what is no number
+  if (Element* e = element.FirstChildElement("direction"); e && read_numbers(*e, 3, {}, v, seen)) {
     light.direction = Vec3(v[0], v[1], v[2]);
     if (light.direction.norm() < 1e-9)
       faults.error(*e, text_of(*e), "a direction must not be zero");
@@ -123,7 +134,7 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::S
     std::vector<std::string> names;
     for (const scene::Soil& soil : world.soils) names.push_back(soil.name);
     faults.error(*fields.child("soil"), instance.load.soil, "no soil of this name in the world",
-                 suggestion(instance.load.soil, names));
+                 faults.nearest(instance.load.soil, names));
   }
   if (!instance.machine.links.empty() && instance.machine.beds.empty())
     // A machine without links is one that could not be read.
@@ -145,7 +156,24 @@ struct Known {
   const scene::StepKinds& kinds;
   bool ground = false;     ///< the site was read without errors
   bool sdf_sound = false;  ///< and so was the SDF of the file
+  /// Machines by their files: forty excavators are read once, and a fault in their file is told once.
+  std::map<std::string, MachineFile>& files;
 };
+
+/// The machine of a file, read at its first use.
+const scene::Machine& machine_of(const std::string& path, const Known& known, Faults& faults) {
+  const auto [at, is_new] = known.files.try_emplace(path);
+  MachineFile& file = at->second;
+  const std::size_t before = faults.work.elements;
+  if (is_new) {
+    file.machine = read_machine_file(path, faults);
+    file.elements = faults.work.elements - before;
+  } else {
+    // A copy is cheaper than reading, but not for nothing: the scene that is written out holds them all.
+    faults.work.elements += file.elements;
+  }
+  return file.machine;
+}
 
 // What <include> and an inline <model> share: place, joints, program.
 void read_instance(Element& element, scene::MachineInWorld& instance, const scene::Scene& world, const Known& known,
@@ -181,10 +209,18 @@ scene::MachineInWorld read_include(Element& element, const scene::Scene& world, 
   if (!uri) {
     faults.error(element, "", "needs an element <uri>", "e.g. <uri>model://ew180</uri>");
   } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
-    instance.machine = read_machine_file(path, faults);
+    if (faults.work.elements > limits::kSceneElements) {
+      faults.error(
+          element, text_of(*uri),
+          "a scene and its machines may have at most " + std::to_string(limits::kSceneElements) + " elements together",
+          "use fewer or simpler machines");
+      return instance;
+    }
+    instance.machine = machine_of(path, known, faults);
   }
   // Unnamed, it goes by its model's name; two of one kind must be told apart by <name>.
   instance.name = element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
+  if (const Element* name = element.FirstChildElement("name")) check_name(*name, instance.name, faults);
   const std::string is_static = child_text(element, "static");
   if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
   read_instance(element, instance, world, known, faults);
@@ -201,7 +237,6 @@ void read_soils(Element& world_element, scene::Scene& world, Faults& faults) {
   }
   if (!world_element.FirstChildElement("navvy:soil"))
     faults.error(world_element, "", "a world needs a soil", "add <navvy:soil ref=\"loam\"/>");
-  if (world.soils.size() > 255) faults.error(world_element, std::to_string(world.soils.size()), "at most 255 soils");
 }
 
 void check_grid(const Element& world_element, const scene::Scene& world, Faults& faults) {
@@ -296,7 +331,8 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
                  "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
   }
   const bool ground_known = ground && faults.error_count() == before_ground;
-  read_machines(*element, world, {kinds, ground_known, sdf_sound}, faults);
+  std::map<std::string, MachineFile> files;
+  read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/xml.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
@@ -9,21 +8,36 @@
 
 #include "core/edit_distance.h"
 #include "core/file.h"
+#include "core/limits.h"
 #include "core/log.h"
+#include "core/utf8.h"
+#include "scene_io/xml_limits.h"
 
 namespace navvy::scene_io {
 
+namespace {
+/// One line of text in UTF-8, whatever was written.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  // The cut of a long value may have gone through a letter.
+  for (std::size_t bad = first_bad_utf8(text); bad != std::string::npos; bad = first_bad_utf8(text)) text[bad] = '?';
+  return text;
+}
+}  // namespace
+
 void Faults::add_at(Fault::Severity severity, const Element& at, const std::string& value, const std::string& rule,
                     const std::string& remedy) {
+  if (!count(severity)) return;
   Fault fault;
   fault.severity = severity;
   // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
   fault.line = at.GetLineNum();
   // Only a document that was parsed has lines; without one, the command line is what added the element.
   fault.file = fault.line > 0 ? Document::of(at).file() : "command line";
-  fault.element = element_path(at);
+  fault.element = printable(element_path(at));
   // A value may be a whole broken file; the start of it is enough to find it.
-  fault.value = value.size() > 80 ? value.substr(0, 77) + "..." : value;
+  fault.value = value.size() > 80 ? printable(value.substr(0, 77)) + "..." : printable(value);
   fault.rule = rule;
   fault.remedy = remedy;
   list_.push_back(std::move(fault));
@@ -37,10 +51,24 @@ void Faults::warning(const Element& at, const std::string& value, const std::str
   add_at(Fault::Severity::kWarning, at, value, rule, remedy);
 }
 
-std::size_t Faults::error_count() const {
-  // Counted anew at each call: lists are short, and a counter could get out of step.
-  return static_cast<std::size_t>(std::count_if(
-      list_.begin(), list_.end(), [](const Fault& fault) { return fault.severity == Fault::Severity::kError; }));
+std::string Faults::nearest(const std::string& word, const std::vector<std::string>& candidates) const {
+  return errors_.all < limits::kFaultsShown ? suggestion(word, candidates) : "";
+}
+
+void Faults::add(Fault fault) {
+  if (count(fault.severity)) list_.push_back(std::move(fault));
+}
+
+bool Faults::count(Fault::Severity severity) {
+  Told& told_of = told(severity);
+  if (++told_of.all <= limits::kFaultsShown) return true;
+  if (told_of.all == limits::kFaultsShown + 1) {
+    told_of.rest_at = list_.size();
+    list_.push_back({severity, "", 0, "", "", "", "mend those above first"});
+  }
+  list_[told_of.rest_at].rule =
+      "and " + std::to_string(told_of.all - limits::kFaultsShown) + " more that are not shown";
+  return false;
 }
 
 // Warnings alone do not stop anybody; with an error among them they are told together, so that a file is mended once.
@@ -52,15 +80,16 @@ void Faults::finish() const {
 std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults) {
   Fault fault;
   fault.file = file;
-  std::error_code ignored;
-  // Reading a directory fails on some systems only at the first byte, with a message that helps nobody.
-  if (std::filesystem::is_directory(file, ignored)) {
-    fault.rule = "this is a directory, a file is needed";
-    faults.add(fault);
-    return nullptr;
-  }
+  ++faults.work.files;
   try {
-    const std::vector<char> bytes = read_file(file);
+    const std::vector<char> bytes = read_file(file, limits::kXmlBytes);
+    faults.work.bytes += bytes.size();
+    if (faults.work.bytes > limits::kSceneBytes) {
+      fault.rule = "the files of a scene may have at most " + std::to_string(limits::kSceneBytes) + " bytes together";
+      fault.remedy = "split the scene, or name fewer soils and machines";
+      faults.add(fault);
+      return nullptr;
+    }
     return parse(std::string(bytes.begin(), bytes.end()), file, faults);
     // A file that another one names may be missing like any other; the list says so with its name.
   } catch (const FileError& failure) {
@@ -72,6 +101,7 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
 }
 
 std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name, Faults& faults) {
+  if (!check_text(text, name, faults)) return nullptr;
   std::unique_ptr<Document> document(new Document);
   document->file_ = name;
   // Elements know their tinyxml2 document only; this leads from there to the file's name. The Document is on the heap
@@ -93,6 +123,9 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
     faults.add(fault);
     return nullptr;
   }
+  if (!check_tree(*document->root(), faults)) return nullptr;
+  document->elements_ = count_elements(text);
+  faults.work.elements += document->elements_;
   return document;
 }
 

@@ -15,24 +15,47 @@ namespace navvy::scene_io {
 
 using Element = tinyxml2::XMLElement;
 
+/// What reading has taken so far. Counted, because the limits of core/limits.h hold for a scene as a whole.
+struct Work {
+  std::size_t files = 0;     ///< XML files opened
+  std::size_t bytes = 0;     ///< of them
+  std::size_t elements = 0;  ///< of them, an included machine's at each use
+  std::size_t models = 0;    ///< models read through libsdformat
+  std::size_t meshes = 0;    ///< OBJ files read
+};
+
 /// Collects faults; an element added by an override (line 0) is reported as coming from the command line. Readers go on
-/// after a fault, so one list holds all of a scene and of the files it names.
+/// after a fault, so one list holds all of a scene and of the files it names; of very many the first are told, and how
+/// many more there are.
 class Faults {
  public:
   /// `at` gives file, line and path; `value` is what was found, `rule` what is allowed, `remedy` what to do.
   void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
   void warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
-  void add(Fault fault) { list_.push_back(std::move(fault)); }
+  /// `suggestion` of core/edit_distance.h, or nothing when the fault would not be told: it is dear.
+  std::string nearest(const std::string& word, const std::vector<std::string>& candidates) const;
+  void add(Fault fault);
   bool has_errors() const { return error_count() > 0; }
-  std::size_t error_count() const;
+  /// All of them, told or not.
+  std::size_t error_count() const { return errors_.all; }
   const std::vector<Fault>& list() const { return list_; }
   /// Throws InputError with the whole list if it holds an error; else logs the warnings.
   void finish() const;
 
+  Work work;
+
  private:
+  /// Faults of one severity, and where the list says how many were left out.
+  struct Told {
+    std::size_t all = 0, rest_at = 0;
+  };
+  Told& told(Fault::Severity severity) { return severity == Fault::Severity::kError ? errors_ : warnings_; }
+  /// Counts one more fault; false when it is not to be told.
+  bool count(Fault::Severity severity);
   void add_at(Fault::Severity severity, const Element& at, const std::string& value, const std::string& rule,
               const std::string& remedy);
   std::vector<Fault> list_;
+  Told errors_, warnings_;
 };
 
 /// One XML file. Its elements live as long as it does. It is made on the heap and stays where it is, as its elements
@@ -48,6 +71,7 @@ class Document {
   const std::string& file() const { return file_; }
   std::string directory() const;
   Element* root() { return xml_.RootElement(); }
+  std::size_t elements() const { return elements_; }
   /// The file's text as it is now, comments included.
   std::string text() const;
 
@@ -55,6 +79,7 @@ class Document {
   Document() = default;
   tinyxml2::XMLDocument xml_;
   std::string file_;
+  std::size_t elements_ = 0;
 };
 
 /// "world/navvy:soil[loam]/cohesion_pa": names in brackets, or the 1-based place among equal siblings.

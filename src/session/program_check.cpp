@@ -69,7 +69,7 @@ class BedCheck {
     // Programs read from a file know the line of every step; those built in code do not.
     const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
     faults.push_back({Fault::Severity::kWarning, world_.file, line,
-                      digger.machine.name + "/navvy:program/step " + std::to_string(step + 1) + "/" +
+                      digger.name + "/navvy:program/step " + std::to_string(step + 1) + "/" +
                           digger.program.steps[step]->element() + "/dump_height",
                       metres(dump.height), "the bed of '" + truck.name + "' is " + metres(rim) + " high there",
                       "dump from " + metres(rim + kUnderTip) + " or higher, or the bucket strikes the bed"});
@@ -93,7 +93,8 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
   // Errors first: a dig out of reach is worse than one that drops its load too low.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file))
+    for (Fault& fault :
+         control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file, placed.name))
       faults.push_back(std::move(fault));
   }
   BedCheck beds(world, surface, X_WB);

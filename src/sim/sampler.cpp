@@ -7,13 +7,9 @@
 
 #include "core/error.h"
 #include "sim/names.h"
+#include "sim/timing.h"
 
 namespace navvy::sim {
-namespace {
-
-constexpr double kHair = 1e-9;  // time = steps x dt is rounded: a period counts as over this share of it early
-
-}  // namespace
 
 // Scalars and arrays share one name space, so that a client may look a name up without knowing which of them it is.
 void Publisher::require_new(const std::string& name) const {
@@ -80,10 +76,7 @@ SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, Arr
   publisher_.commit();
 }
 
-bool SamplerSlot::due(double before, double time) const {
-  // Counted from the start of time and not from the last sample: a resumed run samples at the same steps.
-  return rate_ == 0 || std::floor(time * rate_ + kHair) > std::floor(before * rate_ + kHair);
-}
+bool SamplerSlot::due(std::uint64_t step, double dt) const { return rate_ == 0 || sample_due(step, dt, rate_); }
 
 void SamplerSlot::sample(const World& world, double time) {
   // The world's time, so that all samples of one step carry the same stamp.

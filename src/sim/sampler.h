@@ -3,6 +3,7 @@
 // only; a new one is a class of its own and `world.add(...)`, and nothing else changes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -91,8 +92,8 @@ class SamplerSlot {
   SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays);
 
   const std::string& name() const { return name_; }
-  /// True when a multiple of the period lies after `before` and not after `time` [s].
-  bool due(double before, double time) const;
+  /// True when step `step` of `dt` [s] is the nearest to a multiple of the period (sim/timing.h).
+  bool due(std::uint64_t step, double dt) const;
   /// Takes a sample stamped `time` [s].
   void sample(const World& world, double time);
   /// The numbers it published, and its own state. Loads into a slot of the same name only.

@@ -2,6 +2,9 @@
 // The terrain of a world at this instant.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "heightfield/terrain_view.h"
 #include "sim/world.h"
 
@@ -13,5 +16,16 @@ namespace navvy::sim {
 /// The columns alone cost what was changed since the last view, microseconds; loose soil costs a pass over the
 /// particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
+
+/// Where the soil is that is awake [docs/exchange.md, maps]. Masses by soil of the scene [kMassQuantum]; the three of a
+/// soil sum up to what the ledger calls particles, to the unit.
+struct AwakePlaces {
+  heightfield::LooseSoil lying;         ///< on columns: what maps add to them
+  std::vector<std::int64_t> lies;       ///< mass of that
+  std::vector<std::int64_t> held;       ///< in buckets and beds, where payloads count it
+  std::vector<std::int64_t> elsewhere;  ///< in the air, or on a tool above its rim
+};
+/// Costs a pass over the particles.
+AwakePlaces awake_places(const World& world);
 
 }  // namespace navvy::sim

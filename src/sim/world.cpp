@@ -16,6 +16,9 @@
 namespace navvy::sim {
 namespace {
 
+constexpr double kHighestRate = 1e5;  // of a controller, as scenes may say [1/s]
+constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
+
 // Commands come from clients, also over a line of text: what an engine cannot use stops here.
 void require_machine(int machine, int count) {
   if (machine >= 0 && machine < count) return;
@@ -44,17 +47,16 @@ const WorldParts& parts(const World& world) { return *world.parts_; }
 // Plain answers from the parts.
 const scene::Scene& World::description() const { return parts_->description; }
 double World::dt() const { return parts_->dt; }
+double World::longest_step() const { return parts_->longest_step; }
 std::uint64_t World::steps() const { return parts_->steps; }
 double World::time() const { return parts_->time(); }
 
 /// Samplers come last, so that all of them see the same instant; none of them changes what another one sees.
 void World::step() {
-  // The time before the step decides which samplers fell due in it.
-  const double before = time();
   parts_->coupling.step(parts_->dt);
   ++parts_->steps;
   for (const auto& slot : parts_->samplers)
-    if (slot->due(before, time())) slot->sample(*this, time());
+    if (slot->due(steps(), dt())) slot->sample(*this, time());
 }
 
 // Look-ups go through a map once; clients keep the index.
@@ -209,9 +211,15 @@ void World::visit(Archive& a) {
   WorldParts& p = *parts_;
   SnapshotHead head{p.description.name, p.dt, p.steps};
   a("head", head);
-  // Time is steps x dt: another step would put the same count at another time.
-  a.require(head.dt == p.dt, "head/dt", "the snapshot has another base step; load it with the same solver settings");
-  if (a.loading()) p.steps = head.steps;
+  // Time is steps x dt, so the snapshot's step goes on whatever control rate chose it, as long as it is stable here.
+  // No control rate makes it shorter than half the longest, or than its own period.
+  const double least = std::min(0.5 * p.longest_step, 1 / kHighestRate);
+  a.require(head.dt >= least * (1 - kRounding) && head.dt <= p.longest_step * (1 + kRounding), "head/dt",
+            "the snapshot has another base step than this scene can have; load it with the same solver settings");
+  if (a.loading()) {
+    p.steps = head.steps;
+    p.dt = head.dt;
+  }
   a("ground", p.ground);
   a("soil", p.soil);
   a("dynamic_machines", *p.dynamic);

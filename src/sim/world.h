@@ -41,7 +41,8 @@ class World {
 
   /// The scene it was built from, with the order of machines, joints, soils that all indices follow.
   const scene::Scene& description() const;
-  double dt() const;  ///< base step [s]
+  double dt() const;            ///< base step [s]; a loaded snapshot brings its own
+  double longest_step() const;  ///< that soil and scene allow; a control rate makes the base step shorter [s]
   std::uint64_t steps() const;
   double time() const;  ///< steps x dt [s]
 

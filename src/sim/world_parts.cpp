@@ -10,6 +10,7 @@
 #include "core/log.h"
 #include "heightfield/site.h"
 #include "sim/snapshot.h"
+#include "sim/timing.h"
 
 namespace navvy::sim {
 namespace {
@@ -38,7 +39,9 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
   start = start_of(description, ground);
   start_hash = hash_of_start(start);
   // The step of everything is what waves in the stiffest soil and the fastest tool allow.
-  dt = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
+  longest_step = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
+  const double rate = description.solver.control_rate;
+  dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
   if (!(dt > 0) || !std::isfinite(dt))
     throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
                            "the base step must be positive and finite",

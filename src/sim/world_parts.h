@@ -54,7 +54,8 @@ struct WorldParts {
   /// What the run starts from, by name, and its hash: taken once, as neither ever changes.
   scene::Parameters start;
   std::uint64_t start_hash = 0;
-  double dt = 0;  ///< base step [s]
+  double longest_step = 0;  ///< that soil and scene allow [s]
+  double dt = 0;            ///< base step [s]
   std::uint64_t steps = 0;
 
  private:

@@ -85,6 +85,9 @@ class Solver {
   /// there: the payload. A bed does not carry the soil in a bucket that reaches into it.
   double payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except = {}) const;
 
+  /// By particle of `particles`, in W, whether one of the tools holds it: 1 or 0, as `payload` would count it.
+  std::vector<std::uint8_t> held(std::span<const Particle> particles, std::span<const PlacedTool> tools) const;
+
   Ledger ledger() const;
   const SolverStats& stats() const;
   /// Seconds of wall time by stage name ("p2g", "grid", "exchange", ...).

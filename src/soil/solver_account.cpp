@@ -89,6 +89,31 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
   return kilograms(sum);
 }
 
+std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles, std::span<const PlacedTool> tools) const {
+  std::vector<std::uint8_t> out(particles.size(), 0);
+  for (const PlacedTool& tool : tools) {
+    const ShellGeometry& geometry = state_->contact.geometry(tool.tool);
+    const Pose X_TW = tool.X_WT.inverse();
+    // Most particles are far from any tool: a box in W answers for them.
+    Vec3 low = Vec3::Constant(1e300), high = -low;
+    for (const Vec3& corner : geometry.hull_points()) {
+      low = low.cwiseMin(tool.X_WT * corner);
+      high = high.cwiseMax(tool.X_WT * corner);
+    }
+    int closest = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (out[i] != 0) continue;
+      Vec3 grid;
+      for (int a = 0; a < 3; ++a)
+        grid[a] = kBlockCells * particles[i].block[a] + static_cast<double>(particles[i].x[a]);
+      const Vec3 p_W = state_->origin + grid * state_->cell;
+      if ((p_W.array() < low.array()).any() || (p_W.array() > high.array()).any()) continue;
+      out[i] = geometry.holds(X_TW * p_W, closest) ? 1 : 0;
+    }
+  }
+  return out;
+}
+
 const Vec3& Solver::grid_origin() const { return state_->origin; }
 const PlanGrid& Solver::grid() const { return state_->grid; }
 const SolverStats& Solver::stats() const { return state_->stats; }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -52,6 +53,18 @@ TEST_F(File, MayBeEmpty) {
   EXPECT_EQ(text(path("a")), "");
 }
 
+TEST_F(File, IsReadOnlyWhenItIsPlainAndOnlySoFar) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", path("zero"));
+  EXPECT_EQ(message([&] { read_file(path("pipe")); }),
+            "cannot read '" + path("pipe") + "': it is a pipe, a plain file is needed");
+  EXPECT_NE(message([&] { read_file(path("zero")); }).find("it is a device"), std::string::npos);
+  EXPECT_NE(message([&] { read_file(path("")); }).find("it is a directory"), std::string::npos);
+  write_file_atomically(path("a"), std::string("12345"));
+  EXPECT_EQ(read_file(path("a"), 5).size(), 5u);
+  EXPECT_NE(message([&] { read_file(path("a"), 4); }).find("it has more than 4 bytes"), std::string::npos);
+}
+
 TEST_F(File, KeepsItsOldContentWhenTheDiskIsFull) {
   write_file_atomically(path("a"), std::string("old"));
   // The neighbour that is written first leads to a device that is always full.
@@ -82,7 +95,8 @@ TEST_F(File, KeepsItsOldContentWhenItIsCutInTheMiddle) {
 TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
   EXPECT_EQ(message([&] { read_file(path("absent")); }),
             "cannot read '" + path("absent") + "': No such file or directory");
-  EXPECT_EQ(message([&] { read_file(path("")); }), "cannot read '" + path("") + "': Is a directory");
+  EXPECT_EQ(message([&] { read_file(path("")); }),
+            "cannot read '" + path("") + "': it is a directory, a plain file is needed");
   EXPECT_EQ(message([&] { write_file_atomically(path("no/where"), std::string("x")); }),
             "cannot create '" + path("no/where.part") + "': No such file or directory");
 }

@@ -73,7 +73,7 @@ std::vector<std::string> small_run(bool drawing) {
   return out;
 }
 
-std::string broken_files(const std::string& out) {
+std::string broken_files(const std::string& out, bool killed) {
   if (!fs::exists(out)) return "";
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     if (!entry.is_regular_file()) continue;
@@ -82,7 +82,7 @@ std::string broken_files(const std::string& out) {
     if (ends_with(name, ".json"))
       whole = nlohmann::json::accept(text);
     else if (ends_with(name, ".csv"))
-      whole = is_table(text);
+      whole = is_table(killed ? text.substr(0, text.rfind('\n') + 1) : text);
     else if (ends_with(name, ".tif"))
       whole = is_geotiff(text);
     else if (ends_with(name, ".png"))
@@ -119,7 +119,7 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
   }
   const bool killed = with.kill_after > 0 && got.status == -SIGKILL;
   static const std::set<int> kTable = {0, 1, 2, 3, 4, 5, 6, 130};
-  got.broken = broken_files(out);
+  got.broken = broken_files(out, killed);
   if (!got.broken.empty()) return got;
   if (killed) return got;
   if (kTable.count(got.status) == 0)

@@ -33,8 +33,9 @@ std::vector<std::string> small_run(bool drawing);
 Outcome attack(const std::string& folder, const std::vector<std::string>& arguments, const Attack& with,
                const std::string& hash = "");
 
-/// Why the files of a run are not whole; empty when they are.
-std::string broken_files(const std::string& out);
+/// Why the files of a run are not whole; empty when they are. Tables of one that was `killed` may end in a line without
+/// its end, which readers leave out.
+std::string broken_files(const std::string& out, bool killed = false);
 
 /// How often the calls that the shim counts were made in the run, by name.
 std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,

@@ -8,8 +8,10 @@
 #include "core/error.h"
 #include "heightfield/file_rows.h"
 #include "heightfield/grounds.h"
+#include "heightfield/loose_soil.h"
 #include "heightfield/maps.h"
 #include "heightfield/site.h"
+#include "heightfield/terrain_view.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #endif
@@ -108,6 +110,35 @@ TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
   const std::vector<double> before = located(dir + "feet.tif", points), after = located(dir + "out.tif", points);
   ASSERT_EQ(after.size(), 2u);
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
+}
+
+TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
+  const std::string dir = folder();
+  const Ground ground = marked(100, 200, 0);
+  const double top = ground.height(5, 6);
+  const TerrainView view =
+      ground.view().with(LooseSoil(ground.view(), {{5, 6, top, 0.0015, 0, 1.2f}}), SurfaceKind::kMapped);
+  write_geotiff(view, dir + "awake.tif", {"loose_depth", "awake"});
+  write_geotiff(view, dir + "plain.tif");
+  std::string report;
+  const Ground read = make_ground(testing::map_world(dir + "awake.tif", 0.1, Vec2(7.7, 4.5)), &report);
+  EXPECT_NE(report.find("3 bands"), std::string::npos) << report;
+  const Ground plain = make_ground(testing::map_world(dir + "plain.tif", 0.1, Vec2(7.7, 4.5)));
+  for (int iy = 0; iy < read.ny(); ++iy)
+    for (int ix = 0; ix < read.nx(); ++ix) ASSERT_EQ(read.height(ix, iy), plain.height(ix, iy));
+  EXPECT_THROW(write_geotiff(view, dir + "none.tif", {"lose_depth"}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(dir + "none.tif"));
+  if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
+  // A point's values, band after band.
+  const std::vector<double> values = located(dir + "awake.tif", {{100.55, 200.65}, {100.75, 200.65}});
+  ASSERT_EQ(values.size(), 6u);
+  EXPECT_NEAR(values[0], top + 0.15, 1e-6);  // 1.5 l on 0.01 m2; half an ulp of a float at 1 m
+  EXPECT_NEAR(values[1], 0.15, 1e-6);
+  EXPECT_EQ(values[2], 1);
+  EXPECT_NEAR(values[3], ground.height(7, 6), 1e-6);
+  EXPECT_EQ(values[4], 0);
+  EXPECT_EQ(values[5], 0);
+  EXPECT_NE(testing::output_of("gdalinfo '" + dir + "awake.tif'").find("loose_depth"), std::string::npos);
 }
 
 TEST(Export, WritesALayerOfARectangle) {

@@ -3,10 +3,12 @@
 #include "heightfield/gdal/import.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <set>
 
 #include "core/error.h"
+#include "core/limits.h"
 #include "heightfield/maps.h"
 #include "heightfield/site.h"
 
@@ -268,6 +270,45 @@ TEST(Import, RefusesDamagedFilesQuietly) {
     EXPECT_TRUE(contains(message, file)) << file << ": " << message;
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Import, RefusesWordsAmongTheNumbersOfAnAsciiGrid) {
+  const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
+  const auto grid = [&](const std::string& word) {
+    return ascii_grid(13, 7, header, [&](int c, int r) { return c == 6 && r == 3 ? word : std::string("5.5"); });
+  };
+  // Row 3 of the heights is line 9: five lines of header before it.
+  for (const char* word : {"abc", "12abc", "--3", "1.2.3", "0x10", "#", "5;5"}) {
+    const std::string file = write_text(folder() + "words.asc", grid(word));
+    const std::string message = message_of(map_world(file, 0.5, Vec2(4, 4)));
+    EXPECT_TRUE(contains(message, file + ":9: error: terrain: '" + std::string(word) + "'")) << message;
+  }
+  for (const char* number : {"7", "-1.5e-1", "+3", "4,25", "nan", "-9999", "1.#QNAN"}) {
+    const std::string file = write_text(folder() + "numbers.asc", grid(number));
+    EXPECT_EQ(message_of(map_world(file, 0.5, Vec2(4, 4))), "") << number;
+  }
+  const std::string key = write_text(folder() + "key.asc", ascii_grid(13, 7, header + "colour 3\n", asymmetric_text));
+  EXPECT_TRUE(contains(message_of(map_world(key, 0.5, Vec2(4, 4))), "'colour'"));
+}
+
+TEST(Import, RefusesPipesAndDevicesAsMapsAndBesideThem) {
+  const std::string dir = folder();
+  ASSERT_EQ(::mkfifo((dir + "pipe.tif").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "no plain file"));
+  EXPECT_TRUE(contains(message_of(map_world("/dev/zero", 0.5, Vec2(4, 4))), "no plain file"));
+  const std::string map =
+      write_text(dir + "Site.asc", ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
+  EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
+  // Other files of the map's name are nobody's business; GDAL looks for capitals too.
+  ASSERT_EQ(::mkfifo((dir + "Site.txt").c_str(), 0600), 0);
+  EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
+  for (const char* name : {"Site.prj", "SITE.PRJ", "Site.asc.aux.xml"}) {
+    ASSERT_EQ(::mkfifo((dir + name).c_str(), 0600), 0);
+    EXPECT_TRUE(contains(message_of(map_world(map, 0.5, Vec2(4, 4))), std::string(name) + "': it is a pipe")) << name;
+    std::filesystem::remove(dir + name);
+  }
+  write_text(dir + "Site.prj", std::string(limits::kMapSidecarBytes + 1, ' '));
+  EXPECT_TRUE(contains(message_of(map_world(map, 0.5, Vec2(4, 4))), "a file beside a map may have"));
 }
 
 TEST(Import, ReadsTheLidarMapOfMinnesota) {

@@ -147,6 +147,11 @@ TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   const LooseSoil closed(
       ground, {{5, 5, top + 0.26, 0.0005, 0, 1}, {5, 5, top, 0.0005, 1, 1}, {5, 5, top + 0.2, 0.0005, 1, 1}});
   EXPECT_NEAR(closed.columns().at(0).depth, 0.15, 1e-12);
+  // It tells which of them lie, so that masses can be told apart by where they are.
+  EXPECT_EQ(closed.grains().size(), 3u);
+  ASSERT_EQ(loose.grains().size(), 2u);
+  EXPECT_EQ(loose.grains()[0].soil, 1);
+  EXPECT_EQ(loose.grains()[1].iy, 6);
   EXPECT_TRUE(LooseSoil(ground, {}).columns().empty());
 }
 

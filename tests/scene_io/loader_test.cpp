@@ -290,6 +290,42 @@ TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
   EXPECT_EQ(longer.machines[0].program.steps[0].as<control::Wait>()->duration, 9);
 }
 
+TEST(Overrides, APoseWithAQuaternionKeepsItsTurn) {
+  std::string body = kBody;
+  const std::string old = "<pose degrees=\"true\">1 2 0.5 0 0 90</pose>";
+  // Turned by 90 deg about z, then pitched by none: the same pose as before.
+  body.replace(body.find(old), old.size(),
+               "<pose rotation_format=\"quat_xyzw\">1 2 0.5 0 0 0.7071067811865476 0.7071067811865476</pose>");
+  const Pose before = load(body).machines[0].X_WM;
+  const Pose moved = load(body, set("machine[first].x_m=-3.25")).machines[0].X_WM;
+  EXPECT_EQ(Vec3(moved.translation()), Vec3(-3.25, 2, 0.5));
+  EXPECT_EQ(Mat3(moved.linear()), Mat3(before.linear())) << "not even rounded";
+  const Pose turned = load(body, set("machine[first].yaw_deg=180")).machines[0].X_WM;
+  EXPECT_EQ(Vec3(turned.translation()), Vec3(1, 2, 0.5));
+  // 1e-12: rounding of the rotation by 180 degrees.
+  EXPECT_LT((turned.linear() * Vec3::UnitX() + Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((turned.linear() * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 1e-12);
+}
+
+TEST(Overrides, AMachineIsMeantByItsWholeName) {
+  std::string body = kBody;
+  const std::string named = "<uri>model://test_bucket</uri><name>second</name>";
+  body.replace(body.find(named), named.size(), "<uri>model://test_bucket</uri>");
+  EXPECT_EQ(load(body, set("machine[test_bucket].x_m=1")).machines[1].X_WM.translation().x(), 1);
+  EXPECT_NE(failure(body, set("machine[test].x_m=1")).find("no 'machine[test]'"), std::string::npos);
+  EXPECT_NE(failure(body, set("machine[test_buck].x_m=1")).find("no 'machine[test_buck]'"), std::string::npos);
+}
+
+TEST(Loader, ADirectionsFaultIsToldOnce) {
+  for (const char* direction : {"0 0 0", "0 0 x", "0 0"}) {
+    const std::string told =
+        failure("<navvy:soil ref=\"loam\"/><navvy:ground/><light name=\"sun\" type=\"directional\"><direction>" +
+                std::string(direction) + "</direction></light>");
+    EXPECT_NE(told.find("direction"), std::string::npos) << told;
+    EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+  }
+}
+
 TEST(Overrides, SeedDurationRenderTerrainAndSize) {
   Overrides overrides;
   overrides.seed = 7;

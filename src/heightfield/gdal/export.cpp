@@ -15,6 +15,7 @@
 #include "core/file.h"
 #include "heightfield/file_rows.h"
 #include "heightfield/gdal/session.h"
+#include "heightfield/map_view.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -25,7 +26,13 @@ constexpr int kStripRows = 32;
 /// Fills `out` with rows [y0, y1) of the rectangle, row y0 first.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
-void write(const Terrain& terrain, const CellRect& rect, const RowSource& rows, const std::string& path) {
+/// One band of the file: where its values come from; name and unit, empty for heights in the file's own unit.
+struct Band {
+  RowSource rows;
+  std::string name, unit;
+};
+
+void write(const Terrain& terrain, const CellRect& rect, const std::vector<Band>& bands, const std::string& path) {
   const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
   const std::string part = partial_name(path);
   GdalSession session;
@@ -35,10 +42,17 @@ void write(const Terrain& terrain, const CellRect& rect, const RowSource& rows, 
     ::unlink(part.c_str());
     throw FileError("cannot write '" + path + "': " + session.cause(action));
   };
-  const char* const options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", "BLOCKYSIZE=32", "BIGTIFF=IF_SAFER", nullptr};
+  // Bands one after the other; a file of one band is as it always was.
+  const char* const options[] = {"COMPRESS=DEFLATE",
+                                 "PREDICTOR=3",
+                                 "BLOCKYSIZE=32",
+                                 "BIGTIFF=IF_SAFER",
+                                 bands.size() > 1 ? "INTERLEAVE=BAND" : nullptr,
+                                 nullptr};
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   check(driver != nullptr, "this GDAL cannot write GeoTIFF");
-  std::unique_ptr<GDALDataset> data(driver->Create(part.c_str(), nx, ny, 1, GDT_Float32, const_cast<char**>(options)));
+  std::unique_ptr<GDALDataset> data(
+      driver->Create(part.c_str(), nx, ny, static_cast<int>(bands.size()), GDT_Float32, const_cast<char**>(options)));
   check(data != nullptr, "the file cannot be created");
   const GroundSetup& setup = terrain.setup();
   // Row 0 of the file is the northern edge.
@@ -50,17 +64,22 @@ void write(const Terrain& terrain, const CellRect& rect, const RowSource& rows, 
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (crs.importFromWkt(setup.crs_wkt.c_str()) == OGRERR_NONE) data->SetSpatialRef(&crs);
   }
-  GDALRasterBand* band = data->GetRasterBand(1);
-  band->SetNoDataValue(kExportNodata);
-  // From the north down, whole strips of the file at a time.
+  // GDAL has one such value for all bands of a GeoTIFF.
+  data->GetRasterBand(1)->SetNoDataValue(kExportNodata);
   std::vector<float> strip;
-  for (int top = 0; top < ny; top += kStripRows) {
-    const int bottom = std::min(top + kStripRows, ny);
-    rows(ny - bottom, ny - top, strip);
-    for (int row = top; row < bottom; ++row)
-      check(band->RasterIO(GF_Write, 0, row, nx, 1, strip.data() + static_cast<std::size_t>(bottom - 1 - row) * nx, nx,
-                           1, GDT_Float32, 0, 0, nullptr) == CE_None,
-            "a row cannot be written");
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    GDALRasterBand* band = data->GetRasterBand(static_cast<int>(b) + 1);
+    if (!bands[b].name.empty()) band->SetDescription(bands[b].name.c_str());
+    if (!bands[b].unit.empty()) band->SetUnitType(bands[b].unit.c_str());
+    // From the north down, whole strips of the file at a time.
+    for (int top = 0; top < ny; top += kStripRows) {
+      const int bottom = std::min(top + kStripRows, ny);
+      bands[b].rows(ny - bottom, ny - top, strip);
+      for (int row = top; row < bottom; ++row)
+        check(band->RasterIO(GF_Write, 0, row, nx, 1, strip.data() + static_cast<std::size_t>(bottom - 1 - row) * nx,
+                             nx, 1, GDT_Float32, 0, 0, nullptr) == CE_None,
+              "a row cannot be written");
+    }
   }
   data.reset();  // flushes; a full disk shows here at the latest
   // What GeoTIFF cannot say about an exotic CRS, GDAL puts beside the file: under the wrong name, so away with it.
@@ -72,9 +91,21 @@ void write(const Terrain& terrain, const CellRect& rect, const RowSource& rows, 
 }  // namespace
 
 void write_geotiff(const Terrain& terrain, const std::string& path) {
+  write_geotiff(terrain, path, std::vector<std::string>{});
+}
+
+void write_geotiff(const Terrain& terrain, const std::string& path, const std::vector<std::string>& layers) {
   const CellRect site{0, 0, terrain.nx(), terrain.ny()};
-  write(
-      terrain, site, [&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, path);
+  std::vector<Band> bands = {
+      {[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "", ""}};
+  for (const std::string& name : layers) {
+    const MapLayer& layer = map_layer(name);
+    const auto rows = [&terrain, &layer](int y0, int y1, std::vector<float>& out) {
+      out = map_view(terrain, layer.name, CellRect{0, y0, terrain.nx(), y1}).values;
+    };
+    bands.push_back({rows, layer.name, layer.unit});
+  }
+  write(terrain, site, bands, path);
 }
 
 void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
@@ -88,7 +119,7 @@ void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const
     out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
                values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
   };
-  write(terrain, rect, rows, path);
+  write(terrain, rect, {{rows, "", ""}}, path);
 }
 
 }  // namespace navvy::heightfield

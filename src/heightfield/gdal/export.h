@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "heightfield/terrain.h"
 
@@ -14,6 +15,9 @@ namespace navvy::heightfield {
 /// strip, so a large site needs no copy. A kill leaves the old file or the new one.
 /// @throws FileError naming path and cause.
 void write_geotiff(const Terrain& terrain, const std::string& path);
+/// The same with map layers (heightfield/map_view.h) as further bands, under their names and in the layers' own units;
+/// who reads heights takes the first band. @throws InputError when there is no such layer.
+void write_geotiff(const Terrain& terrain, const std::string& path, const std::vector<std::string>& layers);
 
 /// Same for any dense layer over `rect` of the ground (x fastest, row 0 = least y), values written as they are.
 /// @throws Error when sizes do not fit, FileError.

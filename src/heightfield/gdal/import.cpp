@@ -15,15 +15,14 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/limits.h"
+#include "heightfield/ascii_words.h"
+#include "heightfield/gdal/beside.h"
 #include "heightfield/gdal/session.h"
 
 namespace navvy::heightfield {
 namespace {
 
-// Map cells kept in memory: 100 MB of float, a square of 5 km at 1 m.
-constexpr double kMostMapCells = 2.5e7;
-// One block of a file that is read at once; a damaged header may promise anything.
-constexpr double kMostBlockBytes = 256e6;
 // Cells round the site, for interpolation and for filling gaps at its edge.
 constexpr int kMargin = 2;
 // No ground lies above or below this; such a number is a nodata value that nobody declared [m].
@@ -47,6 +46,8 @@ struct Map {
   // Coordinates of the map's lower-left corner and edges of a cell in file units; which way rows and columns run.
   double x_min = 0, y_min = 0, step_x = 1, step_y = 1;
   bool columns_fall = false, rows_fall = true;
+  int block_x = 1, block_y = 1;
+  double block_bytes = 0;  // decoded
 
   [[noreturn]] void fail(const std::string& element, const std::string& value, const std::string& rule,
                          const std::string& remedy) const {
@@ -61,10 +62,20 @@ void open(Map& map) {
   VSIStatBufL status;
   if (VSIStatL(file.c_str(), &status) != 0) map.fail("terrain", "", "no such file", "check the path");
   if (VSI_ISDIR(status.st_mode)) map.fail("terrain", "", "is a directory", "name the GeoTIFF or ESRI ASCII file in it");
+  if (!VSI_ISREG(status.st_mode)) map.fail("terrain", "", "is no plain file", "save the map as a file");
+  std::vector<std::string> beside;
+  try {
+    beside = files_beside(file);
+  } catch (const FileError& failure) {
+    map.fail("terrain", "", failure.what(), "move that file away, or replace it");
+  }
+  std::vector<const char*> siblings;
+  for (const std::string& name : beside) siblings.push_back(name.c_str());
+  siblings.push_back(nullptr);
   // Doubles, because the ASCII driver guesses whole numbers from the first values it sees.
   const char* const drivers[] = {"GTiff", "AAIGrid", nullptr};
   const char* const options[] = {"DATATYPE=Float64", nullptr};
-  map.data.reset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, nullptr));
+  map.data.reset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, siblings.data()));
   if (!map.data || map.data->GetRasterCount() < 1)
     map.fail("terrain", "", map.session.cause("is neither GeoTIFF nor ESRI ASCII"),
              "convert it with gdal_translate -of GTiff");
@@ -85,7 +96,11 @@ void open(Map& map) {
   const char* interleave = map.data->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
   const int bands_in_block =
       interleave != nullptr && std::string(interleave) == "PIXEL" ? map.data->GetRasterCount() : 1;
-  if (static_cast<double>(block_x) * block_y * 8 * bands_in_block > kMostBlockBytes)
+  map.block_x = block_x;
+  map.block_y = block_y;
+  map.block_bytes = static_cast<double>(block_x) * block_y * 8 * bands_in_block;
+  if (map.block_bytes > limits::kMapBlockBytes)
+    // A damaged header may promise anything.
     map.fail("terrain", std::to_string(block_x) + " x " + std::to_string(block_y),
              "is stored in blocks too large to read", "rewrite it with gdal_translate -co TILED=YES");
 }
@@ -263,12 +278,26 @@ class Decoder {
 /// those before it and goes on after a row that fails: asked for the last row of a cut file it tries 2^rows times.
 void find_rows(Map& map, int last_row) {
   if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
+  check_words(map.world.ground.file, (static_cast<std::int64_t>(last_row) + 1) * map.report.columns);
   for (int row = 0; row <= last_row; ++row) {
     double value = 0;
     if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) != CE_None)
       map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
                "the file is damaged: get it again");
   }
+}
+
+/// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side are decoded for every
+/// row anew.
+void check_blocks(const Map& map, int x0, int x1, int y0, int y1) {
+  const double across = x1 / map.block_x - x0 / map.block_x + 1, down = y1 / map.block_y - y0 / map.block_y + 2;
+  const bool kept = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
+  const double decoded = across * (kept ? down : y1 - y0 + 1.0) * map.block_bytes;
+  if (decoded > limits::kMapDecodedBytes)
+    map.fail("terrain", number(decoded) + " bytes",
+             "more than " + number(limits::kMapDecodedBytes) +
+                 " to decode for this site: its blocks hold far more than the site",
+             "rewrite it with gdal_translate -co TILED=YES");
 }
 
 // Reads the cells under the site, flipped into our order; heights minus the offset, so that float keeps millimetres.
@@ -293,10 +322,11 @@ HeightRaster read_heights(Map& map, const Ground::Setup& setup, const Vec2& corn
   raster.y0 = (y0 + 0.5) * report.cell_y - corner.y();
   report.source_cells = static_cast<std::int64_t>(raster.nx) * raster.ny;
   // Before memory is asked for.
-  if (static_cast<double>(report.source_cells) > kMostMapCells)
+  if (static_cast<double>(report.source_cells) > limits::kMapCells)
     map.fail("terrain/size", std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " map cells",
-             "more than " + number(kMostMapCells) + " cells under the site",
+             "more than " + number(limits::kMapCells) + " cells under the site",
              "choose a smaller --size or a coarser map");
+  check_blocks(map, x0, x1, y0, y1);
   raster.z.resize(static_cast<std::size_t>(report.source_cells));
   const Decoder decode(map);
   std::vector<double> line(static_cast<std::size_t>(raster.nx));

@@ -2,11 +2,14 @@
 #include "geometry/obj/read_obj.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/limits.h"
 #include "core/log.h"
 #include "folder.h"
 #include "geometry/solid.h"
@@ -118,6 +121,38 @@ TEST_F(ReadObj, TakesAnEmptyFileForAnEmptyMeshAndRefusesAMissingOne) {
 TEST_F(ReadObj, ReadsABodyWithItsVolume) {
   const TriangleMesh tetrahedron = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   EXPECT_NEAR(solid_properties(tetrahedron).volume, 1.0 / 6, 1e-15);
+}
+
+TEST_F(ReadObj, OpensMaterialFilesInItsFolderOnlyAndOnlyPlainOnes) {
+  for (const char* name : {"/dev/zero", "../paint.mtl", "a/../../paint.mtl", "/etc/passwd"})
+    EXPECT_NE(fault("mtllib " + std::string(name) + "\n" + kSquare + "f 1 2 3\n").find("must lie in the folder"),
+              std::string::npos)
+        << name;
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder_ / "zero.mtl");
+  EXPECT_NE(fault("mtllib pipe.mtl\n" + kSquare + "f 1 2 3\n").find("it is a pipe"), std::string::npos);
+  EXPECT_NE(fault("mtllib zero.mtl\n" + kSquare + "f 1 2 3\n").find("it is a device"), std::string::npos);
+  write_file_atomically(folder_ / "large.mtl", std::string(limits::kMtlBytes + 1, '#'));
+  EXPECT_NE(fault("mtllib large.mtl\n" + kSquare + "f 1 2 3\n").find("more than 1048576 bytes"), std::string::npos);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
+  EXPECT_THROW(read_obj(folder_ / "pipe.obj"), InputError);
+}
+
+TEST_F(ReadObj, BoundsWhatAFileMayAskFor) {
+  const auto repeated = [](const std::string& text, std::size_t times) {
+    std::string out;
+    for (std::size_t i = 0; i < times; ++i) out += text;
+    return out;
+  };
+  EXPECT_TRUE(refuses(kSquare + "f" + repeated(" 1 2 3", 22) + "\n", 5)) << "66 corners";
+  EXPECT_TRUE(refuses(kSquare + "# " + std::string(limits::kObjLineBytes, 'x') + "\n", 5));
+  EXPECT_TRUE(refuses("v 0 0 1e7\n", 1));
+  EXPECT_TRUE(refuses(kSquare + repeated("f 1 2 3\n", limits::kObjTriangles + 1), 1'000'005));
+  EXPECT_NE(fault(repeated("v 0 0 0\n", limits::kObjVertices + 1)).find("at most 2000000 vertices"), std::string::npos);
+  EXPECT_NE(fault(repeated("g\n", limits::kObjStatements + 1)).find("at most 100000 lines of groups"),
+            std::string::npos);
+  EXPECT_NE(fault(repeated("mtllib a.mtl\n", limits::kMtlFiles + 1)).find("at most 16 mtllib"), std::string::npos);
+  EXPECT_NE(fault(std::string(limits::kObjBytes + 1, '\n')).find("more than 67108864 bytes"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navvy machines`, `navvy scenes`, `navvy soils [NAME]`: what is shipped.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/scene_options.h"
+#include "core/edit_distance.h"
+#include "core/error.h"
+#include "core/math.h"
+#include "scene/soil_values.h"
+#include "scene_io/loader.h"
+
+namespace navvy::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first comment of a file that is no licence line, on one line: what its author says of it.
+std::string first_comment(const std::string& path) {
+  std::ifstream in(path);
+  std::string text(4096, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 4)) {
+    const std::size_t end = text.find("-->", at);
+    if (end == std::string::npos) break;
+    std::string comment = text.substr(at + 4, end - at - 4);
+    if (comment.find("SPDX") != std::string::npos) continue;
+    // Blanks and line ends become single blanks.
+    std::string out;
+    for (const char c : comment) {
+      const bool blank = c == ' ' || c == '\n' || c == '\r' || c == '\t';
+      if (blank && (out.empty() || out.back() == ' ')) continue;
+      out += blank ? ' ' : c;
+    }
+    while (!out.empty() && out.back() == ' ') out.pop_back();
+    return out;
+  }
+  return "";
+}
+
+int list(const std::map<std::string, std::string>& files, const char* what) {
+  if (files.empty())
+    throw InputError(Fault{Fault::Severity::kError, "", 0, what, "", "none of the shipped ones were found",
+                           "set NAVVY_DATA_DIR to the directory that holds scenarios/, terrain/ and vehicles/"});
+  std::size_t width = 0;
+  for (const auto& [name, path] : files) width = std::max(width, name.size());
+  for (const auto& [name, path] : files)
+    std::printf("%-*s  %s\n", static_cast<int>(width), name.c_str(), first_comment(path).c_str());
+  return kOk;
+}
+
+int scenes() { return list(shipped_scenes(), "scenes"); }
+
+int machines() {
+  std::map<std::string, std::string> files;
+  std::error_code ignored;
+  for (const std::string& directory : scene_io::data_directories())
+    for (const auto& entry : fs::directory_iterator(directory + "/vehicles", ignored)) {
+      const std::string model = (entry.path() / "model.sdf").string();
+      // The first data directory that has it, as model://NAME finds it.
+      if (fs::exists(model, ignored)) files.emplace(entry.path().filename().string(), model);
+    }
+  const int code = list(files, "machines");
+  std::printf("Put one into a scene by <include><uri>model://NAME</uri></include> (scenarios/README.md).\n");
+  return code;
+}
+
+std::vector<scene::Soil> all_soils() {
+  // The first data directory that has them, as a scene would find them.
+  const std::string directory = scene_io::find_data("terrain/soils");
+  if (directory.empty())
+    throw InputError(Fault{Fault::Severity::kError, "terrain/soils", 0, "", "", "the shipped soils were not found",
+                           "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
+  return scene_io::load_soils(directory);
+}
+
+int soils() {
+  std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg", "c kPa", "c_r kPa",
+              "E MPa", "source");
+  // In units that people use for soil; the files have SI with the unit in each name.
+  for (const scene::Soil& soil : all_soils())
+    std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(), soil.bank_density / 1000,
+                soil.swell, degrees(soil.friction_angle), soil.cohesion / 1000, soil.residual_cohesion / 1000,
+                soil.young_modulus / 1e6, soil.source.c_str());
+  return kOk;
+}
+
+/// Every value under its name in scene files, which ends in its unit: lines that can be copied into a scene.
+int one_soil(const std::string& name) {
+  std::vector<std::string> names;
+  for (const scene::Soil& soil : all_soils()) {
+    names.push_back(soil.name);
+    if (soil.name != name) continue;
+    std::printf("%s\n  source: %s\n", soil.name.c_str(), soil.source.c_str());
+    for (const scene::SoilValue& value : scene::soil_values())
+      std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low, value.high);
+    std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]), static_cast<double>(soil.color[1]),
+                static_cast<double>(soil.color[2]));
+    return kOk;
+  }
+  throw InputError(
+      Fault{Fault::Severity::kError, "", 0, "soils", name, "no such shipped soil", suggestion(name, names)});
+}
+
+}  // namespace
+
+void add_soils(CLI::App& app, Action& action) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("soils", "list the shipped soils; with a name every value of that soil");
+  command->add_option("name", *name, "a shipped soil: prints its values with unit and range");
+  command->callback([name, &action] { action = [name] { return name->empty() ? soils() : one_soil(*name); }; });
+}
+
+void add_machines(CLI::App& app, Action& action) {
+  app.add_subcommand("machines", "list the shipped machines")->callback([&action] { action = machines; });
+}
+
+void add_scenes(CLI::App& app, Action& action) {
+  app.add_subcommand("scenes", "list the shipped scenes, which `run` and `check` find by name")->callback([&action] {
+    action = scenes;
+  });
+}
+
+}  // namespace navvy::cli

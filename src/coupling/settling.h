@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines put on the ground and left to themselves, without soil that moves: for those who look before a run.
+#pragma once
+
+#include <vector>
+
+#include "core/math.h"
+#include "heightfield/ground.h"
+#include "scene/scene.h"
+#include "vehicle/machine_state.h"
+
+namespace navvy::coupling {
+
+/// How one machine stands after a while on the columns.
+struct Settled {
+  vehicle::Stability stability;
+  Vec3 moved = Vec3::Zero();  ///< of the base link [m]
+};
+
+/// Puts the scene's machines on `ground` as a run does and lets engine, tyres and ruts work for `time` [s]; joints
+/// hold, drives brake as they do without a command. Presses ruts into `ground`. No particle wakes, so no device is
+/// needed. One entry a machine; kinematic ones stay where they are. Costs some 0.2 s a machine and second.
+std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time);
+
+}  // namespace navvy::coupling

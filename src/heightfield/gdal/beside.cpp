@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heightfield/gdal/beside.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/limits.h"
+
+namespace navvy::heightfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> files_beside(const std::string& file) {
+  const fs::path path = file;
+  std::vector<std::string> known = {lower(path.filename().string() + ".aux.xml")};
+  for (const char* ending : {".prj", ".tfw", ".tifw", ".tiffw", ".wld", ".aux.xml"})
+    known.push_back(lower(path.stem().string() + ending));
+  std::vector<std::string> names = {path.filename().string()};
+  std::error_code failed;
+  // Endings and names are written in capitals by some programs, and GDAL looks for those too.
+  for (fs::directory_iterator at(path.parent_path().empty() ? "." : path.parent_path(), failed), end;
+       !failed && at != end; at.increment(failed)) {
+    const std::string name = at->path().filename().string();
+    if (std::find(known.begin(), known.end(), lower(name)) == known.end()) continue;
+    require_regular(at->path().string());
+    std::error_code unknown;
+    const std::uintmax_t size = fs::file_size(at->path(), unknown);
+    if (!unknown && size > limits::kMapSidecarBytes)
+      throw FileError("cannot read '" + at->path().string() + "': it has " + std::to_string(size) +
+                      " bytes, a file beside a map may have " + std::to_string(limits::kMapSidecarBytes));
+    names.push_back(name);
+  }
+  std::sort(names.begin() + 1, names.end());
+  return names;
+}
+
+}  // namespace navvy::heightfield

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/drive_reader.h"
+
+#include <variant>
+
+#include "scene_io/fields.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+Fields& read_powertrain(Fields& fields, scene::Powertrain& powertrain) {
+  return fields.attribute("type")
+      .number("max_speed_m_per_s", powertrain.max_speed, {0.01, 50})
+      .number("tractive_force_n", powertrain.tractive_force, {0.1, 1e7})
+      .number("power_w", powertrain.power, {0.1, 1e7})
+      .number("brake_force_n", powertrain.brake_force, {0, 1e7});
+}
+
+void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_powertrain(fields, drive)
+      .number("max_steer_deg", drive.max_steer, {0, 80}, kDegree)
+      .number("wheelbase_m", drive.wheelbase, {0.01, 50})
+      .number("track_m", drive.track, {0.01, 50})
+      .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree)
+      .finish();
+}
+
+void read_kind(Element& element, scene::DifferentialDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_powertrain(fields, drive).number("track_m", drive.track, {0.01, 50}).required("track_m").finish();
+}
+
+// What each kind of drive asks of the wheels.
+void check_kind(const Element& element, const scene::DifferentialDrive&, const scene::Machine& machine,
+                Faults& faults) {
+  bool left = false, right = false;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    if (!wheel.steer_joint.empty())
+      faults.error(element, wheel.steer_joint, "a differential drive turns no wheels",
+                   "take <steer_joint> out of the wheel; a caster swivels by itself");
+    const int joint = machine.joint_index(wheel.joint);
+    if (joint < 0 || !wheel.driven) continue;
+    const int link = machine.joints[static_cast<std::size_t>(joint)].child;
+    (machine.links[static_cast<std::size_t>(link)].X_ML.translation().y() > 0 ? left : right) = true;
+  }
+  if (!left || !right)
+    faults.error(element, "",
+                 "a differential drive needs a driven wheel on the left and one on the right (y > 0, y < 0)",
+                 "set <driven>true</driven> in wheels of both sides");
+}
+void check_kind(const Element&, const scene::AckermannDrive&, const scene::Machine&, Faults&) {}
+
+}  // namespace
+
+scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
+  scene::Wheel wheel;
+  Fields(element, faults)
+      .attribute("name")
+      .text("joint", wheel.joint)
+      .required("joint")
+      .text("steer_joint", wheel.steer_joint)
+      .flag("driven", wheel.driven)
+      .number("radius_m", wheel.radius, {0.01, 5})
+      .number("width_m", wheel.width, {0.005, 5})
+      .number("twin_spacing_m", wheel.twin_spacing, {0, 5})
+      .number("stiffness_n_per_m", wheel.stiffness, {100, 1e9})
+      .number("damping_n_s_per_m", wheel.damping, {0, 1e8})
+      .number("friction", wheel.friction, {0, 3})
+      .number("rolling_resistance", wheel.rolling_resistance, {0, 1})
+      .finish();
+  require_name(element, "joint", "joint", names.joints, faults);
+  require_name(element, "steer_joint", "joint", names.joints, faults);
+  return wheel;
+}
+
+scene::Drive read_drive(Element& element, Faults& faults) {
+  const std::string type = attribute(element, "type");
+  // Every kind of the variant by its name, so that a new one is offered here as soon as it has a read_kind.
+  const std::vector<scene::Drive> kinds = {scene::AckermannDrive(), scene::DifferentialDrive()};
+  std::vector<std::string> names;
+  for (scene::Drive drive : kinds) {
+    names.push_back(scene::drive_name(drive));
+    if (type != names.back() && !(type.empty() && names.size() == 1)) continue;
+    std::visit([&](auto& kind) { read_kind(element, kind, faults); }, drive);
+    return drive;
+  }
+  faults.error(element, type, "no drive of this type", faults.nearest(type, names));
+  return {};
+}
+
+void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults) {
+  std::visit([&](const auto& kind) { check_kind(element, kind, machine, faults); }, machine.drive);
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wheels and the drive that turns them.
+#pragma once
+
+#include "scene/machine.h"
+#include "scene_io/machine_names.h"
+
+namespace navvy::scene_io {
+
+/// Reads a <navvy:wheel>.
+scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults);
+
+/// The drive of the kind that `type` names, Ackermann without one.
+scene::Drive read_drive(Element& element, Faults& faults);
+
+/// What the kind of the machine's drive asks of its wheels; the wheels' joints and links are known.
+void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults);
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/link_rules.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "core/math.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+// Principal moments must be positive and none may exceed the sum of the others: no body has such an inertia.
+void check_inertia(const Element& inertial, Faults& faults) {
+  const Element* inertia = inertial.FirstChildElement("inertia");
+  if (!inertia) return;
+  auto value = [&](const char* name, double otherwise) {
+    double number = otherwise;
+    to_number(child_text(*inertia, name), number);
+    return number;
+  };
+  const double xx = value("ixx", 1), yy = value("iyy", 1), zz = value("izz", 1);
+  const double xy = value("ixy", 0), xz = value("ixz", 0), yz = value("iyz", 0);
+  Mat3 tensor;
+  tensor << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  if (!tensor.allFinite()) return;
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+  if (moments[0] > 0 && moments[2] <= moments[0] + moments[1]) return;
+  auto text = [](double number) {
+    std::ostringstream stream;
+    stream << number;
+    return stream.str();
+  };
+  faults.error(*inertia, text(moments[0]) + " " + text(moments[1]) + " " + text(moments[2]),
+               "the principal moments of inertia must be positive, none larger than the sum of the other two",
+               "a disc has iyy = ixx + izz at most; mind the rounding");
+}
+
+}  // namespace
+
+void check_joints(const Element& model, const Names& names, Faults& faults) {
+  static const std::set<std::string> types = {"fixed", "revolute", "continuous", "prismatic", "ball"};
+  std::vector<std::string> ends = names.links;
+  ends.insert(ends.end(), names.frames.begin(), names.frames.end());
+  for (const Element* joint = model.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
+    const std::string type = attribute(*joint, "type");
+    if (types.count(type) == 0)
+      faults.error(*joint, type, "the type of a joint must be fixed, revolute, continuous, prismatic or ball");
+    for (const char* end : {"parent", "child"}) {
+      if (!joint->FirstChildElement(end)) faults.error(*joint, "", std::string("needs an element <") + end + ">");
+      const bool world = std::string(end) == "parent" && child_text(*joint, end) == "world";
+      if (!world) require_name(*joint, end, "link or frame", ends, faults);
+    }
+    const std::string parent = child_text(*joint, "parent");
+    if (!parent.empty() && parent == child_text(*joint, "child"))
+      faults.error(*joint, parent, "parent and child must be different links");
+    const Element* axis = joint->FirstChildElement("axis");
+    if (!axis) {
+      if (type == "revolute" || type == "continuous" || type == "prismatic")
+        faults.error(*joint, "", "needs an element <axis> with <xyz>");
+      continue;
+    }
+    std::vector<double> xyz(3, 1.0);
+    if (const Element* e = axis->FirstChildElement("xyz")) {
+      const auto words = words_of(text_of(*e));
+      for (std::size_t i = 0; i < 3 && i < words.size(); ++i) to_number(words[i], xyz[i]);
+      if (std::hypot(xyz[0], xyz[1], xyz[2]) < 1e-9)
+        faults.error(*e, text_of(*e), "an axis must not be zero", "e.g. 0 0 1");
+    }
+    double lower = -1e16, upper = 1e16;
+    if (const Element* limit = axis->FirstChildElement("limit")) {
+      to_number(child_text(*limit, "lower"), lower);
+      to_number(child_text(*limit, "upper"), upper);
+      if (lower > upper) faults.error(*limit, child_text(*limit, "lower"), "lower must not exceed upper");
+    }
+  }
+}
+
+void check_links(const Element& model, bool needs_mass, Faults& faults) {
+  if (!model.FirstChildElement("link")) faults.error(model, "", "a machine needs at least one <link>");
+  for (const Element* link = model.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+    const Element* inertial = link->FirstChildElement("inertial");
+    if (needs_mass && (!inertial || !inertial->FirstChildElement("mass")))
+      faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>");
+    if (inertial) check_inertia(*inertial, faults);
+    for (const char* kind : {"visual", "collision"})
+      for (const Element* e = link->FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
+        if (!e->FirstChildElement("geometry") || !e->FirstChildElement("geometry")->FirstChildElement())
+          faults.error(*e, "", "needs <geometry> with a shape");
+  }
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/xml_limits.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/limits.h"
+#include "core/utf8.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+bool starts_name(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' || byte == ':' || byte >= 0x80;
+}
+
+/// Control characters that XML allows are blanks of a text.
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
+}
+
+/// Character references can spell what the file's bytes may not: "&#0;", "&#xD800;".
+void check_value(const Element& at, const char* value, Faults& faults) {
+  const std::string_view text = value;
+  if (first_bad_utf8(text) == std::string_view::npos && std::none_of(text.begin(), text.end(), is_control)) return;
+  faults.error(at, "", "holds a character that is none of Unicode's, or a control character",
+               "take character references such as &#xD800; out");
+}
+
+struct Count {
+  const char* parent;
+  const char* child;
+  std::size_t most;
+};
+// Lists that readers hold against each other, or that are dear one by one.
+const Count kCounts[] = {
+    {"world", "include", limits::kMachines},
+    {"world", "model", limits::kMachines},
+    {"world", "navvy:soil", limits::kSoils},
+    {"world", "navvy:camera", limits::kMachines},
+    {"world", "light", limits::kMachines},
+    {"sdf", "navvy:soil", limits::kSoils},
+    {"navvy:ground", "layer", limits::kGroundLayers},
+    {"navvy:ground", "patch", limits::kGroundParts},
+    {"navvy:ground", "awake", limits::kGroundParts},
+    {"navvy:ground", "slope", limits::kGroundParts},
+    {"navvy:ground", "hills", limits::kGroundParts},
+    {"navvy:ground", "stockpile", limits::kGroundParts},
+    {"navvy:ground", "trench", limits::kGroundParts},
+    {"navvy:ground", "bank", limits::kGroundParts},
+    {"navvy:ground", "block", limits::kGroundParts},
+    {"patch", "layer", limits::kGroundLayers},
+    {"model", "link", limits::kLinks},
+    {"model", "joint", limits::kLinks},
+    {"model", "frame", limits::kLinks},
+    {"model", "navvy:joint", limits::kLinks},
+    {"model", "navvy:cylinder", limits::kLinks},
+    {"model", "navvy:wheel", limits::kLinks},
+    {"model", "navvy:shell", limits::kShells},
+    {"model", "navvy:bucket", limits::kShells},
+    {"model", "navvy:bed", limits::kShells},
+    {"include", "navvy:joint", limits::kLinks},
+    {"link", "visual", limits::kShapes},
+    {"link", "collision", limits::kShapes},
+    {"trajectory", "joint", limits::kLinks},
+};
+
+bool check_counts(const Element& element, Faults& faults) {
+  bool good = true;
+  for (const Count& count : kCounts) {
+    if (std::strcmp(count.parent, element.Name()) != 0) continue;
+    std::size_t found = 0;
+    for (const Element* e = element.FirstChildElement(count.child); e; e = e->NextSiblingElement(count.child)) ++found;
+    if (found <= count.most) continue;
+    faults.error(
+        element, std::to_string(found),
+        std::string("at most ") + std::to_string(count.most) + " <" + count.child + "> in one <" + count.parent + ">",
+        "scenarios/README.md lists the limits of files");
+    good = false;
+  }
+  std::size_t steps = 0;
+  if (std::strcmp(element.Name(), "navvy:program") == 0)
+    for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) ++steps;
+  if (steps > limits::kSteps) {
+    faults.error(element, std::to_string(steps),
+                 "a program may have at most " + std::to_string(limits::kSteps) + " steps",
+                 "split it between machines, or write a longer path into one step");
+    good = false;
+  }
+  return good;
+}
+
+/// False where the rest is not to be read: the readers' work is not bounded then. Faults of single values are told and
+/// reading goes on.
+bool check_element(const Element& element, std::size_t depth, Faults& faults) {
+  const auto most = [&](const char* what, std::size_t number) {
+    faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,
+                 "scenarios/README.md lists the limits of files");
+    return false;
+  };
+  if (std::strlen(element.Name()) > limits::kNameBytes)
+    return most("bytes in the name of an element", limits::kNameBytes);
+  if (depth > limits::kXmlNesting) return most("elements inside each other", limits::kXmlNesting);
+  std::size_t attributes = 0;
+  bool good = check_counts(element, faults);
+  for (const auto* at = element.FirstAttribute(); at; at = at->Next()) {
+    if (++attributes > limits::kXmlAttributes) return most("attributes", limits::kXmlAttributes);
+    if (std::strlen(at->Name()) > limits::kNameBytes)
+      return most("bytes in the name of an attribute", limits::kNameBytes);
+    // A value that a name is made of has one fault, not two.
+    if (std::strcmp(at->Name(), "name") != 0 || check_name(element, at->Value(), faults))
+      check_value(element, at->Value(), faults);
+  }
+  for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) {
+    if (node->ToText()) check_value(element, node->Value(), faults);
+    if (const Element* child = node->ToElement()) good = check_element(*child, depth + 1, faults) && good;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::size_t count_elements(const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
+    count += at + 1 < text.size() && starts_name(text[at + 1]) ? 1 : 0;
+  return count;
+}
+
+bool check_text(const std::string& text, const std::string& file, Faults& faults) {
+  Fault fault;
+  fault.file = file;
+  if (text.size() > limits::kXmlBytes) {
+    fault.value = std::to_string(text.size()) + " bytes";
+    fault.rule = "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
+    fault.remedy = "put meshes into OBJ files and machines into files of their own";
+  } else if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos) {
+    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
+    fault.rule = "the file must be text in UTF-8";
+    fault.remedy = "save it as UTF-8: iconv -f latin1 -t utf-8 OLD > NEW";
+  } else if (const std::size_t elements = count_elements(text); elements > limits::kXmlElements) {
+    fault.value = std::to_string(elements) + " elements";
+    fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) + ", those in comments too";
+    fault.remedy = "split it, or put meshes into OBJ files";
+  } else {
+    return true;
+  }
+  faults.add(fault);
+  return false;
+}
+
+bool check_tree(const Element& root, Faults& faults) { return check_element(root, 1, faults); }
+
+bool check_name(const Element& at, const std::string& name, Faults& faults) {
+  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == ',' || c == '"';
+  });
+  if (plain && name.size() <= limits::kNameBytes) return true;
+  faults.error(at, name,
+               plain ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
+                     : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
+               "use letters, digits, blanks, _ and -");
+  return false;
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/start_check.h"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+
+#include "coupling/settling.h"
+#include "geometry/obj/read_obj.h"
+#include "geometry/oriented_box.h"
+#include "heightfield/site.h"
+#include "sim/placing.h"
+#include "vehicle/kinematics.h"
+
+namespace navvy::sim {
+namespace {
+
+constexpr double kTouching = 0.02;  // [m] shapes are boxes here, and machines may stand side by side
+constexpr double kSettling = 1;     // [s]
+constexpr double kTipped = radians(45);
+
+struct LinkBox {
+  geometry::OrientedBox box;
+  const scene::Link* link = nullptr;
+};
+
+std::string text(const char* format, double value) {
+  std::array<char, 48> out{};
+  std::snprintf(out.data(), out.size(), format, value);
+  return out.data();
+}
+
+/// The box round a collision shape in its link's frame; none for planes, which are ground of their own, and for meshes
+/// that cannot be read, of which the loader has told.
+std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
+  const scene::Geometry& g = collision.geometry;
+  geometry::OrientedBox box{collision.X_LC, Vec3::Zero()};
+  switch (g.kind) {
+    case scene::Geometry::Kind::kBox:
+      box.half = 0.5 * g.size;
+      return box;
+    case scene::Geometry::Kind::kCylinder:
+      box.half = Vec3(g.radius, g.radius, 0.5 * g.length);
+      return box;
+    case scene::Geometry::Kind::kSphere:
+      box.half = Vec3::Constant(g.radius);
+      return box;
+    case scene::Geometry::Kind::kPlane:
+      return std::nullopt;
+    case scene::Geometry::Kind::kMesh:
+      break;
+  }
+  try {
+    Eigen::AlignedBox3d round;
+    for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices) round.extend(Vec3(v.cwiseProduct(g.scale)));
+    if (round.isEmpty()) return std::nullopt;
+    box.X_WO = collision.X_LC * Eigen::Translation3d(round.center());
+    box.half = 0.5 * round.sizes();
+    return box;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X_WB) {
+  std::vector<LinkBox> out;
+  const scene::Machine& machine = placed.machine;
+  // Kinematic machines touch no others.
+  if (machine.kinematic) return out;
+  std::vector<double> q;
+  for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
+  const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, X_WB, q);
+  for (std::size_t l = 0; l < machine.links.size(); ++l)
+    for (const scene::Collision& collision : machine.links[l].collisions)
+      if (std::optional<geometry::OrientedBox> box = box_of(collision)) {
+        box->X_WO = X_WL[l] * box->X_WO;
+        out.push_back({*box, &machine.links[l]});
+      }
+  return out;
+}
+
+Fault error(const scene::Scene& scene, const std::string& machine, const std::string& value, const std::string& rule,
+            const std::string& remedy) {
+  return {Fault::Severity::kError, scene.file, 0, "include[" + machine + "]", value, rule, remedy};
+}
+
+}  // namespace
+
+std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB) {
+  std::vector<std::vector<LinkBox>> boxes;
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) boxes.push_back(boxes_of(scene.machines[m], X_WB.at(m)));
+  std::vector<Fault> faults;
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      // The deepest of a pair: mended, the others are as a rule.
+      double deepest = kTouching;
+      const scene::Link *of_a = nullptr, *of_b = nullptr;
+      for (const LinkBox& one : boxes[a])
+        for (const LinkBox& other : boxes[b]) {
+          const double depth = geometry::penetration(one.box, other.box);
+          if (depth > deepest) deepest = depth, of_a = one.link, of_b = other.link;
+        }
+      if (!of_a) continue;
+      const std::string &first = scene.machines[a].name, &second = scene.machines[b].name;
+      faults.push_back(error(scene, second, text("%.2f m", deepest),
+                             "it overlaps '" + first + "' at the start: its link '" + of_b->name + "' reaches into '" +
+                                 of_a->name + "' of '" + first + "'",
+                             "move one of them by its <pose>"));
+    }
+  return faults;
+}
+
+StartCheck check_start(const scene::Scene& scene) {
+  StartCheck out;
+  try {
+    heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
+    out.faults = check_overlaps(scene, starting_poses(scene, ground));
+    const std::vector<coupling::Settled> settled = coupling::settle(scene, ground, kSettling);
+    for (std::size_t m = 0; m < settled.size(); ++m) {
+      const vehicle::Stability& stands = settled[m].stability;
+      out.standing.push_back(stands);
+      if (!stands.free || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
+      const std::string tilt = text("%.1f deg", degrees(stands.tilt));
+      out.faults.push_back(error(scene, scene.machines[m].name, tilt,
+                                 "the machine tips over within its first second: its centre of mass is " +
+                                     text("%.2f m", -stands.margin) + " outside its wheels",
+                                 "put it on flatter ground, or turn it along the slope"));
+    }
+  } catch (const InputError& fault) {
+    for (const Fault& one : fault.faults()) out.faults.push_back(one);
+  }
+  return out;
+}
+
+}  // namespace navvy::sim

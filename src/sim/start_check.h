@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene's machines do in their first second, asked before a run and without a device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/math.h"
+#include "heightfield/ground.h"
+#include "scene/scene.h"
+#include "vehicle/machine_state.h"
+
+namespace navvy::sim {
+
+/// Errors for every pair of machines with masses whose collision shapes, taken as boxes, reach into each other by more
+/// than 2 cm where they start; names both links and tells by how much. `X_WB` holds their base links' poses.
+std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB);
+
+/// How each machine stands.
+struct StartCheck {
+  std::vector<vehicle::Stability> standing;  ///< one a machine of the scene
+  std::vector<Fault> faults;                 ///< overlaps, then machines that tip
+};
+
+/// Lays the ground, puts the machines on it and lets them settle for a second (soil at rest, joints held). A ground
+/// that cannot be laid is among the faults. Throws nothing of its own.
+StartCheck check_start(const scene::Scene& scene);
+
+}  // namespace navvy::sim

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/timing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::sim {
+namespace {
+
+constexpr double kHair = 1e-9;  // quotients of times are rounded: a whole number counts as one from this close
+
+}  // namespace
+
+double base_step(double longest, double period) {
+  if (!(period > 0)) return longest;
+  return period / std::max(1.0, std::ceil(period / longest - kHair));
+}
+
+std::uint64_t samples_through(std::uint64_t step, double dt, double rate) {
+  // Half a step further on is where the next step becomes the nearer one. Products, as a sum of periods would drift.
+  return static_cast<std::uint64_t>(std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));
+}
+
+std::uint64_t sample_number(std::uint64_t step, double dt, double rate) {
+  return step == 0 ? 0 : samples_through(step - 1, dt, rate);
+}
+
+bool sample_due(std::uint64_t step, double dt, double rate) {
+  return samples_through(step, dt, rate) > sample_number(step, dt, rate);
+}
+
+}  // namespace navvy::sim

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program says to slips on its command line and in scenes, and what it tells of what is shipped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "paths.h"
+#include "process.h"
+
+namespace navvy {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Messages : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ =
+        fs::path(navvy::build_dir()) / "test-messages" / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+  }
+  int run(const std::vector<std::string>& arguments) {
+    return test::wait_for(test::start({NAVVY_PROGRAM,
+                                       arguments,
+                                       {},
+                                       "/dev/null",
+                                       (directory_ / "stdout").string(),
+                                       (directory_ / "stderr").string()}));
+  }
+  static std::string text_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::stringstream out;
+    out << in.rdbuf();
+    return out.str();
+  }
+  std::string said() const { return text_of(directory_ / "stdout"); }
+  std::string complained() const { return text_of(directory_ / "stderr"); }
+  /// A scene of flat loam with `machines` in it.
+  std::string scene(const std::string& ground, const std::string& machines) {
+    const std::string path = (directory_ / "scene.sdf").string();
+    std::ofstream(path) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>\n"
+                        << "<navvy:ground><size_m>40 20</size_m>" << ground << "</navvy:ground>\n"
+                        << machines << "</world></sdf>\n";
+    return path;
+  }
+  static std::string machine(const std::string& name, const std::string& pose) {
+    return "<include><uri>model://ew180</uri><name>" + name + "</name><pose>" + pose + "</pose></include>\n";
+  }
+  void expect_said(const std::string& part) const {
+    EXPECT_NE(said().find(part), std::string::npos) << "'" << part << "' is not in:\n" << said() << complained();
+  }
+  void expect_complained(const std::string& part) const {
+    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n" << complained();
+  }
+  fs::path directory_;
+};
+
+TEST_F(Messages, ListWhatIsShippedOneLineEach) {
+  EXPECT_EQ(run({"scenes"}), 0);
+  expect_said("trench");
+  expect_said("An 18 t wheeled excavator drives 5 m to its place");
+  EXPECT_EQ(run({"machines"}), 0);
+  expect_said("ew180        Wheeled excavator of the 18 t class.");
+  EXPECT_EQ(run({"soils"}), 0);
+  expect_said("loam");
+}
+
+TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
+  EXPECT_EQ(run({"soils", "loam"}), 0);
+  expect_said("bank_density_kg_per_m3");
+  expect_said("friction_angle_deg");
+  expect_said("janosi_k_m");
+  EXPECT_EQ(run({"soils", "loem"}), 2);
+  expect_complained("did you mean 'loam'?");
+}
+
+TEST_F(Messages, AskWhatWasMeant) {
+  EXPECT_EQ(run({"chekc", "trench"}), 2);
+  expect_complained("did you mean 'check'?");
+  EXPECT_EQ(run({"run", "trnch"}), 2);
+  expect_complained("did you mean 'trench'?");
+  EXPECT_EQ(run({"check", "trnch"}), 2);
+  expect_said("did you mean 'trench'?");
+  EXPECT_EQ(run({"run", "trench", "--durration", "5"}), 2);
+  expect_complained("'--durration'");
+  expect_complained("did you mean '--duration'?");
+  EXPECT_EQ(run({"check", scene("", "<include><uri>model://ew18</uri></include>")}), 2);
+  expect_said("did you mean 'model://ew180'?");
+}
+
+TEST_F(Messages, OfAWrongSeedTakeOneLine) {
+  for (const std::string wrong : {"abc", "-1", "1.5"}) {
+    EXPECT_EQ(run({"run", "trench", "--seed", wrong}), 2);
+    const std::string text = complained();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    expect_complained("--seed");
+    expect_complained(wrong);
+    expect_complained("whole number");
+  }
+}
+
+TEST_F(Messages, CheckFindsShippedScenesByName) {
+  EXPECT_EQ(run({"check", "trench", "bucket_path.sdf"}), 0) << said();
+  expect_said("2 files checked: 0 errors, 0 warnings");
+  // The excavator stands, and how well is told without a device.
+  expect_said("'excavator' stands: tilt 0.");
+  expect_said("within its wheels");
+}
+
+TEST_F(Messages, CheckRefusesMachinesThatOverlap) {
+  EXPECT_EQ(run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"))}), 2);
+  expect_said("include[other]");
+  expect_said("it overlaps 'one' at the start");
+  EXPECT_EQ(run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "0 6 0 0 0 0"))}), 0) << said();
+}
+
+TEST_F(Messages, CheckRefusesAMachineThatTipsOver) {
+  const std::string slope = "<slope><angle_deg>38</angle_deg><yaw_deg>90</yaw_deg></slope>";
+  EXPECT_EQ(run({"check", scene(slope, machine("digger", "0 0 0 0 0 0"))}), 2);
+  expect_said("include[digger]");
+  expect_said("tips over within its first second");
+  // Along a gentle one it stands.
+  const std::string gentle = "<slope><angle_deg>15</angle_deg></slope>";
+  EXPECT_EQ(run({"check", scene(gentle, machine("digger", "0 0 0 0 0 0"))}), 0) << said();
+  expect_said("'digger' stands: tilt 1");
+}
+
+TEST_F(Messages, AskAboutAnglesThatLookLikeTheOtherUnit) {
+  EXPECT_EQ(run({"check", scene("", machine("digger", "0 0 0 0 0 90"))}), 0) << said();
+  expect_said("warning");
+  expect_said(
+      "the angles of a pose are in radians: 90 is more than a whole turn; were degrees meant? (write <pose "
+      "degrees=\"true\">");
+  EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.2618</angle_deg></slope>", "")}), 0);
+  expect_said("is 15 deg in radians; were radians meant? (this element counts in degrees");
+  // No false alarm: a turn and a half in radians, small angles in degrees.
+  EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.25</angle_deg></slope>", machine("digger", "0 0 0 0 0 -4.7124"))}),
+            0);
+  expect_said("0 warnings");
+}
+
+}  // namespace
+}  // namespace navvy

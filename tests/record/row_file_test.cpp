@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of a day without a day: they are fed directly.
+#include "record/row_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "folder.h"
+
+namespace navvy::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const std::string& file) {
+  const std::vector<char> bytes = read_file(file);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// What this process has handed to the system to write so far [bytes].
+std::uint64_t bytes_written() {
+  std::ifstream io("/proc/self/io");
+  std::string name;
+  std::uint64_t value = 0;
+  while (io >> name >> value)
+    if (name == "wchar:") return value;
+  return 0;
+}
+
+/// A row as long as the trench's, told apart by its number.
+std::string row_of(std::uint64_t number, std::size_t length = 760) {
+  std::string row = std::to_string(number);
+  row.resize(length, ',');
+  return row;
+}
+
+TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
+  const test::Folder folder;
+  RowFile file(folder / "rows.csv", "header");
+  std::uint64_t expected = 7;
+  const std::uint64_t before = bytes_written();
+  constexpr std::uint64_t kRows = 60'000;  // 20 minutes at 50 Hz
+  for (std::uint64_t i = 0; i < kRows; ++i) {
+    const std::string row = row_of(i);
+    file.add(row);
+    expected += row.size() + 1;
+    // As checkpoints come: now and then, and not at all for a long while.
+    if (i % 97 == 0 && i < kRows / 2) file.flush();
+    ASSERT_LT(file.waiting(), RowFile::kMostWaiting);
+    ASSERT_EQ(file.written() + file.waiting(), expected);
+  }
+  file.sync();
+  EXPECT_EQ(file.rows(), kRows);
+  EXPECT_EQ(fs::file_size(folder / "rows.csv"), expected);
+  // A hundredth for what the test's own machinery writes.
+  const std::uint64_t written = bytes_written() - before;
+  ASSERT_GT(written, 0u);
+  EXPECT_LT(written, expected + expected / 100);
+}
+
+TEST(RowFile, HoldsTheRowsInTheirOrder) {
+  const test::Folder folder;
+  write_file_atomically(folder / "rows.csv", std::string("of an earlier run, longer than what comes now\n"));
+  {
+    RowFile file(folder / "rows.csv", "a,b");
+    file.flush();
+    EXPECT_EQ(text_of(folder / "rows.csv"), "a,b\n");
+    file.add("1,2");
+    file.flush();
+    file.flush();
+    file.add("3,4");
+    EXPECT_EQ(text_of(folder / "rows.csv"), "a,b\n1,2\n");
+    file.sync();
+  }
+  EXPECT_EQ(text_of(folder / "rows.csv"), "a,b\n1,2\n3,4\n");
+}
+
+TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndGoesOnWhenThereIsRoom) {
+  const test::Folder folder;
+  RowFile file(folder / "rows.csv", "header");
+  file.add(row_of(0));
+  file.sync();
+  const std::string before = text_of(folder / "rows.csv");
+  // Room for half a row more: the system takes so much and refuses the rest.
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit tight = limit;
+  tight.rlim_cur = before.size() + 380;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  file.add(row_of(1));
+  EXPECT_THROW(file.flush(), FileError);
+  EXPECT_THROW(file.sync(), FileError);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(text_of(folder / "rows.csv"), before);
+  file.sync();
+  EXPECT_EQ(text_of(folder / "rows.csv"), before + row_of(1) + "\n");
+}
+
+TEST(RowFile, TellsOfAFolderThatIsNotThere) {
+  const test::Folder folder;
+  RowFile file(folder / "none/rows.csv", "header");
+  EXPECT_THROW(file.flush(), FileError);
+}
+
+TEST(RowFile, StaysWithItsFileWhenTheFolderIsRenamed) {
+  const test::Folder folder;
+  fs::create_directory(folder / "out");
+  RowFile file(folder / "out/rows.csv", "header");
+  file.flush();
+  fs::rename(folder / "out", folder / "out.previous");
+  file.add("1");
+  file.sync();
+  EXPECT_EQ(text_of(folder / "out.previous/rows.csv"), "header\n1\n");
+}
+
+TEST(RowFile, KilledAnywhereItHoldsWholeRowsAndAtMostOneWithoutAnEnd) {
+  const test::Folder folder;
+  const std::string path = folder / "rows.csv";
+  int with_rows = 0;
+  for (int i = 0; i < 20; ++i) {
+    fs::remove(path);
+    const pid_t child = fork();
+    if (child == 0) {
+      RowFile file(path, "header");
+      for (std::uint64_t n = 0;; ++n) {
+        file.add(row_of(n, 20'000));
+        if (n % 20 == 0) file.flush();
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 + 3 * i));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    if (!fs::exists(path)) continue;
+    std::istringstream lines(text_of(path));
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line, "header");
+    // Lines that end in a line end are whole rows, without a gap.
+    for (std::uint64_t n = 0; std::getline(lines, line) && !lines.eof(); ++n) {
+      ASSERT_EQ(line, row_of(n, 20'000)) << n;
+      ++with_rows;
+    }
+  }
+  EXPECT_GT(with_rows, 0) << "every kill came before the first row";
+}
+
+}  // namespace
+}  // namespace navvy::record

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of somebody else's: what they may ask for is counted, and what is no plain file is refused by name.
+#include "core/limits.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <functional>
+
+#include "control/step_kinds.h"
+#include "core/file.h"
+#include "folder.h"
+#include "paths.h"
+#include "scene_io/loader.h"
+#include "scene_io/world_reader.h"
+
+namespace navvy::scene_io {
+namespace {
+
+std::string world_text(const std::string& body) {
+  return "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
+         "<navvy:ground><size_m>40 40</size_m></navvy:ground>\n" +
+         body + "</world></sdf>";
+}
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string out;
+  for (std::size_t i = 0; i < times; ++i) out += text;
+  return out;
+}
+
+std::string messages(const Faults& faults) {
+  std::string all;
+  for (const Fault& fault : faults.list()) all += fault.text() + "\n";
+  return all;
+}
+
+/// What reading a text has found and taken.
+Faults read(const std::string& text, scene::Scene* world = nullptr) {
+  Faults faults;
+  const auto document = Document::parse(text, navvy::source_dir() + "/scenarios/mine.sdf", faults);
+  if (!document) return faults;
+  scene::Scene read = read_world(*document, control::step_kinds(), faults);
+  if (world != nullptr) *world = std::move(read);
+  return faults;
+}
+
+::testing::AssertionResult refused(const std::string& text, const std::string& fragment) {
+  const Faults faults = read(text);
+  const std::string all = messages(faults);
+  if (faults.has_errors() && all.find(fragment) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << fragment << "' not in " << all.substr(0, 2000);
+}
+
+std::string include(int i) {
+  const std::string n = std::to_string(i);
+  return "<include><uri>model://ew180</uri><name>m" + n + "</name></include>";
+}
+
+TEST(Limits, FortyMachinesOfOneFileAreReadOnce) {
+  std::string machines;
+  for (int i = 0; i < 40; ++i) machines += include(i);
+  scene::Scene world;
+  const Faults faults = read(world_text(machines), &world);
+  EXPECT_FALSE(faults.has_errors()) << messages(faults);
+  ASSERT_EQ(world.machines.size(), 40u);
+  EXPECT_EQ(world.machines[39].machine.links.size(), world.machines[0].machine.links.size());
+  EXPECT_GT(world.machines[39].machine.links.size(), 3u);
+  EXPECT_EQ(faults.work.models, 1u);
+  EXPECT_EQ(faults.work.files, 2u) << "the machine's and the soil's";
+}
+
+TEST(Limits, AFaultInAFileThatManyUseIsToldOnce) {
+  const test::Folder folder;
+  const std::string model = folder / "model.sdf";
+  write_file_atomically(model, std::string("<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"/></model></sdf>"));
+  std::string machines;
+  for (const char* name : {"a", "b", "c"})
+    machines += "<include><uri>" + model + "</uri><name>" + name + "</name></include>";
+  const Faults faults = read(world_text(machines));
+  EXPECT_EQ(faults.error_count(), 1u) << messages(faults);
+}
+
+TEST(Limits, TenThousandUnknownElementsAreToldInAHundredLines) {
+  const Faults faults = read(world_text(repeated("<thing/>\n", 10'000)));
+  EXPECT_EQ(faults.error_count(), 10'000u);
+  EXPECT_EQ(faults.list().size(), limits::kFaultsShown + 1);
+  EXPECT_NE(messages(faults).find("and 9900 more that are not shown"), std::string::npos);
+}
+
+TEST(Limits, WarningsDoNotCrowdOutErrors) {
+  const Faults faults = read(world_text(repeated("<light type=\"point\" name=\"l\"/>", 200) + "<thing/>"));
+  EXPECT_EQ(faults.error_count(), 1u);
+  EXPECT_NE(messages(faults).find("unknown element"), std::string::npos);
+}
+
+TEST(Limits, BytesElementsNestingAttributesAndNamesOfAFileAreBounded) {
+  EXPECT_TRUE(refused(world_text(std::string(limits::kXmlBytes, ' ')), "may have at most 16777216"));
+  EXPECT_TRUE(refused(world_text(repeated("<a/>", limits::kXmlElements)), "a file may have at most 100000"));
+  EXPECT_TRUE(refused(world_text("<!--" + repeated("<a/>", limits::kXmlElements) + "-->"), "at most 100000"));
+  EXPECT_TRUE(refused(world_text(repeated("<a>", limits::kXmlNesting) + repeated("</a>", limits::kXmlNesting)),
+                      "at most 64 elements inside each other"));
+  EXPECT_TRUE(refused(world_text(repeated("<a>", 50'000)), "DEPTH"));  // the XML reader's own limit, before ours
+  std::string attributes;
+  for (std::size_t i = 0; i <= limits::kXmlAttributes; ++i) attributes += " a" + std::to_string(i) + "=\"\"";
+  EXPECT_TRUE(refused(world_text("<light" + attributes + "/>"), "at most 32 attributes"));
+  EXPECT_TRUE(refused(world_text("<" + std::string(300, 'a') + "/>"), "at most 200 bytes in the name of an element"));
+  EXPECT_TRUE(refused(world_text("<model name=\"" + std::string(300, 'a') + "\"/>"), "a name may have at most 200"));
+}
+
+TEST(Limits, ListsOfASceneAreBounded) {
+  std::string models;
+  for (std::size_t i = 0; i <= limits::kMachines; ++i) models += "<model name=\"m" + std::to_string(i) + "\"/>";
+  EXPECT_TRUE(refused(world_text(models), "at most 500 <model> in one <world>"));
+  EXPECT_TRUE(refused(world_text(repeated("<navvy:soil ref=\"loam\"/>", limits::kSoils)), "at most 255 <navvy:soil>"));
+  EXPECT_TRUE(
+      refused(world_text("<model name=\"m\">" + repeated("<link name=\"l\"/>", limits::kLinks + 1) + "</model>"),
+              "at most 300 <link> in one <model>"));
+  EXPECT_TRUE(refused(world_text("<model name=\"m\"><link name=\"l\">" +
+                                 repeated("<visual name=\"v\"/>", limits::kShapes + 1) + "</link></model>"),
+                      "at most 200 <visual> in one <link>"));
+  EXPECT_TRUE(refused(
+      world_text("<model name=\"m\"><navvy:program>" +
+                 repeated("<wait><duration_s>1</duration_s></wait>", limits::kSteps + 1) + "</navvy:program></model>"),
+      "a program may have at most 2000 steps"));
+}
+
+TEST(Limits, AnIncludedFileCountsAtEachUse) {
+  const test::Folder folder;
+  const std::string model = folder / "model.sdf";
+  write_file_atomically(model, "<sdf version=\"1.9\"><model name=\"m\"><static>1</static><link name=\"a\">" +
+                                   repeated("<sensor/>", 60'000) + "</link></model></sdf>");
+  std::string machines;
+  for (int i = 0; i < 9; ++i)
+    machines += "<include><uri>" + model + "</uri><name>m" + std::to_string(i) + "</name></include>";
+  EXPECT_TRUE(refused(world_text(machines), "may have at most 400000 elements together"));
+  const Faults faults = read(world_text(machines));
+  EXPECT_EQ(faults.work.files, 2u);
+  EXPECT_LE(faults.work.elements, limits::kSceneElements + 60'100);
+}
+
+TEST(Limits, NamesThatWouldBreakAHeaderAreRefused) {
+  EXPECT_TRUE(refused(world_text("<model name=\"a,b\"/>"), "no comma"));
+  EXPECT_TRUE(refused(world_text("<model name=\"a&#10;b\"/>"), "'a b': a name must hold no comma"));
+  EXPECT_TRUE(refused(world_text("<model name='a\"b'/>"), "no quote"));
+  EXPECT_TRUE(refused(world_text("<include><uri>model://ew180</uri><name>a,b</name></include>"), "no comma"));
+  EXPECT_TRUE(refused(world_text("<navvy:camera name=\"a,b\"/>"), "no comma"));
+  EXPECT_TRUE(refused(world_text("<model name=\"m\"><navvy:shell name=\"a,b\"/></model>"), "no comma"));
+}
+
+TEST(Limits, WhatIsNoUtf8IsRefusedWithItsLine) {
+  EXPECT_TRUE(refused(world_text("\n<model name=\"caf\xE9\"/>"), "mine.sdf:3: error: the file must be text in UTF-8"));
+  EXPECT_TRUE(refused(world_text("<!-- caf\xE9 -->"), "UTF-8"));
+  EXPECT_TRUE(refused(world_text("<model name=\"a&#xD800;\"/>"), "none of Unicode's"));
+  EXPECT_FALSE(read(world_text("<!-- café -->")).has_errors());
+  Overrides overrides;
+  overrides.set.push_back({"soil.name\xFF", "1"});
+  EXPECT_THROW(load_scene_from_string(world_text(""), "x.sdf", control::step_kinds(), overrides), InputError);
+}
+
+TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
+  const test::Folder folder;
+  const std::string pipe = folder / "pipe.sdf", mesh = folder / "pipe.obj";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo(mesh.c_str(), 0600), 0);
+  const auto faults = check(pipe, control::step_kinds());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].text().find("it is a pipe"), std::string::npos) << faults[0].text();
+  EXPECT_NE(check("/dev/zero", control::step_kinds())[0].text().find("it is a device"), std::string::npos);
+  EXPECT_THROW(load_machine(pipe), InputError);
+  EXPECT_THROW(load_soils(folder.path().string()), InputError);
+  EXPECT_TRUE(refused(world_text("<include><uri>" + pipe + "</uri></include>"), "no such model"));
+  EXPECT_TRUE(refused(world_text("<model name=\"m\"><static>1</static><link name=\"l\"><visual name=\"v\"><geometry>"
+                                 "<mesh><uri>" +
+                                 mesh + "</uri></mesh></geometry></visual></link></model>"),
+                      "no such mesh file"));
+  EXPECT_TRUE(refused(world_text("<navvy:soil ref=\"" + pipe + "\"/>"), "no such soil"));
+  // A list of files that a run has left, changed by hand.
+  Faults listed;
+  const auto document =
+      Document::parse(world_text("<navvy:resolved format=\"1\"><file hash=\"0\">" + mesh + "</file></navvy:resolved>"),
+                      "x.sdf", listed);
+  EXPECT_NO_THROW(load_scene_from_string(document->text(), "x.sdf", control::step_kinds()));
+}
+
+}  // namespace
+}  // namespace navvy::scene_io
