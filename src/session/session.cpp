@@ -273,7 +273,7 @@ struct SnapshotContent {
 
 void Session::save(const std::string& path) const {
   // In memory first: a disk that fills up leaves the old file. Saving only reads.
-  const SnapshotContent content{{world().start()}, const_cast<Session&>(*this)};
+  const SnapshotContent content{{world().start(), world().description().name}, const_cast<Session&>(*this)};
   write_file_atomically(path, seal(saved(content)));
 }
 
@@ -281,7 +281,7 @@ void Session::save(const std::string& path) const {
 void Session::load(const std::string& path, bool anyway) {
   const std::vector<char> bytes = read_file(path);
   try {
-    SnapshotContent content{{world().start(), anyway}, *this};
+    SnapshotContent content{{world().start(), world().description().name, anyway}, *this};
     load_saved(unseal(bytes), content);
   } catch (const InputError& error) {
     Fault fault = error.faults().front();

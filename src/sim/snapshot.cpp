@@ -12,15 +12,22 @@
 #include "heightfield/site.h"
 
 namespace navvy::sim {
+namespace {
+
+/// A name is a weak key, yet it catches the slip that happens: the wrong file.
+void require_scene(Archive& a, const std::string& scene) {
+  a.constant("scene", scene,
+             "the snapshot belongs to another scene than '" + scene +
+                 "'; load it into its own scene with the same solver settings");
+}
+
+}  // namespace
 
 void SnapshotHead::visit(Archive& a) {
   // Version 2: samplers follow the coupling; 3: one visit drives hash, save and load.
   a.section("world", 3, [&] {
-    // A name is a weak key, yet it catches the slip that happens: the wrong file. The ground's own section checks its
-    // size.
-    a.constant("scene", scene,
-               "the snapshot belongs to another scene than '" + scene +
-                   "'; load it into its own scene with the same solver settings");
+    // The ground's own section checks its size.
+    require_scene(a, scene);
     a("dt", dt);
     // Thirty years of steps: counts of periods, which are as many or a million times more, are still whole numbers.
     a.ranged("steps", steps, 0, 1'000'000'000'000);
@@ -48,6 +55,8 @@ std::uint64_t hash_of_start(const scene::Parameters& start) {
 
 void SnapshotStart::visit(Archive& a) {
   a.section("start", 1, [&] {
+    // First, as two scenes differ in everything: their names say more than a list.
+    require_scene(a, scene);
     scene::Parameters found = here;
     a("parameters", found);
     if (!a.loading() || found == here) return;
@@ -80,7 +89,7 @@ struct Front {
 heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file, SnapshotHead* head) {
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
-    Front front{{start_of(scene, ground)}, {scene.name}, std::move(ground)};
+    Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};
     // Whole files: snapshots are read at once everywhere.
     load_front(unseal(read_file(snapshot_file)), front);
     if (head != nullptr) *head = front.head;

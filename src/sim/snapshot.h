@@ -33,9 +33,10 @@ std::uint64_t hash_of_start(const scene::Parameters& start);
 /// The section of a snapshot's file that holds the start of the run it was taken of.
 struct SnapshotStart {
   scene::Parameters here;  ///< of the scene that it is loaded into, or saved from
+  std::string scene;       ///< its name
   bool anyway = false;     ///< a difference is told in the log, and the state is loaded all the same
 
-  /// @throws InputError that says what differs, unless `anyway`.
+  /// @throws InputError that says what differs, unless `anyway`; for a scene with another name always.
   void visit(Archive& a);
 };
 

@@ -31,7 +31,7 @@ struct Front {
 };
 
 void write(const std::string& path, const scene::Scene& scene, heightfield::Ground& dug) {
-  write_file_atomically(path, seal(saved(Front{{start_of(scene, dug)}, {scene.name, 0.001, 250}, dug})));
+  write_file_atomically(path, seal(saved(Front{{start_of(scene, dug), scene.name}, {scene.name, 0.001, 250}, dug})));
 }
 
 TEST(Snapshot, GivesItsGroundWithoutADevice) {
