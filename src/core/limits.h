@@ -22,17 +22,17 @@ inline constexpr std::size_t kSceneElements = 400'000;       ///< of a scene, an
 inline constexpr std::size_t kFaultsShown = 100;             ///< errors, and as many warnings, told one by one
 
 // What a scene holds.
-inline constexpr std::size_t kMachines = 500;          ///< included and as many in the file; cameras and lights too
-inline constexpr std::size_t kSoils = 255;             ///< columns and particles number them in a byte
-inline constexpr std::size_t kGroundLayers = 100;      ///< of a ground or a patch
-inline constexpr std::size_t kGroundParts = 1000;      ///< patches, awake boxes and shapes of a kind
-inline constexpr std::size_t kSteps = 2000;            ///< of a program
-inline constexpr std::size_t kLinks = 300;             ///< of a machine; joints, frames, cylinders, wheels likewise
-inline constexpr std::size_t kShapes = 200;            ///< visuals of a link, and as many collisions
-inline constexpr std::size_t kShells = 100;            ///< of a machine
-inline constexpr std::size_t kShellTriangles = 5'000;  ///< of one shell: particles near it are held against each
-inline constexpr std::size_t kShellPieces = 100'000;   ///< of a scene: shells are cut to pieces of three cells
-inline constexpr double kParticles = 2e8;              ///< soil's budget; 216 bytes each
+inline constexpr std::size_t kMachines = 500;           ///< included and as many in the file; cameras and lights too
+inline constexpr std::size_t kSoils = 255;              ///< columns and particles number them in a byte
+inline constexpr std::size_t kGroundLayers = 100;       ///< of a ground or a patch
+inline constexpr std::size_t kGroundParts = 1000;       ///< patches, awake boxes and shapes of a kind
+inline constexpr std::size_t kSteps = 2000;             ///< of a program
+inline constexpr std::size_t kLinks = 300;              ///< of a machine; joints, frames, cylinders, wheels likewise
+inline constexpr std::size_t kShapes = 200;             ///< visuals of a link, and as many collisions
+inline constexpr std::size_t kShells = 100;             ///< of a machine
+inline constexpr std::size_t kShellTriangles = 5'000;   ///< of one shell: particles near it are held against each
+inline constexpr std::size_t kShellPieces = 1'000'000;  ///< of a scene: shells are cut to pieces of three cells
+inline constexpr double kParticles = 2e8;               ///< soil's budget; 216 bytes each
 
 // Meshes.
 inline constexpr std::size_t kObjBytes = 64 * kMegabyte;
@@ -45,9 +45,9 @@ inline constexpr std::size_t kObjStatements =
 inline constexpr std::size_t kMtlFiles = 16;          ///< of one OBJ file
 inline constexpr std::size_t kMtlBytes = kMegabyte;   ///< of one of them
 inline constexpr std::size_t kHullVertices = 50'000;  ///< of a mesh that collides by its hull
-inline constexpr std::size_t kSceneMeshes = 1000;     ///< files
-inline constexpr std::size_t kSceneMeshBytes = 512 * kMegabyte;
-inline constexpr double kCoordinate = 1e6;  ///< [m] of a mesh's vertex
+inline constexpr std::size_t kSceneMeshes = 1000;     ///< files that shapes name
+inline constexpr std::size_t kSceneMeshBytes = 512 * kMegabyte;  ///< of all, a shell's at each use
+inline constexpr double kCoordinate = 1e6;                       ///< [m] of a mesh's vertex
 
 // Maps. A map itself may be of any size: only what lies under the site is read.
 inline constexpr double kMapCells = 2.5e7;                      ///< under the site, 100 MB

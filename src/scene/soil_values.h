@@ -26,6 +26,13 @@ struct SoilValue {
 /// good for any soil.
 const std::vector<SoilValue>& soil_values();
 
+/// The heaviest particle that bank soil becomes in cells of this edge [kg]: slices are up to 3/4 of a cell thick, four
+/// in plan, and soil may be denser than bank by the ruts' limit. Masses of particles are counted in 32 bits of
+/// kMassQuantum.
+inline double heaviest_particle(const Soil& soil, double cell) {
+  return soil.bank_density * cell * cell * cell * 0.75 / 0.8 / 4;
+}
+
 /// What a soil's numbers must be to each other; the element of a fault is "soil[name]/" and the number's name.
 std::vector<Fault> check_relations(const Soil& soil);
 

@@ -133,8 +133,13 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   check_links(model, !kinematic && is_static != "true" && is_static != "1", faults);
   check_joints(model, names, faults);
   if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
-  const bool has_joints = !machine.links.empty();
   machine.kinematic = kinematic;
+  read_extensions(model, names, machine, faults);
+  return machine;
+}
+
+void read_extensions(Element& model, const Names& names, scene::Machine& machine, Faults& faults) {
+  const bool has_joints = !machine.links.empty();
   std::vector<Element*> beds;
   const Element* drive = nullptr;
 
@@ -155,7 +160,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
       read_pump(*e, machine.pump, faults);
       if (!model.FirstChildElement("navvy:cylinder"))
         faults.error(*e, "", "a pump needs cylinders to feed", "add <navvy:cylinder>, or take the pump out");
-      if (kinematic)
+      if (machine.kinematic)
         faults.warning(*e, "", "a kinematic machine moves as told and has no use for a pump", "take it out");
     }
     if (kind == "navvy:drive") {
@@ -168,7 +173,6 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   }
   for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
   if (drive != nullptr && has_joints && !machine.wheels.empty()) check_wheels(*drive, machine, faults);
-  return machine;
 }
 
 }  // namespace navvy::scene_io

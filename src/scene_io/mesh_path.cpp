@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/edit_distance.h"
+#include "core/limits.h"
 #include "geometry/obj/read_obj.h"
 #include "scene_io/loader.h"
 
@@ -82,6 +83,42 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
   return true;
 }
 
+bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults& faults) {
+  const auto [at, is_new] = faults.work.meshes.try_emplace(path);
+  Work::Mesh& mesh = at->second;
+  if (is_new) {
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(path, unknown);
+    faults.work.mesh_bytes += unknown ? 0 : bytes;
+    if (faults.work.mesh_bytes > limits::kSceneMeshBytes) {
+      mesh.fault =
+          "the meshes of a scene may have at most " + std::to_string(limits::kSceneMeshBytes) + " bytes together";
+    } else if (faults.work.meshes.size() > limits::kSceneMeshes) {
+      mesh.fault = "the shapes of a scene may name at most " + std::to_string(limits::kSceneMeshes) + " mesh files";
+    } else {
+      try {
+        mesh.vertices = geometry::read_obj(path).vertices.size();
+      } catch (const Error& error) {
+        mesh.fault = error.what();
+      }
+    }
+  }
+  const std::size_t least = solid ? 4 : 1;
+  if (!mesh.fault.empty()) {
+    faults.error(uri, path, mesh.fault, "mend the mesh or name another");
+  } else if (mesh.vertices < least) {
+    faults.error(uri, std::to_string(mesh.vertices) + " vertices", "the mesh needs at least " + std::to_string(least),
+                 "mend the mesh or name another");
+  } else if (solid && mesh.vertices > limits::kHullVertices) {
+    faults.error(uri, std::to_string(mesh.vertices) + " vertices",
+                 "a mesh that collides may have at most " + std::to_string(limits::kHullVertices),
+                 "its hull is what collides: name a coarser mesh here");
+  } else {
+    return true;
+  }
+  return false;
+}
+
 bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   const std::string text = text_of(uri);
   std::error_code ignored;
@@ -100,6 +137,17 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
 }
 
 bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults) {
+  // Read for each shell that names it, so its bytes count each time.
+  std::error_code unknown;
+  const std::uintmax_t bytes = fs::file_size(path, unknown);
+  faults.work.mesh_bytes += unknown ? 0 : bytes;
+  if (faults.work.mesh_bytes > limits::kSceneMeshBytes) {
+    faults.error(at, path,
+                 "the meshes of a scene may have at most " + std::to_string(limits::kSceneMeshBytes) +
+                     " bytes together, a shell's counted each time it is named",
+                 "name smaller meshes");
+    return false;
+  }
   try {
     static_cast<geometry::TriangleMesh&>(shell) = geometry::read_obj(path);
     return true;

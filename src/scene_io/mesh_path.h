@@ -14,6 +14,10 @@ namespace navvy::scene_io {
 /// working directory.
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 
+/// Reads the OBJ file at `path` to see that it can be drawn or, if `solid`, collide by the hull of its vertices: what
+/// is found wrong here would end a run at its start. A file is read once for all that name it. False after a fault.
+bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults& faults);
+
 /// The model file named by an <include>'s `uri`: a file, a directory with model.sdf, or model://NAME.
 bool resolve_model(const Element& uri, std::string& path, Faults& faults);
 

@@ -75,7 +75,7 @@ void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
   }
 }
 
-bool read_geometry(const sdf::Geometry& from, const Element& xml, scene::Geometry& to, Faults& faults) {
+bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, scene::Geometry& to, Faults& faults) {
   using Kind = scene::Geometry::Kind;
   if (const auto* box = from.BoxShape()) {
     to.kind = Kind::kBox;
@@ -97,7 +97,7 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, scene::Geometr
     to.kind = Kind::kMesh;
     to.scale = to_vec3(mesh->Scale());
     const Element* uri = xml.FirstChildElement("mesh")->FirstChildElement("uri");
-    return uri && resolve_mesh(*uri, to.mesh_file, faults);
+    return uri && resolve_mesh(*uri, to.mesh_file, faults) && check_mesh(*uri, to.mesh_file, solid, faults);
   } else {
     faults.error(xml, "", "needs one of box, cylinder, sphere, plane, mesh");
     return false;
@@ -120,7 +120,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Fau
       const auto c = material->Diffuse();
       out.color = {c.R(), c.G(), c.B(), c.A()};
     }
-    if (read_geometry(*visual.Geom(), *element->FirstChildElement("geometry"), out.geometry, faults))
+    if (read_geometry(*visual.Geom(), *element->FirstChildElement("geometry"), false, out.geometry, faults))
       to.visuals.push_back(out);
   }
   for (std::uint64_t i = 0; i < from.CollisionCount(); ++i) {
@@ -137,7 +137,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Fau
     // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one leaves the default.
     for (const char* name : {"surface", "friction", "ode", "mu"}) step = step ? step->FirstChildElement(name) : nullptr;
     if (step) to_number(text_of(*step), out.friction);
-    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), out.geometry, faults))
+    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), true, out.geometry, faults))
       to.collisions.push_back(out);
   }
 }

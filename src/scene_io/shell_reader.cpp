@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/limits.h"
 #include "geometry/topology.h"
 #include "scene_io/fields.h"
 #include "scene_io/mesh_path.h"
@@ -67,6 +68,14 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
   std::string path;
   if (Element* child = fields.child("mesh"); child && resolve_mesh(*child, path, faults))
     read_shell_mesh(path, *child, shell, faults);
+  if (shell.triangles.size() > limits::kShellTriangles) {
+    faults.error(element, std::to_string(shell.triangles.size()) + " triangles",
+                 "a shell may have at most " + std::to_string(limits::kShellTriangles) +
+                     ": the soil near it is held against each",
+                 "thin the mesh out; what is drawn may stay as fine as it is");
+    shell.triangles.clear();
+    return shell;
+  }
   for (const auto& triangle : shell.triangles) {
     const int count = static_cast<int>(shell.vertices.size());
     const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
@@ -74,6 +83,7 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
       faults.error(element,
                    std::to_string(triangle[0]) + " " + std::to_string(triangle[1]) + " " + std::to_string(triangle[2]),
                    "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
+      shell.triangles.clear();
       return shell;
     }
   }

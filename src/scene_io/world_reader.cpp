@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/limits.h"
+#include "geometry/pieces.h"
+#include "scene/soil_values.h"
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/machine_reader.h"
@@ -250,6 +253,30 @@ void check_grid(const Element& world_element, const scene::Scene& world, Faults&
     faults.error(at, "", "the site must be at most 65536 cells wide", "larger cell_m or smaller size_m");
 }
 
+/// What only the cell tells: how heavy particles and how many pieces of shells become.
+void check_cell(const Element& world_element, const scene::Scene& world, Faults& faults) {
+  const Element* solver = world_element.FirstChildElement("navvy:solver");
+  const Element& at = solver ? *solver : world_element;
+  const double cell = world.solver.cell;
+  for (const scene::Soil& soil : world.soils)
+    if (scene::heaviest_particle(soil, cell) / kMassQuantum > std::numeric_limits<std::int32_t>::max())
+      faults.error(at, std::to_string(cell), "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
+                   "use a smaller cell_m");
+  std::size_t left = limits::kShellPieces;
+  for (const scene::MachineInWorld& placed : world.machines)
+    for (const scene::Shell& shell : placed.machine.shells) {
+      const std::size_t pieces = geometry::count_pieces(shell, geometry::kShellPieceCells * cell, left);
+      if (pieces > left) {
+        faults.error(at, "shell '" + shell.name + "' of '" + placed.name + "'",
+                     "the shells of a scene may be cut to at most " + std::to_string(limits::kShellPieces) +
+                         " pieces of three cells",
+                     "use a larger cell_m or smaller shells");
+        return;
+      }
+      left -= pieces;
+    }
+}
+
 void read_machines(Element& world_element, scene::Scene& world, const Known& known, Faults& faults) {
   // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
@@ -333,6 +360,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   const bool ground_known = ground && faults.error_count() == before_ground;
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
+  check_cell(*element, world, faults);
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);

@@ -4,6 +4,8 @@
 
 #include <tinyxml2.h>
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +23,13 @@ struct Work {
   std::size_t bytes = 0;     ///< of them
   std::size_t elements = 0;  ///< of them, an included machine's at each use
   std::size_t models = 0;    ///< models read through libsdformat
-  std::size_t meshes = 0;    ///< OBJ files read
+  /// An OBJ file that shapes name.
+  struct Mesh {
+    std::size_t vertices = 0;
+    std::string fault;  ///< why it cannot be read
+  };
+  std::map<std::string, Mesh> meshes;  ///< by path, each read once
+  std::uintmax_t mesh_bytes = 0;       ///< of them
 };
 
 /// Collects faults; an element added by an override (line 0) is reported as coming from the command line. Readers go on

@@ -107,6 +107,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 std::vector<Fault> check_programs(const scene::Scene& world) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
+    sim::check_awake(world, ground);
     return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground));
   } catch (const InputError& error) {
     // A ground that cannot be laid is itself the answer.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "heightfield/cell_rect.h"
 #include "heightfield/ground.h"
 #include "scene/scene.h"
 
@@ -13,5 +14,12 @@ namespace navvy::sim {
 /// X_WB of every machine's base link at the start, in the scene's order: as a World of this scene and ground has them.
 /// Needs no device.
 std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::Ground& ground);
+
+/// The columns of an awake box, rounded to whole ones and cut at the site's edge.
+heightfield::CellRect awake_columns(const scene::AwakeSoil& awake, const heightfield::Ground& ground);
+
+/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is asked for. Looks at
+/// as many columns as the budget has particles at most. @throws InputError naming the box.
+void check_awake(const scene::Scene& scene, const heightfield::Ground& ground);
 
 }  // namespace navvy::sim

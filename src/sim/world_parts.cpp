@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "heightfield/site.h"
+#include "sim/placing.h"
 #include "sim/snapshot.h"
 #include "sim/timing.h"
 
@@ -47,6 +48,7 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
                            "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
   // Soil that starts awake before loads are filled in: beds stand where machines stand now.
+  check_awake(description, ground);
   for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
 }
@@ -68,15 +70,6 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
-void WorldParts::wake(const scene::AwakeSoil& awake) {
-  // Rounded to whole columns, and cut at the site's edge.
-  const auto cell = [&](double metres, double from, int cells) {
-    return static_cast<int>(std::clamp(std::round((metres - from) / ground.cell()), 0.0, static_cast<double>(cells)));
-  };
-  const Vec2 from = ground.origin();
-  soil.wake({cell(awake.min.x(), from.x(), ground.nx()), cell(awake.min.y(), from.y(), ground.ny()),
-             cell(awake.max.x(), from.x(), ground.nx()), cell(awake.max.y(), from.y(), ground.ny())},
-            awake.bottom);
-}
+void WorldParts::wake(const scene::AwakeSoil& awake) { soil.wake(awake_columns(awake, ground), awake.bottom); }
 
 }  // namespace navvy::sim

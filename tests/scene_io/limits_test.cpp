@@ -139,6 +139,52 @@ TEST(Limits, AnIncludedFileCountsAtEachUse) {
   EXPECT_LE(faults.work.elements, limits::kSceneElements + 60'100);
 }
 
+TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
+  const auto shell = [](const std::string& vertices, const std::string& triangles) {
+    return "<model name=\"m\"><navvy:engine>kinematic</navvy:engine><link name=\"b\"/><navvy:shell "
+           "name=\"s\"><link>b</link>"
+           "<vertices_m>" +
+           vertices + "</vertices_m><triangles>" + triangles + "</triangles></navvy:shell></model>";
+  };
+  // One triangle of 1000 m would be cut to some twenty million pieces of 0.3 m.
+  EXPECT_TRUE(refused(world_text(shell("0 0 0 1000 0 0 0 1000 0", "0 1 2")), "at most 1000000 pieces of three cells"));
+  EXPECT_FALSE(read(world_text(shell("0 0 0 10 0 0 0 10 0", "0 1 2"))).has_errors());
+  std::string vertices, triangles;
+  for (std::size_t i = 0; i <= limits::kShellTriangles; ++i) {
+    const std::string x = std::to_string(0.01 * static_cast<double>(i));
+    vertices += x + " 0 0 " + x + " 0.01 0 " + x + " 0 0.01 ";
+    triangles += std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " ";
+  }
+  EXPECT_TRUE(refused(world_text(shell(vertices, triangles)), "a shell may have at most 5000"));
+}
+
+TEST(Limits, MeshesOfShapesAreReadOnceAndRefusedForWhatWouldEndARun) {
+  const test::Folder folder;
+  const auto model = [](const std::string& shape, const std::string& mesh) {
+    return "<model name=\"m\"><static>1</static><link name=\"l\"><" + shape + " name=\"a\"><geometry><mesh><uri>" +
+           mesh + "</uri></mesh></geometry></" + shape + "><" + shape + " name=\"b\"><geometry><mesh><uri>" + mesh +
+           "</uri></mesh></geometry></" + shape + "></link></model>";
+  };
+  const std::string flat = folder / "flat.obj", bad = folder / "bad.obj", empty = folder / "empty.obj";
+  write_file_atomically(flat, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  write_file_atomically(bad, std::string("v 0 0 x\n"));
+  write_file_atomically(empty, std::string("\n"));
+  const Faults drawn = read(world_text(model("visual", flat)));
+  EXPECT_FALSE(drawn.has_errors()) << messages(drawn);
+  EXPECT_EQ(drawn.work.meshes.size(), 1u);
+  EXPECT_TRUE(refused(world_text(model("collision", flat)), "the mesh needs at least 4"));
+  EXPECT_TRUE(refused(world_text(model("visual", empty)), "the mesh needs at least 1"));
+  EXPECT_TRUE(refused(world_text(model("visual", bad)), "bad.obj:1: error"));
+  std::string many;
+  for (std::size_t i = 0; i <= limits::kHullVertices; ++i) many += "v 0 0 " + std::to_string(i) + "\n";
+  write_file_atomically(flat, many);
+  EXPECT_TRUE(refused(world_text(model("collision", flat)), "may have at most 50000"));
+}
+
+TEST(Limits, ACellWhoseParticlesAreTooHeavyIsRefused) {
+  EXPECT_TRUE(refused(world_text("<navvy:solver><cell_m>1.5</cell_m></navvy:solver>"), "would weigh more than 128 kg"));
+}
+
 TEST(Limits, NamesThatWouldBreakAHeaderAreRefused) {
   EXPECT_TRUE(refused(world_text("<model name=\"a,b\"/>"), "no comma"));
   EXPECT_TRUE(refused(world_text("<model name=\"a&#10;b\"/>"), "'a b': a name must hold no comma"));

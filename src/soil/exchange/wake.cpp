@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "scene/soil_values.h"
 
 namespace navvy::soil {
 namespace {
@@ -26,9 +27,7 @@ Waker::Waker(heightfield::Ground& ground, PlanGrid grid, double gravity)
     : ground_(ground), grid_(grid), gravity_(gravity), cell_(ground.cell()) {
   for (const scene::Soil& soil : ground.setup().soils) {
     law_.push_back(law_constants(soil, cell_));
-    // The thickest slice is just below 3/4 of a cell; soil may be denser than bank by the ruts' limit.
-    const double heaviest = soil.bank_density * cell_ * cell_ * cell_ * 0.75 / 0.8 / kPerLayer;
-    if (heaviest / kMassQuantum > std::numeric_limits<std::int32_t>::max())
+    if (scene::heaviest_particle(soil, cell_) / kMassQuantum > std::numeric_limits<std::int32_t>::max())
       throw InputError(Fault{Fault::Severity::kError, "", 0, "solver/cell", std::to_string(cell_),
                              "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
                              "use a smaller cell"});

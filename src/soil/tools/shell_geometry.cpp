@@ -11,9 +11,6 @@
 namespace navvy::soil {
 namespace {
 
-/// Longest edge of a piece [cells]: shorter ones fit the near zone tighter, longer ones cost fewer look-ups.
-constexpr double kPieceCells = 3;
-
 [[noreturn]] void refuse(const scene::Shell& shell, const std::string& value, const std::string& rule) {
   Fault fault;
   fault.element = "shell[" + shell.name + "]/triangles";
@@ -49,7 +46,7 @@ ShellGeometry::ShellGeometry(const scene::Shell& shell, double cell) : shell_(sh
       if (v < 0 || v >= static_cast<int>(shell.vertices.size()))
         refuse(shell, std::to_string(v), "vertex indices below " + std::to_string(shell.vertices.size()));
   find_normals();
-  cut_pieces(kPieceCells * cell);
+  pieces_ = geometry::cut_to_pieces(shell, geometry::kShellPieceCells * cell);
   build_hull();
 }
 
@@ -99,33 +96,6 @@ void ShellGeometry::find_normals() {
       triangles_[n].corner_normal[i] = corner_normals[index[i]];
       triangles_[n].corner_free[i] = corner_free.count(index[i]) != 0;
     }
-  }
-}
-
-void ShellGeometry::cut_pieces(double longest) {
-  std::vector<Piece> open;
-  for (std::size_t t = triangles_.size(); t-- > 0;) open.push_back({triangles_[t].corner, static_cast<int>(t)});
-  while (!open.empty()) {
-    const Piece piece = open.back();
-    open.pop_back();
-    std::size_t worst = 0;
-    double length = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double l = (piece.corner[(i + 1) % 3] - piece.corner[i]).norm();
-      if (l > length) {
-        length = l;
-        worst = i;
-      }
-    }
-    if (length <= longest) {
-      pieces_.push_back(piece);
-      continue;
-    }
-    // Halve the longest edge.
-    const Vec3 a = piece.corner[worst], b = piece.corner[(worst + 1) % 3], c = piece.corner[(worst + 2) % 3];
-    const Vec3 middle = 0.5 * (a + b);
-    open.push_back({{middle, b, c}, piece.triangle});
-    open.push_back({{a, middle, c}, piece.triangle});
   }
 }
 

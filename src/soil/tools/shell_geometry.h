@@ -7,6 +7,7 @@
 
 #include "core/math.h"
 #include "geometry/hull.h"
+#include "geometry/pieces.h"
 #include "scene/machine.h"
 
 namespace navvy::soil {
@@ -32,10 +33,7 @@ class ShellGeometry {
   const std::vector<std::array<Vec3, 2>>& rims() const { return rims_; }
 
   /// Pieces of the triangles no longer than a few cells: corners in T and whose triangle they are.
-  struct Piece {
-    std::array<Vec3, 3> corner;
-    int triangle;
-  };
+  using Piece = geometry::MeshPiece;
   const std::vector<Piece>& pieces() const { return pieces_; }
 
   /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference of the kernels'
@@ -51,7 +49,6 @@ class ShellGeometry {
 
  private:
   void find_normals();
-  void cut_pieces(double longest);
   void build_hull();
 
   scene::Shell shell_;
