@@ -34,6 +34,7 @@ struct RunOptions {
   std::string control;
   double control_rate = 50;
   std::string resume;
+  bool resume_anyway = false;
   std::string snapshot;
   double snapshot_at = -1;
   double hash_every = 0;
@@ -166,7 +167,7 @@ int run(const RunOptions& options) {
   // The session builds the world; from here on errors leave a folder behind.
   session::Session session(description, device);
   // Before the recorder, which counts its frames from the time it finds.
-  if (!options.resume.empty()) session.load(options.resume);
+  if (!options.resume.empty()) session.load(options.resume, options.resume_anyway);
   // What comes out other than asked is said before the first step.
   const std::string rates = record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
   if (!options.quiet && !rates.empty()) log_info(rates);
@@ -202,6 +203,10 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   // Either of the two alone is a slip.
   command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
+  command
+      ->add_flag("--resume-anyway", options->resume_anyway,
+                 "go on although the scene has other parameters than the snapshot's; says which")
+      ->needs("--resume");
   command
       ->add_option("--hash-every", options->hash_every,
                    "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")

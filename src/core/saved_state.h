@@ -14,6 +14,9 @@
 
 namespace navvy {
 
+/// Bytes of the head of a section: tag, version, length of what follows.
+inline constexpr std::size_t kSectionHead = 16 + 4 + 8;
+
 /// Which field the bytes of a saved state belong to; for tests and for whoever looks into a state. It is how a test
 /// says which field a flipped byte belongs to, and how a person finds out what differs between two states. It is never
 /// saved.

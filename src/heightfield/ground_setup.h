@@ -2,6 +2,7 @@
 // What a site is before anybody digs: its size, its soils and where its surface comes from.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct GroundSetup {
   std::vector<scene::GroundLayer> layers;  ///< from the surface down
   std::vector<scene::GroundPatch> patches;
   SurfaceSource surface;
+  std::uint64_t map_hash = 0;  ///< of the heights that `surface` takes from a map; 0: from the scene's numbers alone
   // Georeference of the site, for exports: file coordinates of `origin`, and its CRS as WKT (empty: none).
   // File z [m] = W z + height_offset; the file may count in feet.
   double easting = 0, northing = 0, height_offset = 0;

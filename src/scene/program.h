@@ -2,6 +2,7 @@
 // What an operator is told to do, step by step. What steps there are is known to `control`; a scene only keeps them.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,11 +36,20 @@ class Step {
 /// A step of any kind, as a value: cheap to copy, the description behind it is shared and never changes.
 class ProgramStep {
  public:
+  /// Values by the names of their elements, defaults too, as text in SI units.
+  using Values = std::map<std::string, std::string>;
+
   template <class T, class = std::enable_if_t<std::is_base_of_v<Step, T>>>
   ProgramStep(T step) : step_(std::make_shared<const T>(std::move(step))) {}  // NOLINT: a step of a kind is a step
 
   const Step& operator*() const { return *step_; }
   const Step* operator->() const { return step_.get(); }
+  /// Empty for a step that no file described.
+  const Values& values() const {
+    static const Values kNothing;
+    return values_ ? *values_ : kNothing;
+  }
+  void set_values(Values values) { values_ = std::make_shared<const Values>(std::move(values)); }
   /// The description if it is of kind T, else null; to change it, assign a changed copy.
   template <class T>
   const T* as() const {
@@ -48,6 +58,7 @@ class ProgramStep {
 
  private:
   std::shared_ptr<const Step> step_;
+  std::shared_ptr<const Values> values_;
 };
 
 /// Steps of one machine, done one after the other.

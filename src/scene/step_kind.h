@@ -34,10 +34,15 @@ struct StepKind {
 };
 using StepKinds = std::vector<StepKind>;
 
+/// A step with the values that its reader took, so that two programs can be compared (scene/parameters.h).
+ProgramStep read_noting(const StepSource& source, const std::function<ProgramStep(const StepSource&)>& read);
+
 /// The row of a description T, which has `T::kElement` and `static T T::read(const StepSource&)`.
 template <class T>
 StepKind step_kind() {
-  return {T::kElement, [](const StepSource& source) { return ProgramStep(T::read(source)); }};
+  return {T::kElement, [](const StepSource& source) {
+            return read_noting(source, [](const StepSource& noted) { return ProgramStep(T::read(noted)); });
+          }};
 }
 
 }  // namespace navvy::scene

@@ -156,6 +156,10 @@ void OperatedMachine::visit(Archive& a) {
   a("payload", seen_.payload);
   a("open_cycle", open_);
   a("open_tip", open_tip_);
+  // Reports name their machine by its index, which readers of them take as it is.
+  const auto own = [&](const auto& open) { return !open || open->machine == machine_.index(); };
+  a.require(own(open_), "open_cycle", "names another machine");
+  a.require(own(open_tip_), "open_tip", "names another machine");
   // The operator's state stands still once its machine is taken, but that may go anywhere.
   a("taken", taken_);
   a("operator", op_);

@@ -11,10 +11,12 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "core/saved_state.h"
+#include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
+#include "sim/snapshot.h"
 
 namespace navvy::session {
 namespace {
@@ -240,7 +242,12 @@ void Session::visit(Archive& a) {
   if (a.loading()) state_->surface.forget();
 }
 
-std::string Session::state_hash() const { return hash_of(*this).hex(); }
+std::string Session::state_hash() const {
+  StateHash sum;
+  sum.value(state_->world.start_hash());
+  add_to_hash(sum, *this);
+  return sum.hex();
+}
 
 std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out = state_->world.hash_parts();
@@ -249,16 +256,33 @@ std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
   return out;
 }
 
+namespace {
+
+/// What stands in a snapshot's file: what the run started from, then its state.
+struct SnapshotContent {
+  sim::SnapshotStart start;
+  Session& session;
+
+  void visit(Archive& a) {
+    a("start", start);
+    a("session", session);
+  }
+};
+
+}  // namespace
+
 void Session::save(const std::string& path) const {
-  // In memory first: a disk that fills up leaves the old file.
-  write_file_atomically(path, saved(*this));
+  // In memory first: a disk that fills up leaves the old file. Saving only reads.
+  const SnapshotContent content{{world().start(), world().description().name}, const_cast<Session&>(*this)};
+  write_file_atomically(path, seal(saved(content)));
 }
 
 // Sections name themselves in messages; the file's name is added here.
-void Session::load(const std::string& path) {
-  std::vector<char> bytes = read_file(path);
+void Session::load(const std::string& path, bool anyway) {
+  const std::vector<char> bytes = read_file(path);
   try {
-    load_saved(std::move(bytes), *this);
+    SnapshotContent content{{world().start(), world().description().name, anyway}, *this};
+    load_saved(unseal(bytes), content);
   } catch (const InputError& error) {
     Fault fault = error.faults().front();
     fault.file = path;

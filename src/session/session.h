@@ -70,7 +70,8 @@ class Session {
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
   /// Snapshot to and from a file; atomic. @throws FileError, InputError.
   void save(const std::string& path) const;
-  void load(const std::string& path);
+  /// @param anyway a snapshot of a scene with other parameters is loaded too; what differs goes to the log
+  void load(const std::string& path, bool anyway = false);
 
  private:
   bool time_is_over() const;

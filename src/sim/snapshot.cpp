@@ -5,21 +5,67 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/hash.h"
+#include "core/log.h"
 #include "core/saved_state.h"
+#include "core/sealed.h"
 #include "heightfield/site.h"
 
 namespace navvy::sim {
+namespace {
+
+/// A name is a weak key, yet it catches the slip that happens: the wrong file.
+void require_scene(Archive& a, const std::string& scene) {
+  a.constant("scene", scene,
+             "the snapshot belongs to another scene than '" + scene +
+                 "'; load it into its own scene with the same solver settings");
+}
+
+}  // namespace
 
 void SnapshotHead::visit(Archive& a) {
   // Version 2: samplers follow the coupling; 3: one visit drives hash, save and load.
   a.section("world", 3, [&] {
-    // A name is a weak key, yet it catches the slip that happens: the wrong file. The ground's own section checks its
-    // size.
-    a.constant("scene", scene,
-               "the snapshot belongs to another scene than '" + scene +
-                   "'; load it into its own scene with the same solver settings");
+    // The ground's own section checks its size.
+    require_scene(a, scene);
     a("dt", dt);
-    a("steps", steps);
+    // Thirty years of steps: counts of periods, which are as many or a million times more, are still whole numbers.
+    a.ranged("steps", steps, 0, 1'000'000'000'000);
+  });
+}
+
+scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground) {
+  scene::Parameters out = scene::parameters(scene);
+  if (ground.setup().map_hash != 0) {
+    StateHash sum;
+    sum.value(ground.setup().map_hash);
+    out["ground/map"] = sum.hex();
+  }
+  return out;
+}
+
+std::uint64_t hash_of_start(const scene::Parameters& start) {
+  StateHash sum;
+  for (const auto& [path, value] : start) {
+    sum.bytes(path.data(), path.size());
+    sum.bytes(value.data(), value.size());
+  }
+  return sum.digest();
+}
+
+void SnapshotStart::visit(Archive& a) {
+  a.section("start", 1, [&] {
+    // First, as two scenes differ in everything: their names say more than a list.
+    require_scene(a, scene);
+    scene::Parameters found = here;
+    a("parameters", found);
+    if (!a.loading() || found == here) return;
+    const std::string differences = scene::differences(found, here);
+    if (!anyway)
+      throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
+                             "it was taken of a scene that differs: " + differences,
+                             "go on from it in the scene it was taken of, or with --resume-anyway in this one"});
+    log_warning("going on from a snapshot of another scene: " + differences);
   });
 }
 
@@ -27,10 +73,12 @@ namespace {
 
 /// The ground's section comes first of all parts; what follows it needs a device and is left unread.
 struct Front {
+  SnapshotStart start;
   SnapshotHead head;
   heightfield::Ground ground;
 
   void visit(Archive& a) {
+    a("start", start);
     a("head", head);
     a("ground", ground);
   }
@@ -40,9 +88,10 @@ struct Front {
 
 heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file, SnapshotHead* head) {
   try {
-    Front front{{scene.name}, heightfield::make_ground(scene, nullptr)};
+    heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
+    Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};
     // Whole files: snapshots are read at once everywhere.
-    load_front(read_file(snapshot_file), front);
+    load_front(unseal(read_file(snapshot_file)), front);
     if (head != nullptr) *head = front.head;
     return std::move(front.ground);
   } catch (const InputError& error) {

@@ -7,6 +7,7 @@
 
 #include "core/archive.h"
 #include "heightfield/ground.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 
 namespace navvy::sim {
@@ -19,6 +20,23 @@ struct SnapshotHead {
   std::uint64_t steps = 0;  ///< time [s] is steps x dt
 
   /// Refuses a snapshot of a scene with another name than `scene`.
+  void visit(Archive& a);
+};
+
+/// Everything that decides how a run of `scene` goes: its parameters, and the heights of the map it starts on. The
+/// whole of it stands in a snapshot's file, before the state.
+scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground);
+/// Hash of that, which is part of every hash of a state: two runs that start alike and differ in a parameter never
+/// have one hash.
+std::uint64_t hash_of_start(const scene::Parameters& start);
+
+/// The section of a snapshot's file that holds the start of the run it was taken of.
+struct SnapshotStart {
+  scene::Parameters here;  ///< of the scene that it is loaded into, or saved from
+  std::string scene;       ///< its name
+  bool anyway = false;     ///< a difference is told in the log, and the state is loaded all the same
+
+  /// @throws InputError that says what differs, unless `anyway`; for a scene with another name always.
   void visit(Archive& a);
 };
 

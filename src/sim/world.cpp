@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/saved_state.h"
 #include "sim/names.h"
 #include "sim/snapshot.h"
@@ -234,13 +235,23 @@ void World::visit(Archive& a) {
 }
 
 /// Of the world alone; a session's hash has its operators in it.
-std::string World::state_hash() const { return hash_of(*this).hex(); }
+std::string World::state_hash() const {
+  StateHash sum;
+  sum.value(parts_->start_hash);
+  add_to_hash(sum, *this);
+  return sum.hex();
+}
+const scene::Parameters& World::start() const { return parts_->start; }
+std::uint64_t World::start_hash() const { return parts_->start_hash; }
 
 /// Each part by itself, so that two runs compared row by row show which of them parted first.
 std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out;
   // Each part starts a sum of its own.
   const auto add = [&out](const char* name, const auto& part) { out.emplace_back(name, hash_of(part).hex()); };
+  StateHash start;
+  start.value(parts_->start_hash);
+  out.emplace_back("start", start.hex());
   add("ground", parts_->ground);
   add("soil", parts_->soil);
   add("dynamic_machines", *parts_->dynamic);

@@ -10,6 +10,7 @@
 
 #include "core/archive.h"
 #include "heightfield/ground.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
@@ -101,9 +102,12 @@ class World {
   /// until the state has been read from the device. Loads into a world built from the same scene, with the same
   /// samplers, only; whatever throws leaves the world half loaded, of no use but to be loaded again or destroyed.
   void visit(Archive& a);
-  /// Hash of that [hex]. Costs a pass over the state.
+  /// What the run started from (sim/snapshot.h): every parameter of the scene and the heights of its map.
+  const scene::Parameters& start() const;
+  std::uint64_t start_hash() const;
+  /// Hash of state and start [hex]. Costs a pass over the state.
   std::string state_hash() const;
-  /// Name and hash [hex] of every part by itself, to tell which of them differs.
+  /// Name and hash [hex] of the start and of every part by itself, to tell which of them differs.
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
 
  private:

@@ -10,6 +10,7 @@
 #include "core/log.h"
 #include "heightfield/site.h"
 #include "sim/placing.h"
+#include "sim/snapshot.h"
 #include "sim/timing.h"
 
 namespace navvy::sim {
@@ -36,6 +37,8 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
       coupling(description, *dynamic, *kinematic, soil, ground) {
+  start = start_of(description, ground);
+  start_hash = hash_of_start(start);
   // The step of everything is what waves in the stiffest soil and the fastest tool allow.
   longest_step = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
   const double rate = description.solver.control_rate;

@@ -9,6 +9,7 @@
 
 #include "coupling/coupling.h"
 #include "heightfield/ground.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
@@ -50,6 +51,9 @@ struct WorldParts {
   ArrayOutputs arrays;
   /// In the order in which they were added, which is that of sampling, hash and snapshot.
   std::vector<std::unique_ptr<SamplerSlot>> samplers;
+  /// What the run starts from, by name, and its hash: taken once, as neither ever changes.
+  scene::Parameters start;
+  std::uint64_t start_hash = 0;
   double longest_step = 0;  ///< that soil and scene allow [s]
   double dt = 0;            ///< base step [s]
   std::uint64_t steps = 0;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/saved_state.h"
+#include "core/sealed.h"
 #include "folder.h"
 #include "heightfield/site.h"
 #include "sim/scenes.h"
@@ -16,19 +17,21 @@ namespace {
 
 /// A snapshot as a world writes it, up to and with its ground; `dug` has a hole. What follows is not to be read.
 struct Front {
+  SnapshotStart start;
   SnapshotHead head;
   heightfield::Ground& ground;
   std::string rest = "soil, machines and more";
 
   void visit(Archive& a) {
+    a("start", start);
     a("head", head);
     a("ground", ground);
-    a("rest", rest);
+    a.section("rest", 1, [&] { a("rest", rest); });
   }
 };
 
 void write(const std::string& path, const scene::Scene& scene, heightfield::Ground& dug) {
-  write_file_atomically(path, saved(Front{{scene.name, 0.001, 250}, dug}));
+  write_file_atomically(path, seal(saved(Front{{start_of(scene, dug), scene.name}, {scene.name, 0.001, 250}, dug})));
 }
 
 TEST(Snapshot, GivesItsGroundWithoutADevice) {

@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/limits.h"
 #include "heightfield/ascii_words.h"
 #include "heightfield/gdal/beside.h"
@@ -385,6 +386,11 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup) {
   setup.datum = *least - world.ground.depth;
   const double cell = setup.cell;
   // Shared, so that copies of the setup cost nothing.
+  StateHash heights;
+  heights.bytes(raster->z.data(), raster->z.size() * sizeof(float));
+  for (const double one : {raster->cell_x, raster->cell_y, raster->x0, raster->y0}) heights.value(one);
+  heights.value(raster->nx);
+  setup.map_hash = heights.digest();
   setup.surface = [raster, cell](int ix, int iy) { return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell); };
   return report;
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sealed.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "core/archive.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "core/saved_state.h"
+
+namespace navvy {
+namespace {
+
+struct Part {
+  std::vector<double> values;
+  void visit(Archive& a) {
+    a.section("part", 1, [&] { a("values", values); });
+  }
+};
+/// Three sections side by side, the first two of one kind and length.
+struct State {
+  Part first{{1, 2, 3}}, second{{4, 5, 6}}, third{{7}};
+  void visit(Archive& a) {
+    a("first", first);
+    a("second", second);
+    a("third", third);
+  }
+};
+
+bool refused(const std::vector<char>& content) {
+  try {
+    unseal(content);
+  } catch (const InputError&) {
+    return true;
+  }
+  return false;
+}
+
+TEST(Sealed, GivesTheStateBack) {
+  const std::vector<char> state = saved(State());
+  EXPECT_EQ(unseal(seal(state)), state);
+  EXPECT_EQ(unseal(seal({})), std::vector<char>());
+}
+
+TEST(Sealed, BytesOutsideOfSectionsAreTheCallersFault) {
+  EXPECT_THROW(seal(std::vector<char>(5, 'x')), Error);
+  EXPECT_THROW(seal(std::vector<char>(100, 'x')), Error);
+}
+
+TEST(Sealed, EveryFlippedBitIsRefused) {
+  const std::vector<char> content = seal(saved(State()));
+  for (std::size_t bit = 0; bit < 8 * content.size(); ++bit) {
+    std::vector<char> flipped = content;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    EXPECT_TRUE(refused(flipped)) << "bit " << bit;
+  }
+}
+
+TEST(Sealed, EveryLengthButTheRightOneIsRefused) {
+  std::vector<char> content = seal(saved(State()));
+  for (std::size_t size = 0; size < content.size(); ++size)
+    EXPECT_TRUE(refused(std::vector<char>(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(size))))
+        << size;
+  content.push_back(0);
+  EXPECT_TRUE(refused(content));
+}
+
+TEST(Sealed, SwappedSectionsAreRefused) {
+  State swapped;
+  std::swap(swapped.first, swapped.second);
+  const std::vector<char> one = seal(saved(State())), other = seal(saved(swapped));
+  ASSERT_EQ(one.size(), other.size());
+  // The two equal sections of one file, checksums and all, in the other's order.
+  const std::size_t head = 32, size = 8 + 28 + 8 + 24;
+  std::vector<char> mixed = one;
+  std::copy(one.begin() + head, one.begin() + head + size, mixed.begin() + head + size);
+  std::copy(one.begin() + head + size, one.begin() + head + 2 * size, mixed.begin() + head);
+  EXPECT_TRUE(refused(mixed));
+}
+
+}  // namespace
+}  // namespace navvy
