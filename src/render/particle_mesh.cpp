@@ -70,7 +70,12 @@ std::size_t slot(std::uint64_t k) {
   return static_cast<std::size_t>(k >> 20);
 }
 
-std::int32_t cell_of(float x, float pitch) { return static_cast<std::int32_t>(std::floor(x / pitch)); }
+// What is not finite, or farther than any site, goes to the outermost cell.
+std::int32_t cell_of(float x, float pitch) {
+  constexpr float kFarthest = 1 << 20;
+  const float cell = std::floor(x / pitch);
+  return static_cast<std::int32_t>(cell > -kFarthest ? std::min(cell, kFarthest) : -kFarthest);
+}
 
 }  // namespace
 

@@ -22,6 +22,7 @@ int index_of(const std::string& kind, const List& list, const std::string& name,
   for (std::size_t i = 0; i < list.size(); ++i)
     if (key(list[i]) == name) return static_cast<int>(i);
   std::vector<std::string> known;
+  known.reserve(list.size());
   for (const auto& entry : list) known.push_back(key(entry));
   throw_unknown(kind, name, known);
 }

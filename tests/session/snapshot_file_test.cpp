@@ -117,6 +117,7 @@ TEST_F(SnapshotFile, HashesCoverTheWholeStartingGroundAndEveryParameter) {
   const std::vector<std::vector<std::string>> scenes = {
       kCoarse, {kCoarse[0], "soil.cohesion_pa=8123"}, {kCoarse[0], "soil.bekker_n=0.71"}};
   std::vector<std::string> hashes;
+  hashes.reserve(scenes.size());
   for (const auto& settings : scenes) hashes.push_back(make("bucket_path.sdf", settings)->state_hash());
   std::sort(hashes.begin(), hashes.end());
   EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end()) << "before the first step";

@@ -70,6 +70,7 @@ void open(Map& map) {
     map.fail("terrain", "", failure.what(), "move that file away, or replace it");
   }
   std::vector<const char*> siblings;
+  siblings.reserve(beside.size() + 1);
   for (const std::string& name : beside) siblings.push_back(name.c_str());
   siblings.push_back(nullptr);
   // Doubles, because the ASCII driver guesses whole numbers from the first values it sees.
@@ -290,7 +291,8 @@ void find_rows(Map& map, int last_row) {
 /// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side are decoded for every
 /// row anew.
 void check_blocks(const Map& map, int x0, int x1, int y0, int y1) {
-  const double across = x1 / map.block_x - x0 / map.block_x + 1, down = y1 / map.block_y - y0 / map.block_y + 2;
+  const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1, blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
+  const double across = blocks_x, down = blocks_y;
   const bool kept = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
   const double decoded = across * (kept ? down : y1 - y0 + 1.0) * map.block_bytes;
   if (decoded > limits::kMapDecodedBytes)
