@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much work a file of somebody else's may ask for. Limits are counts (bytes, elements, triangles), never times, so
-// that a file is refused on every machine or on none. They are chosen so that any file up to 64 MB is refused or
-// checked within about five seconds and 1 GB, and lie at ten times and more of what scenes are made of. The table for
-// users is in scenarios/README.md; tests/scene_io/limits_test.cpp and its neighbours hold both.
+// that a file is refused on every machine or on none. They are meant to let a file up to 64 MB be refused or checked
+// within about five seconds and 1 GB, and lie at ten times and more of what scenes are made of. The table for users is
+// in scenarios/README.md; tests/scene_io/limits_test.cpp and its neighbours hold the numbers but for kMapDecodedBytes.
 #pragma once
 
 #include <cstddef>

@@ -10,10 +10,8 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr int kRutInterval = 8;  // steps between presses; a wheel at 2.5 m/s moves 3 cm in between
 // Fastest sinking of a rut [m/s]: a tyre falling at it adds a tenth to its load; at 1 m/s it passes 0.4 m in the time
 // it takes to sink 0.08 m.
-constexpr double kSinkSpeed = 0.2;
 constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
 constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
 constexpr int kPatchNodes = 256;      // most nodes along one side of the patch

@@ -22,6 +22,9 @@ struct LoadedTyre {
   vehicle::WheelState wheel;
 };
 
+constexpr int kRutInterval = 8;     ///< steps between presses; a wheel at 2.5 m/s moves 3 cm in between
+constexpr double kSinkSpeed = 0.2;  ///< most that a column gives way in a press, over the time between presses [m/s]
+
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing

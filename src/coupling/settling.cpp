@@ -13,8 +13,6 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr int kRutInterval = 8;       // steps, as in a run
-constexpr double kSinkSpeed = 0.2;    // [m/s], as in a run
 constexpr double kPatchMargin = 6.0;  // [m] of ground for rigid bodies round every machine
 constexpr int kPatchNodes = 256;      // most along a side
 
@@ -36,19 +34,17 @@ void lay_patch(vehicle::Engine& engine, const heightfield::Ground& ground, const
 
 }  // namespace
 
-std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
-  std::vector<Settled> out(scene.machines.size());
+std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
+  std::vector<vehicle::Stability> out(scene.machines.size());
   const auto engine = vehicle::make_bullet_engine(scene.gravity);
   std::vector<std::size_t> of;  // machine of the scene, by index in the engine
   std::vector<Vec2> places;
-  std::vector<Vec3> start;
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];
     if (placed.machine.kinematic) continue;
     engine->add_machine(placed.machine, place(placed, ground));
     of.push_back(m);
-    start.push_back(engine->link(static_cast<int>(of.size()) - 1, 0).X_WL.translation());
-    places.emplace_back(start.back().head<2>());
+    places.emplace_back(engine->link(static_cast<int>(of.size()) - 1, 0).X_WL.translation().head<2>());
   }
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
@@ -68,11 +64,8 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
     }
     ruts.press(tyres, kSinkSpeed * kRutInterval * dt);
   }
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    const int index = static_cast<int>(i);
-    out[of[i]].stability = vehicle::stability(scene.machines[of[i]].machine, *engine, index);
-    out[of[i]].moved = engine->link(index, 0).X_WL.translation() - start[i];
-  }
+  for (std::size_t i = 0; i < of.size(); ++i)
+    out[of[i]] = vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i));
   return out;
 }
 

@@ -11,15 +11,10 @@
 
 namespace navvy::coupling {
 
-/// How one machine stands after a while on the columns.
-struct Settled {
-  vehicle::Stability stability;
-  Vec3 moved = Vec3::Zero();  ///< of the base link [m]
-};
-
 /// Puts the scene's machines on `ground` as a run does and lets engine, tyres and ruts work for `time` [s]; joints
 /// hold, drives brake as they do without a command. Presses ruts into `ground`. No particle wakes, so no device is
-/// needed. One entry a machine; kinematic ones stay where they are. Costs some 0.2 s a machine and second.
-std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time);
+/// needed. How each machine of the scene
+/// stands then; a kinematic one as it was made, free to nothing. Costs some 0.2 s a machine and second.
+std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::Ground& ground, double time);
 
 }  // namespace navvy::coupling

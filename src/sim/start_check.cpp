@@ -8,6 +8,7 @@
 #include "coupling/settling.h"
 #include "geometry/obj/read_obj.h"
 #include "geometry/oriented_box.h"
+#include "geometry/triangle_mesh.h"
 #include "heightfield/site.h"
 #include "sim/placing.h"
 #include "vehicle/kinematics.h"
@@ -51,11 +52,9 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
       break;
   }
   try {
-    Eigen::AlignedBox3d round;
-    for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices) round.extend(Vec3(v.cwiseProduct(g.scale)));
-    if (round.isEmpty()) return std::nullopt;
-    box.X_WO = collision.X_LC * Eigen::Translation3d(round.center());
-    box.half = 0.5 * round.sizes();
+    const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
+    box.X_WO = collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
+    box.half = 0.5 * (round.high - round.low).cwiseProduct(g.scale.cwiseAbs());
     return box;
   } catch (const Error&) {
     return std::nullopt;
@@ -115,16 +114,17 @@ StartCheck check_start(const scene::Scene& scene) {
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
     out.faults = check_overlaps(scene, starting_poses(scene, ground));
-    const std::vector<coupling::Settled> settled = coupling::settle(scene, ground, kSettling);
-    for (std::size_t m = 0; m < settled.size(); ++m) {
-      const vehicle::Stability& stands = settled[m].stability;
-      out.standing.push_back(stands);
+    out.standing = coupling::settle(scene, ground, kSettling);
+    for (std::size_t m = 0; m < out.standing.size(); ++m) {
+      const vehicle::Stability& stands = out.standing[m];
       if (!stands.free || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
-      out.faults.push_back(error(scene, scene.machines[m].name, tilt,
-                                 "the machine tips over within its first second: its centre of mass is " +
-                                     text("%.2f m", -stands.margin) + " outside its wheels",
-                                 "put it on flatter ground, or turn it along the slope"));
+      out.faults.push_back(error(
+          scene, scene.machines[m].name, tilt,
+          std::string("the machine tips over within its first second") +
+              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its wheels"
+                                 : ""),
+          "put it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

@@ -16,18 +16,14 @@
 #include "folder.h"
 #include "paths.h"
 #include "process.h"
+#include "text_of.h"
 
 namespace navvy {
 namespace {
 
 using nlohmann::json;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using test::text_of;
 
 class Control : public testing::Test {
  protected:

@@ -13,29 +13,13 @@
 #include <thread>
 #include <vector>
 
-#include "paths.h"
-#include "process.h"
+#include "cli/program_run.h"
 
 namespace navvy {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-class Ending : public testing::Test {
+class Ending : public test::ProgramRun {
  protected:
-  void SetUp() override {
-    directory_ =
-        fs::path(navvy::build_dir()) / "test-ending" / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-  }
   /// Two buckets on posts, each with a program, on a site of 4 m; the whole scene ends after `duration` [s].
   std::string two_buckets(const std::string& first, const std::string& second, const std::string& duration) {
     const auto bucket = [](const std::string& name, const std::string& x, const std::string& program) {
@@ -50,23 +34,12 @@ class Ending : public testing::Test {
         << "</duration_s><settle_s>0.05</settle_s></navvy:recording></world></sdf>\n";
     return path;
   }
-  pid_t start(const std::vector<std::string>& more) {
+  pid_t begin(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run", "--no-render", "--out", out()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test::start({NAVVY_PROGRAM,
-                        arguments,
-                        {},
-                        "/dev/null",
-                        (directory_ / "stdout").string(),
-                        (directory_ / "stderr").string()});
+    return start(arguments);
   }
-  int run(const std::vector<std::string>& more) { return test::wait_for(start(more)); }
-  std::string out() const { return (directory_ / "out").string(); }
-  std::string said() const { return text_of(directory_ / "stdout"); }
-  std::string complained() const { return text_of(directory_ / "stderr"); }
-  nlohmann::json summary() const { return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false); }
-
-  fs::path directory_;
+  int run(const std::vector<std::string>& more) { return test::wait_for(begin(more)); }
 };
 
 const char* const kWait = "<wait><duration_s>0.2</duration_s></wait>";
@@ -117,7 +90,7 @@ TEST_F(Ending, OfAProgramThatTheDurationCutsOffIsIncompleteAndAFailureOnlyUnaske
 
 TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
   const std::string scene = two_buckets(kWait, "<wait><duration_s>100000</duration_s></wait>", "100000");
-  const pid_t child = start({scene});
+  const pid_t child = begin({scene});
   // Until the first program is done and a checkpoint tells so.
   const auto first_done = [&] {
     const nlohmann::json now = summary();

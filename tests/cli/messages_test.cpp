@@ -9,38 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "paths.h"
-#include "process.h"
+#include "cli/program_run.h"
 
 namespace navvy {
 namespace {
 
-namespace fs = std::filesystem;
-
-class Messages : public testing::Test {
+class Messages : public test::ProgramRun {
  protected:
-  void SetUp() override {
-    directory_ =
-        fs::path(navvy::build_dir()) / "test-messages" / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-  }
-  int run(const std::vector<std::string>& arguments) {
-    return test::wait_for(test::start({NAVVY_PROGRAM,
-                                       arguments,
-                                       {},
-                                       "/dev/null",
-                                       (directory_ / "stdout").string(),
-                                       (directory_ / "stderr").string()}));
-  }
-  static std::string text_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::stringstream out;
-    out << in.rdbuf();
-    return out.str();
-  }
-  std::string said() const { return text_of(directory_ / "stdout"); }
-  std::string complained() const { return text_of(directory_ / "stderr"); }
   /// A scene of flat loam with `machines` in it.
   std::string scene(const std::string& ground, const std::string& machines) {
     const std::string path = (directory_ / "scene.sdf").string();
@@ -58,7 +33,6 @@ class Messages : public testing::Test {
   void expect_complained(const std::string& part) const {
     EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n" << complained();
   }
-  fs::path directory_;
 };
 
 TEST_F(Messages, ListWhatIsShippedOneLineEach) {

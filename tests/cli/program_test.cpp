@@ -16,49 +16,19 @@
 #include <thread>
 #include <vector>
 
+#include "cli/program_run.h"
 #include "core/random.h"
-#include "paths.h"
-#include "process.h"
 
 namespace navvy {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using test::text_of;
 
-class Program : public testing::Test {
+class Program : public test::ProgramRun {
  protected:
-  void SetUp() override {
-    directory_ =
-        fs::path(navvy::build_dir()) / "test-cli" / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-  }
-  std::string out() const { return (directory_ / "out").string(); }
   static std::string scene(const std::string& name) { return navvy::source_dir() + "/scenarios/" + name; }
-
-  /// Starts navvy; stdin holds `input`, stdout and stderr go to files.
-  pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
-    const std::string in = (directory_ / "stdin").string();
-    std::ofstream(in) << input;
-    return test::start({NAVVY_PROGRAM, arguments, environment_, in, (directory_ / "stdout").string(),
-                        (directory_ / "stderr").string()});
-  }
-  static int wait(pid_t child) { return test::wait_for(child); }
-  int run(const std::vector<std::string>& arguments, const std::string& input = "") {
-    return wait(start(arguments, input));
-  }
-  std::string said() const { return text_of(directory_ / "stdout"); }
-  std::string complained() const { return text_of(directory_ / "stderr"); }
-
-  fs::path directory_;
-  std::vector<std::pair<std::string, std::string>> environment_;
 };
 
 /// Every file of a run, if it is there at all, is whole; of one that was killed the last row of telemetry may lack its
@@ -291,7 +261,7 @@ TEST_F(Program, StopsCleanlyAtCtrlC) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   kill(child, SIGINT);
-  EXPECT_EQ(wait(child), 130) << complained();
+  EXPECT_EQ(test::wait_for(child), 130) << complained();
   EXPECT_EQ(nlohmann::json::parse(text_of(out() + "/summary.json")).at("status"), "interrupted");
   EXPECT_TRUE(fs::exists(out() + "/terrain_end.tif"));
   expect_readable(out());
@@ -313,7 +283,7 @@ TEST_F(Program, StopsAtCtrlCWhileItWaitsForALineOfControl) {
   for (int i = 0; i < 600 && said().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_FALSE(said().empty());
   kill(child, SIGINT);
-  EXPECT_EQ(wait(child), 130) << complained();
+  EXPECT_EQ(test::wait_for(child), 130) << complained();
   close(held);
   EXPECT_EQ(nlohmann::json::parse(text_of(out() + "/summary.json")).at("status"), "interrupted");
 }
@@ -350,7 +320,7 @@ TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const double start_up = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
   kill(probe, SIGKILL);
-  wait(probe);
+  test::wait_for(probe);
   for (int i = 0; i < 20; ++i) {
     fs::remove_all(out());
     fs::remove_all(out() + ".previous");
@@ -363,7 +333,7 @@ TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
     const pid_t child = start(arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(0.1, 2) * start_up)));
     kill(child, SIGKILL);
-    wait(child);
+    test::wait_for(child);
     expect_readable(out(), true);
     with_results += fs::exists(out() + "/summary.json") ? 1 : 0;
     with_pictures += fs::exists(out() + "/frames") && !fs::is_empty(out() + "/frames") ? 1 : 0;

@@ -17,6 +17,7 @@
 
 #include "paths.h"
 #include "process.h"
+#include "text_of.h"
 
 namespace navvy::determinism {
 
@@ -31,12 +32,7 @@ inline Environment threads(int count) {
 /// Kernels for AVX2: PoCL compiles for the processor it is told, so a machine with AVX-512 shows both sides.
 inline Environment avx2() { return {{"POCL_LLVM_CPU_NAME", "haswell"}, {"POCL_KERNELLIB_NAME", "avx2"}}; }
 
-inline std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using test::text_of;
 
 /// What a run left.
 struct HashedRun {

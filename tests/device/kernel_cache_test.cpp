@@ -19,6 +19,7 @@
 #include "device/slow_call.h"
 #include "folder.h"
 #include "process.h"
+#include "text_of.h"
 
 namespace navvy::device {
 namespace {
@@ -30,10 +31,7 @@ void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::text_of;
 
 /// Two compiled programs as PoCL lays them out, listed by a cache that has gone.
 void fill(const fs::path& folder) {

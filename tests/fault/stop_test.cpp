@@ -15,6 +15,7 @@
 #include "folder.h"
 #include "paths.h"
 #include "process.h"
+#include "text_of.h"
 
 namespace navvy::fault {
 namespace {
@@ -22,12 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using test::text_of;
 
 class Stop : public testing::Test {
  protected:

@@ -19,16 +19,14 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "folder.h"
+#include "text_of.h"
 
 namespace navvy::record {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const std::string& file) {
-  const std::vector<char> bytes = read_file(file);
-  return {bytes.begin(), bytes.end()};
-}
+using test::text_of;
 
 /// What this process has handed to the system to write so far [bytes].
 std::uint64_t bytes_written() {

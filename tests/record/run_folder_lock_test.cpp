@@ -10,6 +10,7 @@
 #include "folder.h"
 #include "record/last_words.h"
 #include "record/run_folder.h"
+#include "text_of.h"
 
 namespace navvy::record {
 namespace {
@@ -20,10 +21,7 @@ void write(const std::string& path, const std::string& text) {
   fs::create_directories(fs::path(path).parent_path());
   write_file_atomically(path, text);
 }
-std::string text_of(const std::string& path) {
-  const std::vector<char> bytes = read_file(path);
-  return {bytes.begin(), bytes.end()};
-}
+using test::text_of;
 
 /// A run that leaves three files with its number in them.
 void run(const std::string& out, int number) {

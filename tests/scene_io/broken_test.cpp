@@ -10,16 +10,14 @@
 #include "core/file.h"
 #include "paths.h"
 #include "scene_io/loader.h"
+#include "text_of.h"
 
 namespace navvy::scene_io {
 namespace {
 
 const std::filesystem::path kBroken = std::filesystem::path(navvy::source_dir()) / "tests/scene_io/broken";
 
-std::string text_of(const std::filesystem::path& file) {
-  const std::vector<char> bytes = read_file(file.string());
-  return std::string(bytes.begin(), bytes.end());
-}
+using test::text_of;
 
 std::vector<std::filesystem::path> broken_files() {
   std::vector<std::filesystem::path> files;

@@ -201,7 +201,6 @@ void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
   node.vx += share * push / mass;
   node.vz += share * rub / mass;
   plate.impulse += share * push;
-  plate.lift += share * rub;
   energy_.tool += share * push * plate.speed;
 }
 
@@ -222,7 +221,7 @@ void PlaneStrain::update_nodes(double dt, bool first) {
   }
   if (first) energy_.transfer += kinetic_before_ - moving;
   if (on_nodes) on_nodes(*this, dt);
-  plate.impulse = plate.lift = 0;
+  plate.impulse = 0;
   for (int k = 0; k < nz_; ++k)
     for (int i = 0; i < nx_; ++i) {
       Node& node = nodes_[static_cast<std::size_t>(i + nx_ * k)];
@@ -312,16 +311,6 @@ void PlaneStrain::step(double dt) {
     held_ = 0;
     ++transfers_;
   }
-}
-
-double PlaneStrain::kinetic() const {
-  double sum = 0;
-  for (const PlanePoint& p : points) {
-    double affine = 0;
-    for (const int i : {0, 2, 6, 8}) affine += p.c[i] * p.c[i];
-    sum += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * cell_ * cell_ * affine);
-  }
-  return sum;
 }
 
 }  // namespace navvy::soil::reference

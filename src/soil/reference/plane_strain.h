@@ -49,10 +49,10 @@ struct PlanePoint : LawState {
 
 /// A plate standing upright, with soil on its +x side above its tip.
 struct PlanePlate {
-  double x = 0, tip = 0;         ///< [cells]
-  double speed = 0;              ///< along +x [m/s]
-  double friction = 0;           ///< tan of the friction angle
-  double impulse = 0, lift = 0;  ///< on the soil by the last step, along x and z [N s], of the slice
+  double x = 0, tip = 0;  ///< [cells]
+  double speed = 0;       ///< along +x [m/s]
+  double friction = 0;    ///< tan of the friction angle
+  double impulse = 0;     ///< on the soil by the last step, along x [N s], of the slice
 };
 
 /// Work since the start [J] of a slice one cell thick.
@@ -94,7 +94,6 @@ class PlaneStrain {
   };
   Node& node(int i, int k) { return nodes_[static_cast<std::size_t>(wrap(i) + nx_ * k)]; }
   const PlaneEnergy& energy() const { return energy_; }
-  double kinetic() const;  ///< of the particles with their affine part [J]
   int transfers() const { return transfers_; }
 
  private:

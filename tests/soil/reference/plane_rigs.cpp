@@ -31,7 +31,7 @@ BladeResult push_blade(const scene::Soil& soil, double cell, double courant, con
   plane.wall_x0 = 3;
   plane.wall_x1 = start + front;
   plane.has_plate = true;
-  plane.plate = {start, tip, 0, blade.friction, 0, 0};
+  plane.plate = {start, tip, 0, blade.friction, 0};
   plane.fill(3, start + front, floor, top, [&](double x, double z) { return z < tip || x > start + 0.1; });
   plane.settle([&](double x) { return x > start ? top : tip; });
 
@@ -57,7 +57,7 @@ BladeResult push_blade(const scene::Soil& soil, double cell, double courant, con
   return {force.mean(),
           force.mean() / rankine,
           force.deviation() / force.mean(),
-          (e.plastic + e.transfer) / e.tool,
+          (e.plastic + e.transfer) / (e.tool + e.gravity),
           e.transfer / e.tool,
           highest,
           static_cast<double>(steps) / plane.transfers()};

@@ -17,7 +17,7 @@ struct BladeResult {
   double force = 0;         ///< mean over the window, for a metre of width [N]
   double over_rankine = 0;  ///< force / Rankine's passive force of a smooth wall, cohesion included
   double scatter = 0;       ///< standard deviation over mean
-  double dissipated = 0;    ///< (plastic + lost in transfers) / work of the tool, from the start
+  double dissipated = 0;    ///< (plastic + lost in transfers) / work of tool and gravity, from the start
   double transfer = 0;      ///< lost in transfers / work of the tool
   double crowding = 0;      ///< largest density in front of the plate / bank density
   double steps_a_transfer = 0;

@@ -98,7 +98,8 @@ int main(int argc, char** argv) {
     blade.ramp = number("ramp", 0);
     const r::BladeResult out = r::push_blade(soil, cell, courant, method(), blade);
     std::printf(
-        "speed %.3f m/s: %.0f N/m, over Rankine %.3f, scatter %.1f %%; of the work dissipated %.2f, in transfers %.3f; "
+        "speed %.3f m/s: %.0f N/m, over Rankine %.3f, scatter %.1f %%; of the work dissipated %.2f, of the tool's in "
+        "transfers %.3f; "
         "densest %.2f; steps a transfer %.1f\n",
         blade.speed, out.force, out.over_rankine, 100 * out.scatter, out.dissipated, out.transfer, out.crowding,
         out.steps_a_transfer);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navvy` from outside: a test's own folder, the program run in it, what it said.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "paths.h"
+#include "process.h"
+#include "text_of.h"
+
+namespace navvy::test {
+
+/// The folder stays after the test, to be looked at.
+class ProgramRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = std::filesystem::path(build_dir()) / "test-cli" / info->test_suite_name() / info->name();
+    std::filesystem::remove_all(directory_);
+    std::filesystem::create_directories(directory_);
+  }
+
+  /// Starts navvy; its standard input holds `input`, both outputs go to files.
+  pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
+    const std::string in = (directory_ / "stdin").string();
+    std::ofstream(in) << input;
+    return test::start({NAVVY_PROGRAM, arguments, environment_, in, (directory_ / "stdout").string(),
+                        (directory_ / "stderr").string()});
+  }
+  /// Exit status, or minus the signal that ended it.
+  int run(const std::vector<std::string>& arguments, const std::string& input = "") {
+    return wait_for(start(arguments, input));
+  }
+  std::string out() const { return (directory_ / "out").string(); }
+  std::string said() const { return text_of(directory_ / "stdout"); }
+  std::string complained() const { return text_of(directory_ / "stderr"); }
+  nlohmann::json summary() const { return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false); }
+
+  std::filesystem::path directory_;
+  std::vector<std::pair<std::string, std::string>> environment_;  ///< of the program, on top of the test's own
+};
+
+}  // namespace navvy::test
