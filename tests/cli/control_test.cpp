@@ -81,12 +81,11 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
 
 TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
   const std::string deep(100000, '['), wide = "{\"inputs\": {\"" + std::string(900000, 'x') + "\": 1}}";
-  std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})";
+  std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})", endless;
+  endless.assign(100'000'000, 'y');
   const auto begun = std::chrono::steady_clock::now();
   std::vector<json> lines;
-  ASSERT_EQ(
-      drive(deep + "\n" + wide + "\n" + std::string(100000000, 'y') + "\n" + hidden + "\n{}\n{\"end\": true}", lines),
-      0)
+  ASSERT_EQ(drive(deep + "\n" + wide + "\n" + endless + "\n" + hidden + "\n{}\n{\"end\": true}", lines), 0)
       << complained();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   ASSERT_EQ(lines.size(), 6u);
