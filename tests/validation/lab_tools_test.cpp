@@ -93,8 +93,28 @@ TEST(ToolLab, RakedBladeInSand) {
   }
 }
 
+// One element of soil through the kernels: the same strength at any speed.
+TEST(ShearStrength, OfASampleIsTheSineOfItsFriction) {
+  for (const double speed : {0.6, 0.05, 0.005}) {
+    const lab::Report report = lab::run_rig("shear", {{"speed", speed}});
+    const lab::Quantity* ratio = report.find("tau over sigma");
+    expect_between("tau / sigma at " + lab::short_text(speed) + " m/s", ratio->measured, ratio->low, ratio->high,
+                   ratio->source, ratio->expected);
+    EXPECT_EQ(report.ledger_error, 0);
+  }
+}
+
+TEST(ShearStrength, OfATriaxialSampleIsMatsuokasAndNakais) {
+  for (const double path : {0.0, 1.0}) {
+    const lab::Report report = lab::run_rig("triaxial", {{"path", path}});
+    const lab::Quantity* angle = report.find("mobilised friction angle");
+    expect_between(std::string("triaxial ") + (path == 0 ? "compression" : "extension") + " [deg]", angle->measured,
+                   angle->low, angle->high, angle->source, angle->expected);
+  }
+}
+
 // Until its lid neither lifts nor leaks the box measures its own rim: a figure without a gate.
-TEST(ToolLab, DirectShearBox) {
+TEST(ShearStrength, OfTheDirectShearBoxHasNoGate) {
   for (const double cell : {0.1, 0.05}) {
     const double cells = 2.4 / cell;
     const lab::Report report =
