@@ -16,8 +16,8 @@ double kc(double phi_degrees, double delta_degrees) {
 }
 
 TEST(SlipLine, CohesionCoefficientsMatchTheirTable) {
-  // The exact field's, to three figures; the planar wedge has 3.46, 4.78, 6.96, 11.2. The last one by hand: the fan turns
-  // by 40.6 deg, p = 7.85 c.
+  // The exact field's, to three figures; the planar wedge has 3.46, 4.78, 6.96, 11.2. The last one by hand: the fan
+  // turns by 40.6 deg, p = 7.85 c.
   const double deltas[] = {0, 10, 20, 30}, coefficients[] = {3.46, 4.60, 5.78, 6.72};
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(kc(30, deltas[i]), coefficients[i], 6e-3) << deltas[i];
 }
