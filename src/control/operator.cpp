@@ -28,10 +28,12 @@ struct Operator::State {
   double steer = 0;                     // of the last command to the drive
   CycleEvent event = CycleEvent::kNone;
 
-  bool done() const { return step >= static_cast<std::int64_t>(steps.size()); }
+  bool past_last() const { return step >= static_cast<std::int64_t>(steps.size()); }
+  bool done() const { return past_last() && !failed(); }
   bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
   const Step& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
+  void watch_over(const Observation& seen, double time, double dt);
   void finish(StepState state, const std::string& reason, const Observation& seen, double time);
   StepReport report(StepState state, const std::string& reason, const Observation& seen, double time) const;
   void read_arm(const Observation& seen);
@@ -73,6 +75,21 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
   active.reset();
   // The step that fell short stays the present one: the program has come so far and no further.
   if (!fell_short(state)) ++step;
+}
+
+/// A machine can fall over when its program is long done: a second report of the last step says so.
+void Operator::State::watch_over(const Observation& seen, double time, double dt) {
+  std::string reason;
+  const StepState state = watch.look(seen, dt, reason);
+  if (!fell_short(state) || reports.empty()) return;
+  reports.push_back({static_cast<std::int64_t>(steps.size()),
+                     reports.back().element,
+                     state,
+                     "after its program was done: " + reason,
+                     time,
+                     time,
+                     seen.X_WB.translation(),
+                     {}});
 }
 
 void Operator::State::read_arm(const Observation& seen) {
@@ -154,10 +171,12 @@ Command Operator::update(const Observation& seen, double time, double dt) {
       // The next step begins with the next control step: telemetry sees "idle" between them.
       if (over) s.finish(s.active->state(), s.active->reason(), seen, time);
     }
-    if (s.failed()) {
-      s.note(out);
-      return s.stop();
-    }
+  } else {
+    s.watch_over(seen, time, dt);
+  }
+  if (s.failed()) {
+    s.note(out);
+    return s.stop();
   }
   if (s.place.arm) s.hold_arm(out);
   s.note(out);
@@ -166,8 +185,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  // Version 5: reports of the steps, what was commanded; 6: how the machine stands.
-  a.section("operator", 6, [&] {
+  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came after the last step.
+  a.section("operator", 7, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");
@@ -175,10 +194,9 @@ void Operator::visit(Archive& a) {
     a("watch", s.watch);
     a("started", s.started);
     a("reports", s.reports);
-    // One a step that is over, and what became of the rest follows from the last.
+    // One a step that is over; one more of the step that fell short, or of what came after the last.
     a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0), "reports",
               "another number of them than steps that are over");
-    a.require(!s.failed() || !s.done(), "reports", "tell of a step that the program has not");
     // As many as the scene's machine has joints.
     a.fixed("commanded", s.commanded);
     a("steer", s.steer);
@@ -190,7 +208,7 @@ void Operator::visit(Archive& a) {
     a.require(running.empty() || !s.failed(), "running", "the program has ended");
     if (a.loading()) {
       // The scene may have changed since.
-      const std::string here = s.done() ? "" : s.present().element();
+      const std::string here = s.past_last() ? "" : s.present().element();
       a.require(running.empty() || running == here, "running",
                 "the program has another step there: '" + here + "'; use the scene it was made with");
       // Made anew, then it reads its memory.

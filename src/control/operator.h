@@ -33,7 +33,7 @@ class Operator {
   /// Commands that stop what the program has set in motion: its joints stand still, the drive brakes and keeps its
   /// steering.
   Command stop() const;
-  /// True when every step is done; `update` then only holds the arm.
+  /// True when every step is done and the machine has not fallen over since; `update` then only holds the arm.
   bool done() const;
   /// True when the program goes no further: done, or a step fell short; `update` then commands nothing new.
   bool ended() const;
@@ -41,7 +41,8 @@ class Operator {
   /// "curl", "lift", "swing", "dump", "look"; "idle" between steps and after the last; after a step that fell short its
   /// state ("blocked").
   std::string phase() const;
-  /// What became of the steps that are over, in their order; the last one may have fallen short.
+  /// What became of the steps that are over, in their order; the last one may have fallen short. A machine that tips
+  /// over, or is buried, after its last step has a second report of that step.
   const std::vector<StepReport>& reports() const;
   /// The report of the running step as it would end now at `time` [s]; of the last one over when none runs, of no step
   /// (number 0) before the first.

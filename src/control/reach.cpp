@@ -18,6 +18,13 @@ std::string number_text(double value, const char* unit) {
 std::string metres(double value) { return number_text(value, "m"); }
 std::string place_text(const Vec2& p) { return "(" + number_text(p.x(), "") + ", " + number_text(p.y(), "") + ")"; }
 
+std::string held_text(const scene::Joint& joint, const vehicle::JointState& state, double rest,
+                      const std::string& target) {
+  const bool turns = joint.type != scene::Joint::Type::kPrismatic;
+  return "joint '" + joint.name + "' stopped " + (turns ? number_text(degrees(rest), "deg") : metres(rest)) +
+         " short of " + target + (state.stalled ? ", at its effort limit" : "") + ": something holds it";
+}
+
 ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
                        const SurfaceView& surface_in, std::string file, std::string name)
     : machine(machine_in),

@@ -11,6 +11,7 @@
 #include "core/math.h"
 #include "scene/machine.h"
 #include "scene/program.h"
+#include "vehicle/machine_state.h"
 
 namespace navvy::control {
 
@@ -49,6 +50,10 @@ std::string number_text(double value, const char* unit);
 /// With the unit m.
 std::string metres(double value);
 std::string place_text(const Vec2& p);
+/// Why a step ends whose joint does not get to its target: "joint 'boom_joint' stopped 12.00 deg short of <target>, at
+/// its effort limit: something holds it"; `rest` is what it lacks [rad|m].
+std::string held_text(const scene::Joint& joint, const vehicle::JointState& state, double rest,
+                      const std::string& target);
 
 /// Every target of the program that cannot be reached from where the machine will then stand: needed and possible
 /// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.

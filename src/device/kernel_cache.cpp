@@ -252,7 +252,8 @@ std::string environment(const char* name) {
 fs::path usual_folder() {
   const std::string given = environment("POCL_CACHE_DIR");
   // A child inherits what its parent has set: one of our folders is taken as it is.
-  if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName)) return given;
+  std::error_code closed;  // a folder that may not be looked into is none of ours
+  if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName, closed)) return given;
   if (!given.empty()) return fs::path(given) / "navvy" / "kernels";
   if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return fs::path(xdg) / "navvy" / "kernels";
   if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache/navvy/kernels";

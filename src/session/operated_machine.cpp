@@ -47,14 +47,14 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
 
 void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {
   if (taken_) return;
-  const bool went_on = !op_.ended();
+  const bool well = !op_.ended() || op_.done();
   observe(seen_);
   // Time and step go in: operators have no clock of their own.
   send(op_.update(seen_, world_.time(), world_.dt()));
   note_cycle(cycles);
   note_tip(tips);
   // Told at once and not at the end of a run of hours.
-  if (went_on && op_.ended() && !op_.done()) log_warning(told(report(), name()));
+  if (well && op_.ended() && !op_.done()) log_warning(told(report(), name()));
 }
 
 /// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.

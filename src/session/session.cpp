@@ -17,6 +17,7 @@
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
+#include "sim/start_check.h"
 
 namespace navvy::session {
 namespace {
@@ -119,6 +120,8 @@ Session::Session(scene::Scene description, device::Device& device)
   }
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
+  // Bodies within each other would be thrown apart in the first step.
+  for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB)) faults.push_back(std::move(fault));
   const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());

@@ -19,8 +19,8 @@ namespace navvy::session {
 /// inputs alone, for good. Machines without a program are driven by inputs from the start. Not thread-safe.
 class Session {
  public:
-  /// @throws InputError listing every target of a program that is out of reach, before anything moves;
-  /// device::DeviceError for the device.
+  /// @throws InputError listing every target of a program that is out of reach and all machines that overlap, before
+  /// anything moves; device::DeviceError for the device.
   Session(scene::Scene description, device::Device& device);
   ~Session();
   Session(const Session&) = delete;

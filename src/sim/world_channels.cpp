@@ -2,9 +2,11 @@
 #include "sim/world_channels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "core/log.h"
 #include "sim/world.h"
 
 namespace navvy::sim {
@@ -12,6 +14,24 @@ namespace {
 
 using scene::Joint;
 using vehicle::JointMode;
+
+/// The function of a joint's position input. A target beyond the joint's limits is told, once a joint: servos and
+/// kinematic joints stop at the limit.
+std::function<void(double)> position_input(World& world, const JointHandle& handle, const Joint& joint,
+                                           const std::string& name, const std::string& unit) {
+  // Rounding of degrees is let pass, as in programs.
+  constexpr double kSlack = 1e-6;
+  return [&world, handle, name, unit, limited = joint.has_limits, lower = joint.lower, upper = joint.upper,
+          told = false](double target) mutable {
+    world.command(handle, {JointMode::kPosition, target});
+    if (told || !limited || (target >= lower - kSlack && target <= upper + kSlack)) return;
+    told = true;
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), ": %.6g %s is beyond the joint's limits, %.6g to %.6g %s", target,
+                  unit.c_str(), lower, upper, unit.c_str());
+    log_warning("input " + name + text.data() + ": it goes to the limit (said once a joint)");
+  };
+}
 
 /// Three inputs a joint, of which the one that was set last decides its mode; fixed and ball joints have no servo.
 void add_joints(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs,
@@ -28,15 +48,15 @@ void add_joints(World& world, const MachineHandle& machine, const std::string& p
                                           [&](const scene::Cylinder& c) { return c.joint == joint.name; });
     const JointHandle handle = machine.joint(static_cast<int>(i));
     const std::string base = prefix + joint.name + "/";
-    // The units follow the joint's type.
+    // The units follow the joint's type. A closure holds a handle: no name is looked up while stepping.
+    inputs.add({base + "position", linear ? "m" : "rad", "target; choosing it selects this mode", machine.index()},
+               position_input(world, handle, joint, base + "position", linear ? "m" : "rad"));
     const struct {
       const char* name;
       const char* unit;
       JointMode mode;
-    } modes[] = {{"position", linear ? "m" : "rad", JointMode::kPosition},
-                 {"velocity", linear ? "m/s" : "rad/s", JointMode::kVelocity},
+    } modes[] = {{"velocity", linear ? "m/s" : "rad/s", JointMode::kVelocity},
                  {"effort", linear ? "N" : "N m", JointMode::kEffort}};
-    // A closure holds a handle: no name is looked up while stepping.
     for (const auto& mode : modes)
       inputs.add({base + mode.name, mode.unit, "target; choosing it selects this mode", machine.index()},
                  [&world, handle, kind = mode.mode](double v) {

@@ -27,17 +27,17 @@ using test::text_of;
 
 class Control : public testing::Test {
  protected:
-  std::vector<std::string> arguments() const {
-    return {"run",          navvy::source_dir() + "/scenarios/bucket_path.sdf",
+  std::vector<std::string> arguments(const std::string& scene = "bucket_path") const {
+    return {"run",          navvy::source_dir() + "/scenarios/" + scene + ".sdf",
             "--no-render",  "--control",
             "stdio",        "--out",
             folder_ / "out"};
   }
   /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to `lines`.
-  int drive(const std::string& input, std::vector<json>& lines) {
+  int drive(const std::string& input, std::vector<json>& lines, const std::string& scene = "bucket_path") {
     std::ofstream(folder_ / "in") << input;
     const int status = test::wait_for(
-        test::start({NAVVY_PROGRAM, arguments(), {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
+        test::start({NAVVY_PROGRAM, arguments(scene), {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
     std::istringstream said(text_of(folder_ / "stdout"));
     for (std::string line; std::getline(said, line);) lines.push_back(json::parse(line));
     return status;
@@ -95,6 +95,27 @@ TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
         << lines[static_cast<std::size_t>(i) + 1].dump().substr(0, 300);
   EXPECT_TRUE(lines[4].contains("error")) << "brackets within a text are no nesting, the name is unknown";
   std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n", spent.count());
+}
+
+TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAJoint) {
+  const std::string beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
+                    other = R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})";
+  std::vector<json> lines;
+  ASSERT_EQ(drive(beyond + "\n" + beyond + "\n" + other + "\n{}\n{\"end\": true}\n", lines, "trench"), 0)
+      << complained();
+  EXPECT_EQ(lines.size(), 5u) << "the run goes on";
+  const std::string said = complained();
+  const auto count = [&](const std::string& part) {
+    int found = 0;
+    for (std::size_t at = said.find(part); at != std::string::npos; at = said.find(part, at + 1)) ++found;
+    return found;
+  };
+  // Degrees instead of radians, as a rule.
+  EXPECT_EQ(count("input excavator/boom_joint/position: 90 rad is beyond the joint's limits, -0.85 to 1.05 rad"), 1)
+      << said;
+  EXPECT_EQ(count("input excavator/arm_joint/position: -4 rad is beyond the joint's limits, -2.75 to -0.6 rad"), 1)
+      << said;
+  EXPECT_EQ(count("beyond the joint's limits"), 2) << said;
 }
 
 TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {

@@ -94,6 +94,19 @@ TEST_F(Messages, CheckRefusesMachinesThatOverlap) {
   EXPECT_EQ(run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "0 6 0 0 0 0"))}), 0) << said();
 }
 
+TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
+  const std::string file = scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"));
+  EXPECT_EQ(run({"check", file}), 2);
+  // Word for word.
+  const std::size_t begin = said().find(file), end = said().find('\n', begin);
+  ASSERT_NE(end, std::string::npos) << said();
+  const std::string message = said().substr(begin, end - begin);
+  EXPECT_NE(message.find("it overlaps 'one' at the start"), std::string::npos) << message;
+  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
+  expect_complained(message);
+  EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
+}
+
 TEST_F(Messages, CheckRefusesAMachineThatTipsOver) {
   const std::string slope = "<slope><angle_deg>38</angle_deg><yaw_deg>90</yaw_deg></slope>";
   EXPECT_EQ(run({"check", scene(slope, machine("digger", "0 0 0 0 0 0"))}), 2);

@@ -70,7 +70,7 @@ class Alone {
       if (auto& slot = command.joints[place.joint(i)]; !slot)
         slot = vehicle::JointInput{vehicle::JointMode::kPosition, place.handover.q[i]};
     for (std::size_t j = 0; j < command.joints.size(); ++j)
-      if (command.joints[j]) seen.joints[j].position = command.joints[j]->target;
+      if (command.joints[j]) follow(j, command.joints[j]->target);
     if (command.drive) seen.X_WB.translation().x() += command.drive->brake ? 0 : command.drive->speed * kStep;
     return over;
   }
@@ -78,6 +78,14 @@ class Alone {
   double run(double limit) {
     while (!advance() && time < limit) continue;
     return time;
+  }
+  /// At once, but for the joint that something holds, or that is slower than it is told to be.
+  void follow(std::size_t j, double target) {
+    vehicle::JointState& joint = seen.joints[j];
+    const double rest = target - joint.position;
+    const double way = place.machine.joints[j].name == slow ? std::clamp(rest, -pace * kStep, pace * kStep) : rest;
+    joint.position += way;
+    joint.velocity = place.machine.joints[j].name == slow ? way / kStep : 0;
   }
   std::uint64_t digest() const {
     StateHash hash;
@@ -93,6 +101,8 @@ class Alone {
   std::unique_ptr<Activity> activity;
   double time = 0;
   std::set<std::string> phases;
+  std::string slow;  // name of a joint that moves by `pace` [rad/s] at most
+  double pace = 0;
 };
 
 Trajectory path() {
@@ -193,6 +203,53 @@ TEST(Activity, TrajectoryHandsTheArmOnWhereItEnds) {
   with_an_arm.place.arm.emplace(with_an_arm.place.machine);
   with_an_arm.run(10);
   EXPECT_DOUBLE_EQ(with_an_arm.place.handover.q[1], 0.9);
+}
+
+TEST(Activity, TrajectoryNamesTheJointThatIsHeld) {
+  Alone alone(path());
+  alone.slow = "boom_joint";
+  alone.seen.joints[1].stalled = true;
+  // Half a second of grace at most: what is held is told at once.
+  EXPECT_LT(alone.run(10), 2.5);
+  EXPECT_EQ(alone.activity->state(), StepState::kBlocked);
+  // From 43 deg, where it began, to 0.9 rad.
+  EXPECT_EQ(alone.activity->reason(),
+            "joint 'boom_joint' stopped 8.57 deg short of its last position, at its effort limit: something holds it");
+}
+
+TEST(Activity, TrajectoryWaitsForAJointThatIsOnItsWayButNotForEver) {
+  Alone late(path());
+  late.slow = "boom_joint";
+  late.pace = 0.1;
+  // 0.6 to 0.9 rad at 0.1 rad/s, where a second was given: about two seconds late, within 3 deg of the place.
+  const double end = late.run(20);
+  EXPECT_EQ(late.activity->state(), StepState::kDone) << late.activity->reason();
+  EXPECT_GT(end, 2.5);
+  EXPECT_LT(end, 5);
+  EXPECT_NEAR(late.seen.joints[1].position, 0.9, radians(3));
+  Alone never(path());
+  never.slow = "boom_joint";
+  never.pace = 0.021;  // a hair faster than rest
+  EXPECT_NEAR(never.run(20), 2 + 5, 0.1);
+  EXPECT_EQ(never.activity->state(), StepState::kBlocked);
+}
+
+TEST(Activity, DumpNamesTheBucketWhenItIsHeld) {
+  for (const std::string target : {"open", "closed"}) {
+    Alone alone(Dump(1));
+    double opened = -kPi;
+    for (bool over = false; !over && alone.time < 20;) {
+      opened = std::max(opened, alone.seen.joints[3].position);
+      // Held from the start, or as soon as it has begun to close.
+      if (target == "open" || alone.seen.joints[3].position < opened - 0.1) alone.slow = "bucket_joint";
+      over = alone.advance();
+    }
+    EXPECT_EQ(alone.activity->state(), StepState::kBlocked) << target;
+    EXPECT_NE(alone.activity->reason().find("joint 'bucket_joint' stopped "), std::string::npos)
+        << alone.activity->reason();
+    EXPECT_NE(alone.activity->reason().find(" short of " + target + ": something holds it"), std::string::npos)
+        << alone.activity->reason();
+  }
 }
 
 TEST(Activity, TellsItsEventsOnceEach) {

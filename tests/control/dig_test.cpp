@@ -149,6 +149,23 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
   EXPECT_EQ(figure(end, "depth_m"), 0.8);
 }
 
+TEST(Dig, EndsOutOfReachWhenTheMachineHasMovedAway) {
+  // It is pulled back by four metres between two scoops.
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  while (rig.op.phase() != "dump" && rig.time < 100) rig.step();
+  rig.engine->set_drive(0, {-2, 0, false});
+  while (rig.engine->link(0, 0).X_WL.translation().x() > -8 && rig.time < 100) rig.step();
+  rig.engine->set_drive(0, {0, 0, true});
+  EXPECT_FALSE(rig.run(200));
+  ASSERT_TRUE(rig.op.ended()) << rig.op.phase();
+  const StepReport end = rig.op.reports().back();
+  EXPECT_EQ(end.state, StepState::kOutOfReach) << end.reason;
+  EXPECT_NE(end.reason.find("m from the swing axis, out of the bucket's reach"), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("are left"), std::string::npos) << end.reason;
+  // Soon, and not after cycles that cannot bring anything.
+  EXPECT_LE(rig.cycles.size(), 2u);
+}
+
 TEST(Dig, StopsAtItsLargestNumberOfCycles) {
   Dig dig = trench();
   dig.max_cycles = 2;

@@ -164,6 +164,35 @@ TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
   EXPECT_NEAR(over.end, 0.2, 2 * kStep);
 }
 
+TEST(Watch, TellsOfAMachineThatTipsOverAfterItsProgram) {
+  Trial trial(StepState::kDone);
+  trial.run(5);
+  ASSERT_TRUE(trial.op.done());
+  for (int i = 0; i < 100; ++i) trial.step();
+  ASSERT_TRUE(trial.op.done()) << "standing there is no fault";
+  trial.seen.stability = {true, radians(50), 0, 0.3};
+  const Command last = trial.step();
+  EXPECT_FALSE(trial.op.done());
+  EXPECT_TRUE(trial.op.ended());
+  EXPECT_EQ(trial.op.phase(), "tipped");
+  ASSERT_EQ(trial.op.reports().size(), 4u);
+  EXPECT_EQ(trial.op.reports()[2].state, StepState::kDone);
+  const StepReport& report = trial.op.reports()[3];
+  EXPECT_EQ(report.step, 3);
+  EXPECT_EQ(report.state, StepState::kTipped);
+  EXPECT_EQ(report.reason, "after its program was done: it tilts by 50.00 deg");
+  EXPECT_GT(report.end, 1.5);
+  // What the program had moved stops.
+  ASSERT_TRUE(last.joints[1].has_value());
+  EXPECT_EQ(last.joints[1]->mode, vehicle::JointMode::kVelocity);
+  // The report outlives a snapshot, and is told once.
+  Trial resumed(StepState::kDone);
+  load_saved(saved(trial.op), resumed.op);
+  EXPECT_EQ(hash_of(resumed.op).digest(), hash_of(trial.op).digest());
+  trial.step();
+  EXPECT_EQ(trial.op.reports().size(), 4u);
+}
+
 TEST(Watch, LeavesAMachineAloneThatComesBackOrCannotTip) {
   EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning) << "steep, within its feet";
   EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning) << "it falls back";

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/activities/dump.h"
 
+#include <cmath>
+
 #include "control/arm_move.h"
+#include "control/reach.h"
 
 namespace navvy::control {
 namespace {
+
+constexpr double kShort = radians(6);  // heavy soil keeps the bucket short by less; more is an obstacle
+constexpr double kAtRest = 0.02;       // [rad/s]
 
 enum Phase : std::int64_t { kOpening, kClosing };
 
@@ -33,15 +39,30 @@ class Dumping final : public ActivityWith<Memory> {
 
  private:
   bool update(const Observation& seen, double, Command&) override {
-    if (phase_index() == kClosing) return m.move.advance(place_, seen, phase_time(), phase());
+    if (phase_index() == kClosing) {
+      if (!m.move.advance(place_, seen, phase_time(), phase())) return false;
+      held(seen, "closed");
+      return true;
+    }
     // Soil leaves whether the bucket is quite open or not: time alone decides here.
     if (phase_time() <= m.move.duration()) m.move.advance(place_, seen, phase_time(), phase());
     if (phase_time() <= m.move.duration() + step_.hold) return false;
+    if (held(seen, "open")) return true;
     Axes closed = place_.handover.q;
     closed[3] = m.bucket_before;
     m.move.start(place_, closed, seen, {});
     enter(kClosing);
     return false;
+  }
+
+  /// Whether something holds the bucket short of its target: the step falls short then.
+  bool held(const Observation& seen, const char* target) {
+    const std::size_t j = place_.joint(3);
+    const vehicle::JointState& bucket = seen.joints[j];
+    const double rest = std::abs(m.move.target(3) - bucket.position);
+    // Still on its way it is only slow.
+    if (rest < kShort || !(bucket.stalled || std::abs(bucket.velocity) < kAtRest)) return false;
+    return fall_short(StepState::kBlocked, held_text(place_.machine.joints[j], bucket, rest, target));
   }
 
   const Dump& step_;

@@ -2,8 +2,10 @@
 #include "control/activities/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "control/activity.h"
+#include "control/reach.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
 
@@ -13,7 +15,13 @@ namespace {
 using scene::FieldSource;
 using scene::kDegree;
 
-// Open loop: it does not look where the joints are, and ends by the clock.
+constexpr double kShortAngle = radians(3), kShortWay = 0.03;  // of a joint: a servo's lag under load is less [m]
+constexpr double kSettle = 0.3;                               // [s] before a joint at rest counts as held
+constexpr double kAtRest = 0.02;                              // [rad/s|m/s]
+constexpr double kPatience = 5;                               // [s] for joints that are slower than their positions
+
+// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at the end it looks: a
+// joint that is on its way is waited for, one that is held ends the program.
 class Following final : public Activity {
  public:
   Following(Workplace& place, const Trajectory& step) : Activity(place), step_(step) {
@@ -23,7 +31,7 @@ class Following final : public Activity {
   void begin(const Observation&) override {}
 
  private:
-  bool update(const Observation&, double, Command& out) override {
+  bool update(const Observation& seen, double, Command& out) override {
     const std::vector<double>& times = step_.times;
     const double t = std::clamp(phase_time(), times.front(), times.back());
     // Between knots k and n; one knot alone is held.
@@ -42,7 +50,25 @@ class Following final : public Activity {
       for (std::size_t axis = 0; axis < 4; ++axis)
         if (joint == place_.joint(axis)) place_.handover.q[axis] = q;
     }
-    return phase_time() >= times.back();
+    return phase_time() >= times.back() && arrive(seen, phase_time() - times.back());
+  }
+
+  /// Whether the step is over `late` [s] after its last time.
+  bool arrive(const Observation& seen, double late) {
+    bool on_the_way = false;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const auto j = static_cast<std::size_t>(joints_[i]);
+      const scene::Joint& joint = place_.machine.joints[j];
+      const vehicle::JointState& now = seen.joints[j];
+      const double rest = std::abs(step_.positions.back()[i] - now.position);
+      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortWay : kShortAngle)) continue;
+      on_the_way = true;
+      if (late < kSettle) continue;
+      // A joint that lies beside its target and moves may well be driven off by what holds it: patience has an end.
+      if (late > kPatience || now.stalled || std::abs(now.velocity) < kAtRest)
+        return fall_short(StepState::kBlocked, held_text(joint, now, rest, "its last position"));
+    }
+    return !on_the_way;
   }
 
   const Trajectory& step_;

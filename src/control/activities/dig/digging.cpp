@@ -29,8 +29,9 @@ constexpr double kHeavy = 0.3, kGently = 0.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
-constexpr double kRest = 2.0;                                      // [s] for loose soil to come to rest before the end
-constexpr int kMostCycles = 60;                                    // of a dig that was ordered no number of them
+constexpr double kBeyond = 0.3;  // a scoop's start may lie so far out of reach [m]: drives end 0.15 m off
+constexpr double kRest = 2.0;    // [s] for loose soil to come to rest before the end
+constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Of the design volume: with more left a trench is not done [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
 constexpr int kMostCleanUps = 2;
@@ -92,10 +93,23 @@ bool Digging::plan_scoop(const Observation& seen) {
       scoop = plan_.clean_up();
     }
   }
-  if (!scoop.any) return false;
+  if (!scoop.any || beyond_reach(scoop)) return false;
   m.scoop_start = scoop.start;
   m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
+  return true;
+}
+
+bool Digging::beyond_reach(const Scoop& scoop) const {
+  const Vec2 p = plan_.point(scoop.start);
+  const SwingPoint at =
+      swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.start_height(scoop.start) - scoop.level));
+  // Nearer or farther by what is let pass it would do.
+  for (const double off : {0.0, -kBeyond, kBeyond}) {
+    BucketPose pose{at.reach + off, at.height, at.level(with_cut(arm_, kPlunge))};
+    ArmAngles q = place_.arm_angles();
+    if (arm_.inverse_nearest(pose, q)) return false;
+  }
   return true;
 }
 
@@ -212,6 +226,13 @@ bool Digging::conclude(const Observation& seen) {
   // Whoever orders a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
+  } else if (const Scoop next = with_surface(seen, [&](const SurfaceView& s) { return plan_.next(s); });
+             next.any && beyond_reach(next)) {
+    const Vec2 p = plan_.point(next.start);
+    const SwingPoint at = swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.start_height(next.start)));
+    return fall_short(StepState::kOutOfReach, "the machine no longer stands where it began: the next scoop at " +
+                                                  place_text(p) + " is " + metres(at.reach) +
+                                                  " from the swing axis, out of the bucket's reach; " + left);
   } else if (undone && cycles() >= kMostCycles) {
     return fall_short(StepState::kOutOfTime, "not done after " + std::to_string(kMostCycles) + " cycles; " + left);
   } else if (undone) {

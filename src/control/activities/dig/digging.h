@@ -72,6 +72,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void look_round(const Observation& seen);
   /// After the pause: another scoop (false), or the end (true).
   bool end_cycle(const Observation& seen);
+  /// Whether the scoop's start is beyond the arm, from where the machine stands now; the bucket would stay short of it.
+  bool beyond_reach(const Scoop& scoop) const;
   /// Why there is no other scoop. Always true.
   bool conclude(const Observation& seen);
   /// Made in this dig.
