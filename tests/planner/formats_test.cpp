@@ -320,7 +320,8 @@ head, body = d.split(b'end_header\n', 1)
 words = head.decode().split('\n')
 nv = int([w for w in words if w.startswith('element vertex')][0].split()[2])
 nf = int([w for w in words if w.startswith('element face')][0].split()[2])
-assert [w.split()[1:] for w in words if w.startswith('property')][:4] == [['double', 'x'], ['double', 'y'], ['double', 'z'], ['float', 'traversability']]
+properties = [' '.join(w.split()[1:]) for w in words if w.startswith('property')]
+assert properties[:4] == ['double x', 'double y', 'double z', 'float traversability']
 v = np.frombuffer(body, [('p', '<f8', 3), ('t', '<f4')], nv)
 f = np.frombuffer(body, [('n', 'u1'), ('i', '<i4', 3)], nf, v.nbytes)
 assert len(body) == v.nbytes + f.nbytes and (f['n'] == 3).all()
