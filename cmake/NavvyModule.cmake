@@ -137,13 +137,13 @@ function(navvy_tests name)
                        PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${T_TIMEOUT} ${T_PROPERTIES})
 endfunction()
 
-# navvy_fuzzer(NAME LIBS libs...): libFuzzer target NAME.cpp of this folder, only with NAVVY_FUZZ.
+# navvy_fuzzer(NAME LIBS libs... [EXTRA sources...]): libFuzzer target NAME.cpp of this folder, only with NAVVY_FUZZ.
 function(navvy_fuzzer name)
-  cmake_parse_arguments(F "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(F "" "" "LIBS;EXTRA" ${ARGN})
   if(NOT NAVVY_FUZZ OR NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)
     return()
   endif()
-  add_executable(${name} EXCLUDE_FROM_ALL ${name}.cpp)
+  add_executable(${name} EXCLUDE_FROM_ALL ${name}.cpp ${F_EXTRA})
   target_link_libraries(${name} PRIVATE navvy_flags ${F_LIBS})
   target_link_options(${name} PRIVATE -fsanitize=fuzzer,address,undefined)
   add_dependencies(navvy_fuzzers ${name})

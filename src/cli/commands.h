@@ -18,6 +18,8 @@ using Action = std::function<int()>;
 
 /// `command_line` goes into the run's folder, the program's name first.
 void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line);
+/// Layers of a site as a file.
+void add_map(CLI::App& app, Action& action);
 /// Those that only tell: faults, devices, soils, channels.
 void add_check(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);

@@ -120,6 +120,7 @@ int run(int argc, char** argv) {
   // The whole command line goes into the run's folder.
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
+  cli::add_map(app, action);
   cli::add_devices(app, action);
   cli::add_scenes(app, action);
   cli::add_machines(app, action);

@@ -41,8 +41,9 @@ const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
 }
 
 void StartSite::column(int ix, int iy, Column& out) const {
-  out.clear();
   const double surface = setup_.surface(ix, iy);
+  // Only now: a surface may be made of another site's, whose heights work in the same column of this thread.
+  out.clear();
   if (!std::isfinite(surface))
     throw InputError(Fault{Fault::Severity::kError, "", 0,
                            "ground column (" + std::to_string(ix) + ", " + std::to_string(iy) + ")",

@@ -44,4 +44,7 @@ double friction_from_repose(double repose) {
                          "above 0 and below 45 degrees", "give phi and cohesion instead"});
 }
 
+// A billionth is rounding of a file's value.
+bool softens(const scene::Soil& soil) { return soil.residual_cohesion < soil.cohesion * (1 - 1e-9); }
+
 }  // namespace navvy::lab

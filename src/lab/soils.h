@@ -16,4 +16,7 @@ scene::Soil without_tool_friction(scene::Soil soil);
 /// mobilises tau / sigma_n = sin phi, so sin phi = tan repose. @throws InputError above 45 degrees.
 double friction_from_repose(double repose);
 
+/// Whether remoulding takes cohesion away. No formula for a constant cohesion speaks of such a soil.
+bool softens(const scene::Soil& soil);
+
 }  // namespace navvy::lab

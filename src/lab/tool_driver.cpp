@@ -13,6 +13,8 @@ const Pose& ToolDriver::pose() const { return site_->tool(tool_).motion.X_WT; }
 void ToolDriver::set_twist(const Vec3& v_W, const Vec3& w_W) {
   site_->tool(tool_).motion.v_WT = v_W;
   site_->tool(tool_).motion.w_WT = w_W;
+  // Shells of one rig have one frame.
+  for (const int other : carried_) site_->tool(other).motion.v_WT = v_W, site_->tool(other).motion.w_WT = w_W;
 }
 
 void ToolDriver::step(double dt) {
@@ -47,6 +49,25 @@ Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {
   // The origin moves straight; a turning tool is driven by set_twist and run.
   set_twist(v_W);
   return run(distance / v_W.norm(), dt);
+}
+
+Vec3 ToolDriver::start(double distance, const Vec3& v_W, double ramp) {
+  const double speed = v_W.norm(), rise = std::min(ramp, distance);
+  if (!(rise > 0)) return advance(distance, v_W);
+  // The stable step of the full speed serves the slower ones too.
+  set_twist(v_W);
+  const double limit = site_->step_limit(), seconds = 2 * rise / speed;
+  const int steps = std::max(1, static_cast<int>(std::ceil(seconds / limit - 1e-9)));
+  Vec3 impulse = Vec3::Zero();
+  for (int i = 0; i < steps; ++i) {
+    // The speed of the step's middle: the path is then exactly that of even acceleration.
+    set_twist((i + 0.5) / steps * v_W);
+    step(seconds / steps);
+    impulse += trace_.force.back() * seconds / steps;
+  }
+  if (distance - rise < 1e-12) return impulse / seconds;
+  const double rest = (distance - rise) / speed;
+  return (impulse + advance(distance - rise, v_W) * rest) / (seconds + rest);
 }
 
 void ToolDriver::write(Report& report, double cutoff, const std::string& prefix) const {

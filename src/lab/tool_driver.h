@@ -29,12 +29,19 @@ class ToolDriver {
   /// Kept until it is set again; w turns about the frame's origin [m/s], [rad/s].
   void set_twist(const Vec3& v_W, const Vec3& w_W = Vec3::Zero());
 
+  /// A tool of the site that takes every twist of this one too: a second shell of the same rig.
+  void carry(int other) { carried_.push_back(other); }
+
   /// One step; books the trace.
   void step(double dt);
   /// Steps for `seconds`, at the step limit or at most `dt`; returns the mean force of that stretch [N].
   Vec3 run(double seconds, double dt = 0);
   /// Moves along v for a path of `distance` [m]; returns the mean force of that stretch [N].
   Vec3 advance(double distance, const Vec3& v_W, double dt = 0);
+
+  /// From rest to v over `ramp` [m] of path, evenly accelerated (0: at once), then on at v until `distance` is done. A
+  /// tool that starts at once sends a wave of rho c_p v through the soil. Returns the mean force of it all [N].
+  Vec3 start(double distance, const Vec3& v_W, double ramp);
 
   const Trace& trace() const { return trace_; }
   /// Adds time, travel and the force's components (low-passed when `cutoff` [Hz] > 0) to the report's series.
@@ -43,6 +50,7 @@ class ToolDriver {
  private:
   Site* site_;
   int tool_;
+  std::vector<int> carried_;
   double travelled_ = 0;
   Trace trace_;
 };

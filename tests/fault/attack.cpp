@@ -56,6 +56,21 @@ std::vector<std::pair<std::string, std::string>> environment_of(const Attack& wi
   return out;
 }
 
+/// Exit status of the process, or minus its signal, whether it ended by itself or was killed at `limit` [s]; true when
+/// it was killed.
+bool wait_or_kill(pid_t child, double limit, int& status) {
+  const auto begun = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };
+  int raw = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &raw, WNOHANG)) == 0 && spent() < limit)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  if (ended == 0) kill(child, SIGKILL);
+  if (ended == 0) waitpid(child, &raw, 0);
+  status = WIFEXITED(raw) ? WEXITSTATUS(raw) : -WTERMSIG(raw);
+  return ended == 0;
+}
+
 }  // namespace
 
 std::vector<std::string> small_run(bool drawing) {
@@ -100,12 +115,8 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
   const auto begun = std::chrono::steady_clock::now();
   const pid_t child =
       test::start({NAVVY_PROGRAM, all, environment_of(with), "/dev/null", "/dev/null", folder + "/stderr"});
-  if (with.kill_after > 0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(with.kill_after));
-    kill(child, SIGKILL);
-  }
   Outcome got;
-  got.status = test::wait_for(child);
+  const bool cut = wait_or_kill(child, with.kill_after > 0 ? with.kill_after : with.patience, got.status);
   got.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   got.said = text_of(folder + "/stderr");
   const auto summary = nlohmann::json::parse(text_of(out + "/summary.json"), nullptr, false);
@@ -113,12 +124,14 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
     got.summary = summary.value("status", "");
     if (summary.contains("state_hash") && summary["state_hash"].is_string()) got.hash = summary["state_hash"];
   }
-  const bool killed = with.kill_after > 0 && got.status == -SIGKILL;
+  const bool killed = with.kill_after > 0 && cut;
   static const std::set<int> kTable = {0, 1, 2, 3, 4, 5, 6, 130};
   got.broken = broken_files(out, killed);
   if (!got.broken.empty()) return got;
   if (killed) return got;
-  if (kTable.count(got.status) == 0)
+  if (cut)
+    got.broken = "hung for " + std::to_string(static_cast<int>(with.patience)) + " s";
+  else if (kTable.count(got.status) == 0)
     got.broken = "ended with " + std::to_string(got.status);
   else if (got.status != 0 && got.said.empty())
     got.broken = "said nothing";

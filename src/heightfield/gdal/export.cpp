@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -32,7 +33,16 @@ struct Band {
   std::string name, unit;
 };
 
-void write(const Terrain& terrain, const CellRect& rect, const std::vector<Band>& bands, const std::string& path) {
+/// Of the file's heights, by a name that GDAL's readers know.
+std::string height_unit(const GroundSetup& setup) {
+  if (setup.file_height_unit == 1) return "m";
+  // The international foot and the one of US surveys differ in the sixth digit.
+  if (std::abs(setup.file_height_unit - 0.3048) < 1e-9) return "ft";
+  if (std::abs(setup.file_height_unit - 1200.0 / 3937.0) < 1e-9) return "US survey foot";
+  return "";
+}
+
+void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Band>& bands, const std::string& path) {
   const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
   const std::string part = partial_name(path);
   GdalSession session;
@@ -54,7 +64,6 @@ void write(const Terrain& terrain, const CellRect& rect, const std::vector<Band>
   std::unique_ptr<GDALDataset> data(
       driver->Create(part.c_str(), nx, ny, static_cast<int>(bands.size()), GDT_Float32, const_cast<char**>(options)));
   check(data != nullptr, "the file cannot be created");
-  const GroundSetup& setup = terrain.setup();
   // Row 0 of the file is the northern edge.
   const double step = setup.cell / setup.file_unit;
   double transform[6] = {setup.easting + rect.x0 * step, step, 0, setup.northing + rect.y1 * step, 0, -step};
@@ -105,7 +114,7 @@ void write_geotiff(const Terrain& terrain, const std::string& path, const std::v
     };
     bands.push_back({rows, layer.name, layer.unit});
   }
-  write(terrain, site, bands, path);
+  write(terrain.setup(), site, bands, path);
 }
 
 void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
@@ -119,7 +128,30 @@ void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const
     out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
                values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
   };
-  write(terrain, rect, {{rows, "", ""}}, path);
+  write(terrain.setup(), rect, {{rows, "", ""}}, path);
+}
+
+void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands, const std::string& path) {
+  const auto nx = static_cast<std::size_t>(setup.nx);
+  std::vector<Band> out;
+  for (const MapBand& band : bands) {
+    if (band.values.size() != nx * static_cast<std::size_t>(setup.ny))
+      throw Error("write_geotiff: " + std::to_string(band.values.size()) + " values of '" + band.name +
+                  "' do not fill the site for '" + path + "'");
+    const auto rows = [&setup, &band, nx](int y0, int y1, std::vector<float>& to) {
+      to.assign(band.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y0) * nx),
+                band.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y1) * nx));
+      for (float& value : to)
+        if (value != value)
+          value = static_cast<float>(kExportNodata);
+        else if (band.height)
+          // In double up to here, as file_rows does.
+          value = static_cast<float>((static_cast<double>(value) + setup.height_offset) / setup.file_height_unit);
+    };
+    out.push_back({rows, band.name, band.height ? height_unit(setup) : band.unit});
+  }
+  if (out.empty()) throw Error("write_geotiff: no band for '" + path + "'");
+  write(setup, {0, 0, setup.nx, setup.ny}, out, path);
 }
 
 }  // namespace navvy::heightfield

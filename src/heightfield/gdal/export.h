@@ -24,4 +24,14 @@ void write_geotiff(const Terrain& terrain, const std::string& path, const std::v
 void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
                    const std::string& path);
 
+/// One band of a map that is not a terrain's own, x fastest, row 0 = least y; NaN becomes nodata.
+struct MapBand {
+  std::string name, unit;         ///< unit as it is to be told; of heights the file's own takes its place
+  std::span<const float> values;  ///< setup.nx x setup.ny
+  bool height = false;            ///< W z [m]: written in the file's unit and vertical datum
+};
+/// Bands of a whole site, under their names, in the coordinates that `setup` gives.
+/// @throws Error when sizes do not fit or there is no band, FileError.
+void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands, const std::string& path);
+
 }  // namespace navvy::heightfield

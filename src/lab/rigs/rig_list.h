@@ -16,6 +16,8 @@ Rig slope_rig();
 Rig slide_rig();
 Rig throw_rig();
 Rig swell_rig();
+Rig shear_rig();
+Rig triaxial_rig();
 
 // Soil and tools.
 Rig blade_rig();

@@ -15,6 +15,9 @@ const std::vector<Rig>& rigs() {
       slide_rig(),
       throw_rig(),
       swell_rig(),
+      // One element of it.
+      shear_rig(),
+      triaxial_rig(),
       // Soil and tools, from a plate of one direction to a bucket on a path.
       blade_rig(),
       wall_rig(),

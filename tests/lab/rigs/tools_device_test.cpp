@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small siblings of the tool rigs; the full sizes and half cells run in tests/validation/lab_tools_test.cpp.
+#include <cmath>
+
 #include "core/math.h"
 #include "lab/run_rig.h"
 
@@ -44,6 +46,67 @@ TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
   EXPECT_NEAR(degrees(std::atan2(down, measured(report, "horizontal force"))), 5, 2);
   EXPECT_EQ(measured(report, "particles through the blade"), 0);
   EXPECT_EQ(report.ledger_error, 0);
+}
+
+TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
+  const Report report = run_rig("blade", {}, [](lab::Setup& s) {
+    s.soil.tool_friction_angle = radians(20);
+    s.soil.young_modulus = 4e6;
+  });
+  const Quantity* force = report.find("horizontal force");
+  const Quantity* wedge = report.find("horizontal force, against the wedge");
+  ASSERT_NE(force, nullptr);
+  ASSERT_NE(wedge, nullptr);
+  EXPECT_TRUE(force->judged());
+  EXPECT_NE(force->source.find("[Lancellotta 2002]"), std::string::npos);
+  EXPECT_FALSE(wedge->has_gate());
+  // The wedge is an upper bound: the gate ends below it.
+  EXPECT_GT(wedge->expected, force->high);
+  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // three cells deep
+}
+
+TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
+  const Report report = run_rig("blade", {{"travel", 0.04}}, [](lab::Setup& s) {
+    s.soil.cohesion = 4000;
+    s.soil.residual_cohesion = 500;
+  });
+  const Quantity* force = report.find("horizontal force");
+  ASSERT_NE(force, nullptr);
+  EXPECT_FALSE(force->judged());
+  // What is expected is the residual soil's; the intact one's stands beside it without a gate.
+  EXPECT_NEAR(force->expected, 0.5 * 16e2 * kGravity * 0.09 * 3.6902 + 2 * 500 * 0.3 * std::sqrt(3.6902), 1);
+  ASSERT_NE(report.find("horizontal force, were the soil intact"), nullptr);
+  EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_gate());
+}
+
+TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
+  const auto travel = [](double ramp) {
+    const Report report = run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}});
+    for (const Series& series : report.series)
+      if (series.name == "travel") return series.values;
+    return std::vector<double>();
+  };
+  const std::vector<double> sudden = travel(0), ramped = travel(0.02);
+  ASSERT_GT(sudden.size(), 10u);
+  ASSERT_GT(ramped.size(), sudden.size());
+  EXPECT_NEAR(ramped.back(), 0.04, 1e-6);
+  EXPECT_NEAR(sudden.back(), 0.04, 1e-6);
+  // Even acceleration from rest: the way grows with the square of the steps, the first one is tiny.
+  EXPECT_LT(ramped.front(), 0.1 * sudden.front());
+  const std::size_t half = 20 * ramped.size() / 60;
+  EXPECT_NEAR(ramped[half] / ramped[half / 2], 4, 0.5);
+}
+
+TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
+  // A small wall, for what the rig says and not for its force.
+  const std::map<std::string, double> small = {{"height", 0.4}, {"travel", -0.03}, {"wait", 0.05}, {"ahead", 1}};
+  const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
+  const Report slow = run_rig("wall", small, coarse);
+  EXPECT_GT(slow.simulated_time, 0.03 * 0.4 / 0.01);  // 0.01 m/s and a ramp
+  EXPECT_FALSE(slow.find("active force")->judged());  // four cells of height
+  auto quick = small;
+  quick["speed"] = 0.05;
+  EXPECT_LT(run_rig("wall", quick, coarse).simulated_time, 0.5 * slow.simulated_time);
 }
 
 TEST(LabFooting, BearsFiveTimesTheCohesion) {

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// `navvy map`: layers of a site as a file, from a run's folder, a snapshot or a scene.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/scene_options.h"
+#include "cli/validators.h"
+#include "control/step_kinds.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "device/device.h"
+#include "heightfield/site.h"
+#include "planner/formats/formats.h"
+#include "planner/map_maker.h"
+#include "planner/sources.h"
+#include "scene_io/loader.h"
+#include "session/session.h"
+#include "sim/terrain_view.h"
+
+namespace navvy::cli {
+namespace {
+
+struct MapCommand {
+  std::string from, layers, format, out, scene, device;
+  bool start = false;
+  double slope_deg = 0, step = 0, roughness = 0, window = 0;  ///< 0: the map's own
+};
+
+/// By its first bytes; names are the user's.
+bool is_snapshot(const std::string& path) {
+  char head[11] = {};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head);
+  return std::memcmp(head, "navvy state", sizeof head) == 0;
+}
+
+/// With the same table of steps as a run: a scene's program is checked, though none is run here.
+scene::Scene load(const std::string& file) { return scene_io::load_scene(file, control::step_kinds()); }
+
+/// The scene that a run's folder holds. @throws InputError when `folder` is none.
+std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
+  const std::string file = (folder / "scene.sdf").string();
+  if (std::filesystem::is_regular_file(file)) return file;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked, "no scene.sdf lies in '" + folder.string() + "'",
+                         "give a run's folder, or for a snapshot its scene with --scene FILE"});
+}
+
+/// The state of a snapshot, with its awake soil: needs the device, as particles live there.
+planner::TerrainMap of_snapshot(const MapCommand& options, const planner::MapOptions& wanted) {
+  const std::string scene = options.scene.empty()
+                                ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
+                                : find_scene(options.scene);
+  // Particles are restored as a run would go on from them.
+  device::Device device(options.device);
+  session::Session session(load(scene), device);
+  session.load(options.from);
+  planner::MapMaker maker(wanted);
+  maker.update(sim::terrain_view(session.world(), heightfield::SurfaceKind::kMapped));
+  return maker.map();
+}
+
+planner::TerrainMap read(const MapCommand& options, const planner::MapOptions& wanted) {
+  // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
+  const std::filesystem::path from(options.from);
+  if (std::filesystem::is_directory(from)) {
+    const scene::Scene scene = load(scene_of(from, options.from));
+    if (options.start) return planner::map_of_site(scene, wanted);
+    return planner::map_of_run(scene, (from / "terrain_end.tif").string(), wanted);
+  }
+  if (is_snapshot(options.from)) return of_snapshot(options, wanted);
+  return planner::map_of_site(load(find_scene(options.from)), wanted);
+}
+
+planner::MapOptions map_options(const MapCommand& options, const std::vector<planner::Layer>& layers) {
+  // Zero stands for "not given".
+  planner::MapOptions out;
+  out.layers = layers;
+  // A picture of any layer has the surface's shade.
+  out.layers.push_back(planner::Layer::kElevation);
+  if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
+  if (options.step > 0) out.limits.step_height = options.step;
+  if (options.roughness > 0) out.limits.roughness = options.roughness;
+  if (options.window > 0) out.limits.window = options.window;
+  return out;
+}
+
+int map(const MapCommand& options) {
+  // Cheap questions first: names and the place of the result.
+  const planner::Format& format = planner::format_named(options.format);
+  const std::vector<planner::Layer> layers =
+      options.layers.empty() ? format.by_default : planner::layers_named(options.layers);
+  require_writable(options.out);
+  const planner::TerrainMap made = read(options, map_options(options, layers));
+  format.write(made, layers, options.out);
+  // One line that says what was written.
+  std::string names;
+  for (const planner::Layer layer : layers) names += (names.empty() ? "" : ",") + planner::info(layer).name;
+  char when[40] = "";
+  // A run's files do not tell it.
+  if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
+  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(), format.name.c_str(), made.nx(),
+              made.ny(), made.cell(), when, names.c_str());
+  return kOk;
+}
+
+/// What --help tells of layers and formats, from their own tables.
+std::string footer() {
+  std::string out = "Layers:\n";
+  char line[160];
+  for (const planner::LayerInfo& each : planner::layers()) {
+    std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.unit.c_str(), each.meaning.c_str());
+    out += line;
+  }
+  out += "Formats:\n";
+  for (const planner::Format& each : planner::formats()) {
+    std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.extension.c_str(),
+                  each.meaning.c_str());
+    out += line;
+  }
+  return out +
+         "Examples: navvy map out/trench --format nav2 --out trench.yaml\n"
+         "          navvy map out/trench --layers elevation,slope,traversability --format geotiff --out trench.tif\n"
+         "src/planner/README.md tells formulas, axes and what each format holds.";
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Action& action) {
+  // Outlives the parse in the action.
+  auto options = std::make_shared<MapCommand>();
+  CLI::App* command =
+      app.add_subcommand("map", "write layers of a site for planners: GeoTIFF, NPZ, nav2, PLY, pictures");
+  command
+      ->add_option("from", options->from,
+                   "a run's folder (the ground at its end), a snapshot, or a scene (the untouched site)")
+      ->required();
+  command->add_option("--layers", options->layers, "names separated by commas; without it what the format is made for");
+  command->add_option("--format", options->format, "see below")->required();
+  command->add_option("--out", options->out, "the file to write; replaced whole or not at all")->required();
+  command->add_flag("--start", options->start, "of a run: the ground at its start");
+  command->add_option("--scene", options->scene, "of a snapshot: its scene; without it scene.sdf beside the snapshot");
+  command->add_option("--device", options->device, "of a snapshot: the OpenCL device, as in `navvy run`");
+  const auto limit = [&](const char* name, double& to, const char* meaning) {
+    command->add_option(name, to, meaning)->check(above_zero);
+  };
+  limit("--slope-limit-deg", options->slope_deg, "slope that is not traversable (30)");
+  limit("--step-limit", options->step, "step height that is not traversable [m] (0.3)");
+  limit("--roughness-limit", options->roughness, "rms roughness that is not traversable [m] (0.1)");
+  limit("--window", options->window, "half the side of the square that step and roughness look at [m] (0.2)");
+  command->footer(footer());
+  command->callback([options, &action] { action = [options] { return map(*options); }; });
+}
+
+}  // namespace navvy::cli

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/footprint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+
+namespace navvy::planner {
+namespace {
+
+/// A rectangle about its middle, in its own axes.
+struct Box {
+  Vec2 middle;
+  Vec2 half;
+  Vec2 ax;  ///< its x axis, unit
+  Vec2 local(const Vec2& p) const {
+    const Vec2 d = p - middle;
+    return {ax.dot(d), ax.x() * d.y() - ax.y() * d.x()};
+  }
+  std::array<Vec2, 4> corners() const {
+    const Vec2 ay(-ax.y(), ax.x());
+    const Vec2 a = half.x() * ax, b = half.y() * ay;
+    return {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
+  }
+  /// Distance of a point; 0 inside.
+  double distance(const Vec2& p) const { return (local(p).cwiseAbs() - half).cwiseMax(0).norm(); }
+};
+
+/// Whether some line along an axis of `a` separates the two.
+bool apart(const Box& a, const Box& b) {
+  Vec2 low = Vec2::Constant(INFINITY), high = -low;
+  for (const Vec2& corner : b.corners()) {
+    low = low.cwiseMin(a.local(corner));
+    high = high.cwiseMax(a.local(corner));
+  }
+  return (low.array() > a.half.array()).any() || (high.array() < -a.half.array()).any();
+}
+
+/// Between two rectangles: 0 when they overlap, else between a corner of one and the other.
+double distance(const Box& a, const Box& b) {
+  if (!apart(a, b) && !apart(b, a)) return 0;
+  double least = INFINITY;
+  for (const Vec2& corner : a.corners()) least = std::min(least, b.distance(corner));
+  for (const Vec2& corner : b.corners()) least = std::min(least, a.distance(corner));
+  return least;
+}
+
+void require_valid(const Footprint& f, double x, double y, double yaw, double range) {
+  const auto fault = [](const char* name, double value, const char* rule) {
+    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("clearance ") + name, std::to_string(value),
+                           rule, "lengths in metres from the reference point"});
+  };
+  for (const auto& [name, value] : {std::pair{"front", f.front}, std::pair{"rear", f.rear}, std::pair{"left", f.left},
+                                    std::pair{"right", f.right}, std::pair{"range", range}})
+    if (!(value >= 0 && value <= 1000)) fault(name, value, "0 to 1000 m");
+  for (const auto& [name, value] : {std::pair{"x", x}, std::pair{"y", y}, std::pair{"yaw", yaw}})
+    if (!(std::abs(value) <= 1e7)) fault(name, value, "a finite place");
+}
+
+}  // namespace
+
+double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw, double range,
+                 float least) {
+  require_valid(footprint, x, y, yaw, range);
+  const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());
+  Box body{Vec2(x, y), Vec2(footprint.front + footprint.rear, footprint.left + footprint.right) / 2, ax};
+  body.middle += ax * (footprint.front - footprint.rear) / 2 + ay * (footprint.left - footprint.right) / 2;
+  // Columns are squares; in units of the cell about the site's corner their numbers are whole.
+  const double cell = map.cell();
+  const Vec2 extent = ax.cwiseAbs() * body.half.x() + ay.cwiseAbs() * body.half.y() + Vec2(range, range);
+  const Vec2 low = (body.middle - extent - map.origin()) / cell, high = (body.middle + extent - map.origin()) / cell;
+  const double corner = cell * std::sqrt(0.5);  // from a column's middle to its corners
+  double best = range;
+  const LayerTiles& tiles = map.tiles(Layer::kTraversability);
+  const auto look = [&](int ix, int iy) {
+    const Vec2 centre = map.origin() + cell * Vec2(ix + 0.5, iy + 0.5);
+    // Most columns are ruled out by their middle.
+    if (body.distance(centre) - corner >= best) return;
+    best = std::min(best, distance(body, Box{centre, Vec2(cell, cell) / 2, Vec2(1, 0)}));
+  };
+  const auto last = Vec2i(static_cast<int>(std::floor(high.x())), static_cast<int>(std::floor(high.y())));
+  for (int iy = static_cast<int>(std::floor(low.y())); iy <= last.y() && best > 0; ++iy)
+    for (int ix = static_cast<int>(std::floor(low.x())), count = 1; ix <= last.x() && best > 0; ix += count) {
+      count = 1;
+      // Outside the site nothing is known.
+      const bool inside = map.contains(ix, iy) && !tiles.empty();
+      const float* row = inside ? tiles.row(ix, iy, count) : nullptr;
+      if (inside) count = std::min({count, last.x() - ix + 1, map.nx() - ix});
+      // Unknown is no better than bad: the comparison is false.
+      for (int k = 0; k < count; ++k)
+        if (row == nullptr || !(row[k] > least)) look(ix + k, iy);
+    }
+  return best;
+}
+
+}  // namespace navvy::planner

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of formats that the program offers; the writers stand beside this, a file each.
+#include "planner/formats/formats.h"
+
+#include "core/edit_distance.h"
+#include "core/error.h"
+
+namespace navvy::planner {
+
+const std::vector<Format>& formats() {
+  // One row a format: a new one needs its file and this.
+  static const std::vector<Format> table = {
+      {"geotiff", ".tif", "GeoTIFF, one band a layer, georeferenced", all_layers(), write_geotiff},
+      {"npz", ".npz", "NumPy arrays and header.json, in the world's frame", all_layers(), write_npz},
+      {"nav2",
+       ".yaml",
+       "nav2 map_server pair, free / occupied / unknown",
+       {Layer::kTraversability},
+       write_nav2_trinary},
+      {"nav2-scale", ".yaml", "the same in mode scale, 0 to 100", {Layer::kTraversability}, write_nav2_scale},
+      {"hillshade", ".png", "picture of a surface, lit from the north-west", {Layer::kElevation}, write_hillshade},
+      {"relief", ".png", "picture of one layer in colours", {Layer::kElevation}, write_relief},
+      {"ply", ".ply", "triangles with layers at the vertices", {Layer::kElevation}, write_ply},
+  };
+  return table;
+}
+
+const Format& format_named(const std::string& name) {
+  // A word that fits none is answered by the nearest.
+  std::vector<std::string> names;
+  for (const Format& each : formats()) {
+    if (each.name == name) return each;
+    names.push_back(each.name);
+  }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "format", name, "no such format", suggestion(name, names)});
+}
+
+}  // namespace navvy::planner

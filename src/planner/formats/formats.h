@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps as files that others read. Each writer has a file of its own here; all write beside the target and rename, so
+// that an error, a full disk or a kill leaves the old file or the new one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/terrain_map.h"
+
+namespace navvy::planner {
+
+// Every writer takes the layers in the order asked for, at least one.
+// @throws FileError naming path and cause; Error for no layer; InputError where a format cannot hold what is asked.
+
+/// GeoTIFF, float32, one band a layer with its name and unit, nodata -9999: north up, in the CRS, the coordinates and
+/// for heights the datum and unit of the file that the site came from; W where it came from none. In a build without
+/// GDAL a FileError says so.
+void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// NumPy's NPZ: an array (ny, nx) of little-endian float32 for each layer, in W, row 0 = least y, NaN unknown; and
+/// `header.json` (format_version, layers with unit and meaning, size, cell, origin, time, soils, georeference). Stored,
+/// not compressed. @throws InputError above 4 GiB.
+void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// nav2's map_server pair from traversability: PATH is the YAML file, the image lies beside it. Takes no other layer.
+/// Origin and axes are those of W, whatever the site's georeference: planners count in float32.
+///
+/// Trinary: 8-bit PGM; free above 0, occupied at 0, unknown 128. Unknown is not the saver's 205, which becomes free
+/// where free_thresh is set above 0.196.
+void write_nav2_trinary(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+/// Scale: PNG of gray and alpha; occupancy 100 (1 - traversability) to 1 %, unknown by alpha 0.
+void write_nav2_scale(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// Picture of the surface, lit from the north-west at 45 deg, one pixel a column, north up; unknown is transparent.
+/// Takes elevation, elevation_start or target, one layer.
+void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+/// Picture of one layer in colours from its least (dark) to its greatest value (bright), traversability from red to
+/// green, cut_fill blue below and red above zero; with the surface's shade where the map has elevation.
+void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// Triangles through column centres in W as binary PLY: x, y, z as doubles, and of every layer asked for a float
+/// property at each vertex. Faces only between known columns. Elevation must be in the map.
+void write_ply(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// A format as the program offers it.
+struct Format {
+  std::string name;               ///< "geotiff"
+  std::string extension;          ///< ".tif"
+  std::string meaning;            ///< one line
+  std::vector<Layer> by_default;  ///< written when none is asked for
+  void (*write)(const TerrainMap&, const std::vector<Layer>&, const std::string&) = nullptr;
+};
+const std::vector<Format>& formats();
+/// @throws InputError naming the nearest one.
+const Format& format_named(const std::string& name);
+
+}  // namespace navvy::planner

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// GDAL stays where it is: this hands bands to heightfield's writer.
+#include "core/error.h"
+#include "planner/formats/formats.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/export.h"
+#endif
+
+namespace navvy::planner {
+
+void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+#ifdef NAVVY_WITH_GDAL
+  // Dense copies of all bands: 4 bytes a column and layer.
+  std::vector<std::vector<float>> values;
+  values.reserve(layers.size());
+  std::vector<heightfield::MapBand> bands;
+  for (const Layer layer : layers) {
+    values.push_back(map.copy(layer));
+    bands.push_back({info(layer).name, info(layer).unit, values.back(), info(layer).height});
+  }
+  heightfield::write_geotiff(map.setup(), bands, path);
+#else
+  (void)map, (void)layers;
+  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+#endif
+}
+
+}  // namespace navvy::planner

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hillshade and colours of a layer, one pixel a column, north up.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/math.h"
+#include "planner/formats/formats.h"
+#include "planner/formats/png_file.h"
+
+namespace navvy::planner {
+namespace {
+
+using Colour = std::array<double, 3>;
+
+/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a neighbour is missing.
+double shade(const TerrainMap& map, Layer surface, int ix, int iy) {
+  const auto z = [&](int x, int y) {
+    return static_cast<double>(map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
+  };
+  const auto slope = [&](double before, double here, double after) {
+    // Beside a hole the known side alone.
+    if (before != before) return (after - here) / map.cell();
+    if (after != after) return (here - before) / map.cell();
+    return (after - before) / (2 * map.cell());
+  };
+  const double here = z(ix, iy);
+  const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)), -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
+  // Its direction in W: x is east, y north.
+  const Vec3 sun = Vec3(-1, 1, std::sqrt(2.0)).normalized();
+  return here == here ? std::clamp(n.normalized().dot(sun), 0.0, 1.0) : here;
+}
+
+/// Between the colours of `stops`, evenly spaced, at 0 <= t <= 1.
+Colour between(const std::vector<Colour>& stops, double t) {
+  const double at = std::clamp(t, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+  const double f = at - static_cast<double>(i);
+  Colour out;
+  for (std::size_t c = 0; c < 3; ++c) out[c] = (1 - f) * stops[i][c] + f * stops[i + 1][c];
+  return out;
+}
+
+/// Of a layer: dark to bright, with meaning where a layer has one.
+const std::vector<Colour>& stops_of(Layer layer) {
+  static const std::vector<Colour> plain = {{0.15, 0.11, 0.24}, {0.20, 0.29, 0.48}, {0.20, 0.50, 0.50},
+                                            {0.47, 0.68, 0.37}, {0.85, 0.82, 0.47}, {0.98, 0.96, 0.86}};
+  static const std::vector<Colour> good = {{0.72, 0.16, 0.14}, {0.91, 0.71, 0.28}, {0.36, 0.62, 0.34}};
+  static const std::vector<Colour> signed_ = {{0.16, 0.30, 0.62}, {0.94, 0.94, 0.92}, {0.70, 0.20, 0.15}};
+  return layer == Layer::kTraversability ? good : layer == Layer::kCutFill ? signed_ : plain;
+}
+
+/// Values that the ends of the colours stand for.
+std::pair<double, double> range_of(Layer layer, const std::vector<float>& values) {
+  if (layer == Layer::kTraversability || layer == Layer::kAwake) return {0, 1};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const float v : values)
+    if (v == v) low = std::min(low, static_cast<double>(v)), high = std::max(high, static_cast<double>(v));
+  // A flat layer, or nothing known: one colour in the middle.
+  if (!(low < high)) return {low - 0.5, low + 0.5};
+  const double most = std::max(std::abs(low), std::abs(high));
+  // Where cut and fill meet is neither colour.
+  return layer == Layer::kCutFill ? std::pair{-most, most} : std::pair{low, high};
+}
+
+void require_one(const char* format, const std::vector<Layer>& layers, const std::string& path, bool fits) {
+  if (layers.size() == 1 && fits) return;
+  std::string found;
+  for (const Layer layer : layers) found += (found.empty() ? "" : ",") + info(layer).name;
+  throw InputError(Fault{Fault::Severity::kError, path, 0, format, found,
+                         fits ? "a picture shows one layer" : "shows a surface: elevation, elevation_start or target",
+                         "ask for one picture a layer, or for a GeoTIFF"});
+}
+
+/// `colour(ix, iy, out)` says whether the column is known.
+template <class Paint>
+void write_picture(const TerrainMap& map, const std::string& path, const Paint& colour) {
+  // The picture's first row is the northern edge.
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(4 * static_cast<std::size_t>(map.rect().area()));
+  for (int iy = map.ny() - 1; iy >= 0; --iy)
+    for (int ix = 0; ix < map.nx(); ++ix) {
+      Colour rgb{};
+      const bool known = colour(ix, iy, rgb);
+      for (const double c : rgb)
+        pixels.push_back(known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
+      pixels.push_back(known ? 255 : 0);
+    }
+  write_file_atomically(path, png_bytes(PixelKind::kRgba, map.nx(), map.ny(), pixels));
+}
+
+}  // namespace
+
+void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  require_one("hillshade", layers, path, !layers.empty() && info(layers[0]).height);
+  write_picture(map, path, [&](int ix, int iy, Colour& rgb) {
+    const double light = shade(map, layers[0], ix, iy);
+    rgb.fill(light);
+    return light == light;
+  });
+}
+
+void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  require_one("relief", layers, path, true);
+  const Layer layer = layers[0];
+  const auto [low, high] = range_of(layer, map.copy(layer));
+  const double least = low, span = high - low;
+  write_picture(map, path, [&](int ix, int iy, Colour& rgb) {
+    const double value = static_cast<double>(map.at(layer, ix, iy));
+    if (!(value == value)) return false;
+    rgb = between(stops_of(layer), (value - least) / span);
+    // The surface below shows through; level ground keeps its colour.
+    const double light = shade(map, Layer::kElevation, ix, iy) / std::sqrt(0.5);
+    for (double& c : rgb) c *= light == light ? 0.45 + 0.55 * light : 1;
+    return true;
+  });
+}
+
+}  // namespace navvy::planner

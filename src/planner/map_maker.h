@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the map of a site up to date from one view of its terrain to the next.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "heightfield/change_follower.h"
+#include "planner/derived.h"
+#include "planner/terrain_map.h"
+
+namespace navvy::planner {
+
+/// What a map shall hold.
+struct MapOptions {
+  std::vector<Layer> layers = all_layers();  ///< what these are made from is added
+  TraversabilityLimits limits;
+  /// Design surface in W [m], a value for each column, x fastest, NaN where there is none; empty: none anywhere.
+  std::vector<float> target;
+};
+
+/// Makes maps of one site, each of the view it was shown last.
+///
+/// Only columns that changed, and for the derived layers those round them, are computed anew; the result is that of a
+/// full computation to the bit. An update costs what changed and a pointer for each tile of 64 x 64 columns and layer.
+/// Maps taken before stay as they were. One thread makes, any number reads the maps.
+class MapMaker {
+ public:
+  explicit MapMaker(MapOptions options);
+
+  /// Brings the map up to date. Returns the columns with any changed value, as rectangles: at most 64, they may
+  /// overlap, and may tell some that did not change. The whole site the first time, and for a view of another site.
+  /// @throws InputError for a target that does not have a value a column, and for limits that make no sense.
+  const std::vector<heightfield::CellRect>& update(const heightfield::TerrainView& view);
+  /// The map as it is now. @throws Error before the first update.
+  TerrainMap map();
+
+ private:
+  bool is_of(const heightfield::TerrainView& view) const;
+  void start(const heightfield::TerrainView& view);
+  void update_base(const heightfield::TerrainView& view, const heightfield::CellRect& rect, bool first);
+  void derive(const heightfield::CellRect& rect);
+  bool wants(Layer layer) const { return !map_->tiles_[index_of(layer)].empty(); }
+  /// Whether that changed the value; an equal one is not written. Nothing happens to a layer that the map lacks.
+  bool set(Layer layer, int ix, int iy, float value);
+
+  MapOptions options_;
+  heightfield::ChangeFollower follower_;
+  std::vector<heightfield::CellRect> changed_;
+  std::optional<TerrainMap> map_;
+  std::uint64_t edition_ = 0;  // of the tiles that are written now
+};
+
+}  // namespace navvy::planner

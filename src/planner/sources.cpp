@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/sources.h"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.h"
+#include "heightfield/site.h"
+
+namespace navvy::planner {
+namespace {
+
+using heightfield::Ground;
+
+/// Height that two roundings to whole quanta of mass may make [m]: 2^-24 kg are 1e-8 m of any soil in columns of 0.05
+/// m.
+constexpr double kQuanta = 1e-7;
+
+/// What a file of heights cannot tell.
+constexpr Layer kNotInHeights[] = {Layer::kSoil, Layer::kDensity, Layer::kLooseDepth, Layer::kAwake,
+                                   Layer::kDisturbedAt};
+
+/// The site again, with its surface from `file`. A run writes its whole site, so the file's cells are the columns.
+Ground reread(const scene::Scene& scene, const Ground& start, const std::string& file) {
+  scene::Scene end = scene;
+  end.ground.file = file;
+  end.ground.has_at = end.ground.at_is_local = false;
+  end.ground.size = start.cell() * Vec2(start.nx(), start.ny());
+  // As they lay, also where they were steeper than repose.
+  end.ground.steep = scene::SteepGround::kHold;
+  end.ground.features.clear();
+  Ground ground = heightfield::make_ground(end);
+  const heightfield::GroundSetup &a = start.setup(), &b = ground.setup();
+  // A micrometre at an easting of millions; a hundredth of a cell catches any other site.
+  const double tolerance = 0.01 * a.cell / a.file_unit;
+  if (a.nx == b.nx && a.ny == b.ny && std::abs(a.easting - b.easting) < tolerance &&
+      std::abs(a.northing - b.northing) < tolerance)
+    return ground;
+  throw InputError(Fault{
+      Fault::Severity::kError, file, 0, "map", std::to_string(b.nx) + " x " + std::to_string(b.ny),
+      "the scene's site has " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " columns, or lies elsewhere",
+      "a run's folder holds both: scene.sdf and terrain_end.tif"});
+}
+
+}  // namespace
+
+TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& options) {
+  MapMaker maker(options);
+  maker.update(heightfield::make_ground(scene).view());
+  return maker.map();
+}
+
+TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end, const MapOptions& options) {
+  if (!std::filesystem::is_regular_file(terrain_end))
+    throw FileError("cannot read '" + terrain_end +
+                    "': no such file; a run writes it at its end, until then there are snapshots (--snapshot)");
+  Ground start = heightfield::make_ground(scene);
+  const Ground end = reread(scene, start, terrain_end);
+  // W's zero of a site from a file is one of the file's heights, and those have changed.
+  const double shift = end.setup().height_offset - start.setup().height_offset;
+  const double unit = start.setup().file_height_unit, offset = start.setup().height_offset;
+  heightfield::GroundSetup setup = start.setup();
+  setup.surface = [&](int ix, int iy) {
+    const double z = start.height(ix, iy), now = end.height(ix, iy) + shift;
+    // What differs by no more than the file's rounding, and that of two grounds to quanta of mass, was not touched.
+    const auto as_written = static_cast<float>((z + offset) / unit);
+    const double rounding = static_cast<double>(std::nextafter(std::abs(as_written), INFINITY) - std::abs(as_written));
+    return std::abs(now - z) <= rounding * unit + kQuanta ? z : now;
+  };
+  // Of a ground that was never another: only its heights are looked at.
+  MapMaker maker(options);
+  maker.update(Ground(setup).view(std::nan("")));
+  TerrainMap out = maker.map();
+  const std::vector<float> unknown(static_cast<std::size_t>(out.rect().area()), kUnknown);
+  for (const Layer layer : kNotInHeights)
+    if (out.has(layer)) out = out.with(layer, unknown);
+  if (!out.has(Layer::kElevationStart)) return out;
+  std::vector<float> before;
+  start.copy_heights(start.site_rect(), before);
+  return out.with(Layer::kElevationStart, before);
+}
+
+}  // namespace navvy::planner

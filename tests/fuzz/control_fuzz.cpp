@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then the world takes a step
+// with the inputs that were set. One session serves all; it is put back to its start whenever something was set.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/control_stdio.h"
+#include "control/step_kinds.h"
+#include "core/error.h"
+#include "core/saved_state.h"
+#include "device/device.h"
+#include "scene_io/loader.h"
+#include "session/session.h"
+#include "target.h"
+
+namespace {
+
+using namespace navvy;
+
+const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil name="s"/>
+<navvy:ground><size_m>4 4</size_m><depth_m>0.5</depth_m></navvy:ground>
+<navvy:solver><cell_m>0.5</cell_m><max_particles>1000</max_particles></navvy:solver>
+<model name="m"><static>true</static><link name="a"/><link name="b"><pose>0 0 1 0 0 0</pose>
+<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint>
+<navvy:program><wait><duration_s>1</duration_s></wait></navvy:program></model></world></sdf>)";
+
+struct Driven {
+  device::Device device;
+  session::Session session{scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
+  std::vector<char> start = saved(session);
+  int input = ::memfd_create("input", 0);
+
+  Driven() {
+    // What is read as standard input from now on, and nobody reads the answers.
+    ::dup2(input, STDIN_FILENO);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::close(nowhere);
+  }
+};
+
+/// Kept to the end: threads of the driver would outlive it.
+Driven& the_one() {
+  static Driven& driven = *new Driven;
+  return driven;
+}
+
+}  // namespace
+
+/// Kernels that no cache holds yet are compiled for a minute, which no input is to be blamed for.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  the_one();
+  return 0;
+}
+
+NAVVY_FUZZ_TARGET(control) {
+  Driven& driven = the_one();
+  fuzz::hold(::ftruncate(STDIN_FILENO, 0) == 0);
+  fuzz::hold(::pwrite(STDIN_FILENO, data, size, 0) == static_cast<ssize_t>(size));
+  fuzz::hold(::lseek(STDIN_FILENO, 0, SEEK_SET) == 0);
+  cli::ControlStdio controller(driven.session, 1, [] { return false; });
+  while (controller.exchange()) {
+  }
+  // Only a line that names inputs changes something; the others cost no step.
+  if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos) return 0;
+  try {
+    driven.session.step();
+  } catch (const Error&) {
+    // Such as a joint that was told to go to 1e300.
+  }
+  load_saved(driven.start, driven.session);
+  return 0;
+}
