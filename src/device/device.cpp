@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
 
 #include "device/kernel_cache.h"
@@ -76,6 +77,9 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
 std::vector<Found> find_devices() {
   // Before the first call into OpenCL: PoCL reads its folder from the environment when its platform comes up.
   prepare_kernel_cache();
+  // One thread at a time: PoCL 3.1 shows devices to a second one before they have their names.
+  static std::mutex first;
+  const std::lock_guard<std::mutex> alone(first);
   std::vector<Found> found;
   cl_uint platform_count = 0;
   if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return found;
