@@ -2,7 +2,8 @@
 // How much work a file of somebody else's may ask for. Limits are counts (bytes, elements, triangles), never times, so
 // that a file is refused on every machine or on none. They are meant to let a file up to 64 MB be refused or checked
 // within about five seconds and 1 GB, and lie at ten times and more of what scenes are made of. The table for users is
-// in scenarios/README.md; tests/scene_io/limits_test.cpp and its neighbours hold the numbers but for kMapDecodedBytes.
+// in scenarios/README.md; tests/scene_io/limits_test.cpp and its neighbours hold the numbers, bench/limits.py the
+// costs.
 #pragma once
 
 #include <cstddef>

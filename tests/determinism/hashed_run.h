@@ -43,23 +43,25 @@ struct HashedRun {
   nlohmann::json summary;
 };
 
-/// Runs `scene` with `options` on the CPU; files go below the build tree, into `name`.
+/// Where the files of the run of this name go, below the build tree.
+inline std::filesystem::path run_folder(const std::string& name) {
+  return std::filesystem::path(navvy::build_dir()) / "test-determinism" /
+         testing::UnitTest::GetInstance()->current_test_info()->name() / name;
+}
+
+/// Runs `scene`, a shipped one or a path, with `options` on the CPU, without pictures unless `pictures`.
 inline HashedRun hashed_run(const std::string& name, const std::string& scene, std::vector<std::string> options,
-                            const Environment& environment) {
-  const std::filesystem::path directory = std::filesystem::path(navvy::build_dir()) / "test-determinism" /
-                                          testing::UnitTest::GetInstance()->current_test_info()->name() / name;
+                            const Environment& environment, bool pictures = false) {
+  const std::filesystem::path directory = run_folder(name);
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   const std::string out = (directory / "out").string();
-  std::vector<std::string> arguments{"run",
-                                     navvy::source_dir() + "/scenarios/" + scene,
-                                     "--no-render",
-                                     "--hash-every",
-                                     "1",
-                                     "--device",
-                                     "cpu",
-                                     "--out",
-                                     out};
+  std::vector<std::string> arguments{
+      "run",          (std::filesystem::path(navvy::source_dir()) / "scenarios" / scene).string(),
+      "--hash-every", "1",
+      "--device",     "cpu",
+      "--out",        out};
+  if (!pictures) arguments.emplace_back("--no-render");
   arguments.insert(arguments.end(), options.begin(), options.end());
   HashedRun run;
   const std::string err = (directory / "stderr").string();

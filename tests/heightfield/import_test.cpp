@@ -272,6 +272,33 @@ TEST(Import, RefusesDamagedFilesQuietly) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
+  if (!has_tool("gdal_create")) GTEST_SKIP() << "gdal_create (gdal-bin) is missing";
+  const std::string dir = folder();
+  // Rows of one block each, empty, so that a kilobyte of file stands for as many as one likes.
+  const auto made = [&](const std::string& name, const std::string& columns, const std::string& rows) {
+    const std::string size = " -outsize " + columns + " " + rows + " -a_ullr 0 " + rows + " " + columns + " 0 ";
+    const std::string file = dir + name;
+    EXPECT_EQ(std::system(
+                  ("gdal_create -q -of GTiff -ot Float32 -co SPARSE_OK=TRUE -co BLOCKYSIZE=1" + size + "'" + file + "'")
+                      .c_str()),
+              0);
+    EXPECT_LT(std::filesystem::file_size(file), 10'000u);
+    return file;
+  };
+  // Rows of 240 MB as doubles, of which every one is decoded for a site of 40 m: 10 GB.
+  const std::string wide = made("wide.tif", "30000000", "60");
+  const std::string message = message_of(map_world(wide, 0.5, Vec2(40, 40)));
+  EXPECT_TRUE(contains(message, wide)) << message;
+  EXPECT_TRUE(contains(message, "more than " + std::to_string(static_cast<std::int64_t>(limits::kMapDecodedBytes)) +
+                                    " to decode for this site"))
+      << message;
+  EXPECT_TRUE(contains(message, "gdal_translate -co TILED=YES")) << message;
+  // What is refused is the work, not the form: rows of 4 MB are read.
+  EXPECT_EQ(message_of(map_world(made("narrow.tif", "1000000", "60"), 0.5, Vec2(40, 40))).find("to decode"),
+            std::string::npos);
+}
+
 TEST(Import, RefusesWordsAmongTheNumbersOfAnAsciiGrid) {
   const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
   const auto grid = [&](const std::string& word) {
