@@ -63,6 +63,19 @@ std::string build_log(cl_program program, const Device::State& device) {
   return log;
 }
 
+/// Compilers are written in C++ and take what they need by `new`: out of memory they throw through the driver's C code,
+/// which then keeps its locks for ever. The program is given up with them: releasing it would wait for one.
+cl_int build_or_give_up(Program::State& state, const std::string& flags) {
+  try {
+    return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
+  } catch (const std::exception& error) {
+    state.program = nullptr;
+    throw DeviceError("the OpenCL driver failed within itself (" + std::string(error.what()) +
+                          ") while it built kernels/" + state.name + "; is there memory left?",
+                      CL_OUT_OF_HOST_MEMORY);
+  }
+}
+
 std::shared_ptr<Program::State> build(Device& device, const std::string& name, const std::string& text,
                                       const std::vector<std::string>& options) {
   auto state = std::make_shared<Program::State>();
@@ -79,7 +92,7 @@ std::shared_ptr<Program::State> build(Device& device, const std::string& name, c
   for (const std::string& option : options) flags += option + " ";
   // The notice ends with this scope, also when the build fails.
   const auto slow = tell_if_slow(*state->device, "kernels/" + name);
-  code = clBuildProgram(state->program, 1, &state->device->device, flags.c_str(), nullptr, nullptr);
+  code = build_or_give_up(*state, flags);
   if (code != CL_SUCCESS) {
     throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " + device.info().name +
                           ", options: " + flags + "\n" + build_log(state->program, *state->device),

@@ -82,6 +82,18 @@ TEST(Fault, ARunThatHangsIsKilledAndToldOf) {
   EXPECT_EQ(got.status, -SIGKILL);
 }
 
+/// The campaign's find (allocation 43 355): the driver's compiler threw, and the run waited for a lock of its for ever.
+TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
+  const test::Folder folder;
+  Attack thrown = with(folder, "");
+  thrown.hang = "thrown:1:600";
+  thrown.patience = 60;
+  const Outcome got = attack(folder.path().string(), small_run(false), thrown);
+  EXPECT_EQ(got.broken, "") << got.said;
+  EXPECT_EQ(got.status, 3);
+  EXPECT_NE(got.said.find("the OpenCL driver failed within itself (std::bad_alloc)"), std::string::npos) << got.said;
+}
+
 TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
   const test::Folder folder;
   const auto arguments = small_run(true);

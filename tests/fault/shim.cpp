@@ -7,7 +7,8 @@
 // a file's present size still succeeds, as on a full disk. NAVVY_FAULT_COUNT=FILE appends the number of calls of each
 // kind when the program ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the
 // OpenCL driver hang in its n-th build of a program and in those after it; NAVVY_HANG=wait:n:seconds in the calls that
-// wait for the device.
+// wait for the device; NAVVY_HANG=thrown:n:seconds throws out of the n-th build, and hangs where its program is
+// released.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -121,6 +122,8 @@ F next(const char* name) {
 
 mode_t mode_of(int flags, va_list list) { return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0; }
 
+void* thrown_out_of = nullptr;
+std::atomic<long> builds{0};
 std::atomic<long> waits{0};
 void hang(const char* call) {
   const char* text = getenv("NAVVY_HANG");
@@ -239,9 +242,19 @@ int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, std::size_
   if (blocking != 0) hang("wait");
   return real(queue, buffer, blocking, offset, size, to, waits_for, list, event);
 }
+int clReleaseProgram(void* program) {
+  static const auto real = next<int (*)(void*)>("clReleaseProgram");
+  if (program == thrown_out_of) hang("thrown");
+  return real(program);
+}
 int clBuildProgram(void* program, unsigned count, const void* devices, const char* options, void* notify, void* data) {
   static const auto real = next<int (*)(void*, unsigned, const void*, const char*, void*, void*)>("clBuildProgram");
   hang("build");
+  const char* text = getenv("NAVVY_HANG");
+  if (text != nullptr && std::strncmp(text, "thrown:", 7) == 0 && ++builds == std::atol(text + 7)) {
+    thrown_out_of = program;
+    throw std::bad_alloc();
+  }
   return real(program, count, devices, options, notify, data);
 }
 
