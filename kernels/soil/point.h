@@ -46,10 +46,11 @@ INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real o
 
 // Momentum that a particle brings to the nodes: start at its base node, and its change per node step, a[3 * i + j] of
 // component i along axis j [kg m/s]. A = m C dx - dt 4/dx V sigma: the affine part [Jiang 2015] and the stress as
-// MLS-MPM has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells].
+// MLS-MPM has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells]. In a held step the
+// nodes have kept their momentum, `carried` is 0 and the stress alone is brought; else it is 1.
 INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f, real mass, real bank,
-                             real j, scalar dt, scalar dx, real* start, real* a) {
-  const real cm = mass * dx, sv = (4.0f * dt / dx) * bank * j;
+                             real j, scalar carried, scalar dt, scalar dx, real* start, real* a) {
+  const real kept = carried * mass, cm = kept * dx, sv = (4.0f * dt / dx) * bank * j;
   a[0] = cm * c[0] - sv * sigma[0];
   a[1] = cm * c[1] - sv * sigma[3];
   a[2] = cm * c[2] - sv * sigma[5];
@@ -59,9 +60,9 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
   a[6] = cm * c[6] - sv * sigma[5];
   a[7] = cm * c[7] - sv * sigma[4];
   a[8] = cm * c[8] - sv * sigma[2];
-  start[0] = mass * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
-  start[1] = mass * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
-  start[2] = mass * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
+  start[0] = kept * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
+  start[1] = kept * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
+  start[2] = kept * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
 }
 
 // Component of C = 4/dx^2 sum w v (x_i - x_p)^T [1/s] from a component of the gathered velocity v, its first moment

@@ -12,7 +12,8 @@ namespace navvy::soil {
 GridToParticle::GridToParticle(device::Device& device)
     : device_(device),
       program_(device, kernel_path(device, "grid_to_particle")),
-      kernel_(program_, "grid_to_particle") {}
+      kernel_(program_, "grid_to_particle"),
+      end_kernel_(program_, "grid_to_particle_end") {}
 
 void GridToParticle::set_blocks(const BlockTable& table) { upload(device_, neighbours_, table.neighbours); }
 
@@ -26,6 +27,10 @@ void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& veloci
             static_cast<float>(packed_mass(store.densest(), cell)),
             static_cast<float>(std::min(1.0, dt / closing_time())))
       .enqueue_groups(store.homes().size());
+}
+
+void GridToParticle::enqueue_end(ParticleStore& store) {
+  end_kernel_.args(store.state(), store.capacity(), store.homes_buffer()).enqueue_groups(store.homes().size());
 }
 
 }  // namespace navvy::soil

@@ -154,7 +154,7 @@ void PlaneStrain::scatter(double dt, bool first) {
     const Weights at(p);
     // The force alone is what the shared arithmetic makes of no velocity and no gradient.
     const double none[9] = {0}, still[3] = {0, 0, 0}, f[3] = {at.fx, 0, at.fz};
-    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, dt, cell_, start, a);
+    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, 1, dt, cell_, start, a);
     const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6], cz = cell_ * p.c[8];
     moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
     for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
