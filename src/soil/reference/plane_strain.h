@@ -15,7 +15,7 @@
 
 namespace navvy::soil::reference {
 
-/// What of the method may be changed; as it stands here it is that of the kernels.
+/// What of the method may be changed; as it stands here it is that of the kernels, but for the length of a transfer.
 struct PlaneMethod {
   /// kFraction: the contact's weight is a share of the impulse, made independent of the step
   /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times

@@ -95,6 +95,7 @@ void Contact::go_on(Transfer& transfer) {
   if (nodes_.count == 0) return;
   upload_tools();
   shells_.enqueue_nodes(transfer, nodes_, settings_.band);
+  device_.finish();  // what was uploaded may be replaced by the next step
 }
 
 bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed) {
