@@ -262,7 +262,8 @@ void NativeSoil::update_grid(float dt, bool hold) {
 float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
-  const auto closing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::closing_time()));
+  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
+  const auto most = static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {
@@ -294,20 +295,24 @@ float NativeSoil::gather(const Home& home, float dt) {
       my[l] = sum_y;
       mz[l] = sum_z;
     }
-    // v, moved += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T, J towards what the nodes hold.
-    Lanes u[4], m[4];
+    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and apart where soil is crowded.
+    Lanes u[4], m[4], c[9], lean[3];
     unturn(v, u);
     const Four* moments[3] = {mx, my, mz};
     for (int axis = 0; axis < 3; ++axis) {
       unturn(moments[axis], m);
-      for (int i = 0; i < 3; ++i) store(velocity_gradient(m[i], w.f[axis], u[i], dx), pack.c[3 * i + axis]);
+      for (int i = 0; i < 3; ++i) c[3 * i + axis] = velocity_gradient(m[i], w.f[axis], u[i], dx);
+      lean[axis] = m[3] - w.f[axis] * u[3];
     }
-    store(closed(load(pack.j), load(pack.j0), u[3], full, closing), pack.j);
+    for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
+    const Lanes share = crowding(c, load(pack.j), load(pack.j0), u[3], full, spread);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
-      store(load(pack.moved[a]) + (dt / dx) * u[a], pack.moved[a]);
+      const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);
+      store(load(pack.moved[a]) + way, pack.moved[a]);
+      m[a] = way * (dx / dt);
     }
-    fastest = fmax(fastest, fastest_component(u));
+    fastest = fmax(fastest, fastest_component(m));
   }
   float out = 0;
   for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);

@@ -69,12 +69,21 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
 // about the base node along one axis [m/s x cells], and the offset f along that axis.
 INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return (4.0f / dx) * (moment - f * v); }
 
-// J after the nodes were asked how full they are. full: mass of a node that means packed at J = 1 [kg]; soil packed
-// tighter than J and its density state say closes by the share `closing` [docs/soil.md, closing]. Opened soil (J > J0)
-// in flight keeps its J: it could not find back to the gaps it has.
-INLINED real closed(real j, real j0, real node_mass, scalar full, scalar closing) {
+// Share of the way apart that a particle goes where soil is crowded, 0 elsewhere: J is integrated and cannot see particles
+// crowd, the nodes can [docs/soil.md, crowding]. Crowded is what holds more than `full`, the mass of a node that means
+// packed at J = 1 [kg], than J and its density state both say; opened soil (J > J0) in flight is not. By shear rate, not
+// by time: soil at rest stays where it is. spread: dt over the shear strain that takes soil apart [s].
+INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
-  return j - closing * fmax(fmin(j, j0) - packed, 0.0f);
+  const real xy = c[1] + c[3], xz = c[2] + c[6], yz = c[5] + c[7];
+  const real rate = sqrt(2.0f * (c[0] * c[0] + c[4] * c[4] + c[8] * c[8]) + (xy * xy + xz * xz + yz * yz));
+  return fmin(j, j0) > packed ? fmin(spread * rate, 1.0f) : 0.0f;
+}
+
+// Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,
+// seen from the particle [kg cells]; most: farthest way [cells].
+INLINED real way_apart(real share, real lean, real node_mass, scalar most) {
+  return fmin(fmax(-share * lean / fmax(node_mass, MASS_QUANTUM), -most), most);
 }
 
 // Fastest component of a velocity, infinite when one is not finite.

@@ -92,6 +92,8 @@ Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_tool(shell); }
 
+void Solver::set_crowding(bool on) { state_->crowding = on; }
+
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
   return std::min(settings.max_step, settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
@@ -199,7 +201,7 @@ void Solver::State::queue(double dt, bool hold) {
   if (!hold) contact.classify(store, transfer);
   transfer.scatter(store, contact.nodes(), dt, cell, world.gravity, hold);
   contact.solve(transfer, dt);
-  transfer.gather(store, contact.nodes(), dt, cell);
+  transfer.gather(store, contact.nodes(), dt, crowding ? dt / transfer_length : 0, cell);
   contact.read_later();
   if (!hold) mass_count.queue(store);  // nothing changes a mass meanwhile
 }

@@ -75,6 +75,7 @@ struct Solver::State {
   TransferInterval interval;  ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
   bool blocks_changed = true;
+  bool crowding = true;      ///< particles are moved apart where they crowd
   bool over_budget = false;  ///< said so already
   double drift = 0;          ///< cells particles may have moved since the last re-bin
   double time = 0;           ///< simulated, sum over steps; only handed to the exchange [s]

@@ -26,8 +26,8 @@ void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double 
   grid_.enqueue(store, particle_to_grid_, near, gravity * dt, hold);
 }
 
-void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
-  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt, cell);
+void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell) {
+  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt, part, cell);
 }
 
 Transfer::Largest Transfer::read_report(std::size_t homes) const {

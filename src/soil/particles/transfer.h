@@ -29,8 +29,8 @@ class Transfer {
   /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in near ones.
   /// `hold`: not the first step of a transfer.
   void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold);
-  /// Queues gather; the way of the particles is booked.
-  void gather(ParticleStore& store, NearNodes& near, double dt, double cell);
+  /// Queues gather of a step that is the share `part` of a transfer, 0: nothing is moved apart; the way of the particles is booked.
+  void gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell);
   /// Queues the transfer's end: particles go the way that was booked.
   void end(ParticleStore& store) { grid_to_particle_.enqueue_end(store); }
   /// Largest values over the home blocks after a step; waits.

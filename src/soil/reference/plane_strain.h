@@ -15,14 +15,14 @@
 
 namespace navvy::soil::reference {
 
-/// What of the method may be changed; as it stands here it is that of the kernels, but for the length of a transfer.
+/// What of the method may be changed; as it stands here it is the one that the cures began from.
 struct PlaneMethod {
   /// kFraction: the contact's weight is a share of the impulse, made independent of the step
   /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times
   /// the plate's speed.
   enum class Contact { kFraction, kKinematic };
-  /// Where particles crowd: kClosing takes it out of J [docs/soil.md, closing]; kShear moves them apart by their
-  /// shear rate and leaves J alone; kNone does nothing.
+  /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart by their shear rate
+  /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
   Contact contact = Contact::kFraction;

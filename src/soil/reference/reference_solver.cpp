@@ -140,26 +140,31 @@ void ReferenceSolver::gather(double dt) {
   // Crowding is judged by the densest soil of the scene, see packed_mass.
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
-  const double full = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
+  const double full = packed_mass(densest, cell_), spread = dt / crowding_shear();
+  const double most = farthest_apart() * std::min(1.0, dt / transfer_length_);
+  fastest_ = 0;
   for (Point& p : points) {
-    Vec3 v = Vec3::Zero();
+    Vec3 v = Vec3::Zero(), lean = Vec3::Zero();
     Mat3 moment = Mat3::Zero();
     double mass = 0;
     const Weights weights = weights_at(p.x - p.moved);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
       const Node& node = nodes_.at(at);
       mass += w * node.room_mass;
+      lean += w * node.room_mass * (place - weights.f);
       v += w * node.velocity;
       moment += w * node.velocity * place.transpose();
     });
     for (int i = 0; i < 3; ++i)
       for (int axis = 0; axis < 3; ++axis)
         p.c[3 * i + axis] = velocity_gradient(moment(i, axis), weights.f[axis], v[i], cell_);
-    // J before x: the nodes told of where the particle was.
-    p.j = closed(p.j, p.j0, mass, full, closing);
     p.v = v;
-    p.x += (dt / cell_) * v;
-    p.moved += (dt / cell_) * v;
+    Vec3 way = (dt / cell_) * v;
+    const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
+    for (int axis = 0; axis < 3; ++axis) way[axis] += way_apart(share, lean[axis], mass, most);
+    p.x += way;
+    p.moved += way;
+    fastest_ = std::max(fastest_, way.cwiseAbs().maxCoeff() * cell_ / dt);
   }
 }
 
@@ -172,9 +177,7 @@ void ReferenceSolver::step(double dt) {
   scatter(dt, hold);
   update_grid(dt, hold);
   gather(dt);
-  double fastest = 0;
-  for (const Point& p : points) fastest = std::max(fastest, p.v.cwiseAbs().maxCoeff());
-  interval_.book(dt, cell_, fastest, 0);
+  interval_.book(dt, cell_, fastest_, 0);
 }
 
 Vec3 ReferenceSolver::momentum() const {

@@ -64,6 +64,7 @@ class ReferenceSolver {
   double cell_;
   double transfer_length_;  ///< [s]
   TransferInterval interval_;
+  double fastest_ = 0;  ///< component of the ways in the last step [m/s]
   Vec3 gravity_;
   std::function<double(int, int)> ground_;
   std::map<std::array<int, 3>, Node> nodes_;

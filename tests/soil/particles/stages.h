@@ -67,7 +67,7 @@ struct Stages {
   void enqueue_grid(const Vec3& dv) { grid.enqueue(store, scatter, near, dv, false); }
   /// And the transfer's end.
   void enqueue_gather() {
-    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, kStageCell);
+    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, 0.25, kStageCell);
     gather.enqueue_end(store);
   }
 
