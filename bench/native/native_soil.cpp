@@ -263,7 +263,8 @@ float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
-  const auto most = static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
+  const auto most =
+      static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {

@@ -53,7 +53,7 @@ class NativeSoil {
   bool sum_openings(const Home& home);
   void scatter(const Home& home, float dt, bool hold);
   void update_grid(float dt, bool hold);
-  void end_transfer();  ///< particles go the way that was booked
+  void end_transfer();                       ///< particles go the way that was booked
   float gather(const Home& home, float dt);  ///< the fastest velocity component
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +

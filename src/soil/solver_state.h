@@ -71,8 +71,8 @@ struct Solver::State {
   Exchange exchange;
   MassCount mass_count;
 
-  std::vector<Particle> unplaced;  ///< all particles, once the device could not take them: the run is over
-  TransferInterval interval;  ///< the transfer under way; the next step ends it where it cannot go on
+  std::vector<Particle> unplaced;      ///< all particles, once the device could not take them: the run is over
+  TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
   bool blocks_changed = true;
   bool crowding = true;      ///< particles are moved apart where they crowd

@@ -155,8 +155,8 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
   }
 }
 
-/// Density / bank [-] in the middle of a heap of twice the particles that the bank has, after it fell apart for 2 s. Each
-/// is sure (J = 1) of having its full volume: J alone cannot tell.
+/// Density / bank [-] in the middle of a heap of twice the particles that the bank has, after it fell apart for 2 s.
+/// Each is sure (J = 1) of having its full volume: J alone cannot tell.
 double crowded_density(bool crowding) {
   Rig rig({rig::sand(35)});
   rig.solver().set_crowding(crowding);

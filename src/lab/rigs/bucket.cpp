@@ -213,8 +213,8 @@ Dragged drag_flat(const Setup& setup, const Site& site, ToolDriver& driver) {
   return out;
 }
 
-/// Flat contact over the whole floor, the case in which a grid contact is most likely to jam. Held against the same drag
-/// without crowding: moving particles apart must not carry what slides over them.
+/// Flat contact over the whole floor, the case in which a grid contact is most likely to jam. Held against the same
+/// drag without crowding: moving particles apart must not carry what slides over them.
 Report run_scrape(const Setup& setup) {
   const Bucket bucket(setup["width"], setup["volume"]);
   const Pose start = make_pose(0, 0.07 * setup.cell, 0.015 + 0.01);
@@ -347,7 +347,8 @@ Rig scrape_rig() {
   rig.summary = "bucket pressed flat on level ground and dragged: no jam, no gain of energy";
   rig.drawing =
       "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged `drag` at `speed` and "
-      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the same with crowding off, "
+      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the same with crowding "
+      "off, "
       "its vertical force against the weight of the load.";
   rig.parameters = {{"width", 0.8, "m", "of the bucket", above(0)},
                     {"volume", 0.3, "m3", "struck, of the bucket", above(0)},

@@ -22,8 +22,7 @@ void ParticleToGrid::set_blocks(std::size_t homes, int tiles) {
   ensure(device_, used_, homes);
 }
 
-void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
-                             bool hold) {
+void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold) {
   // Mixing goes a share of the way a step, never past the mean.
   kernel_
       .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report,

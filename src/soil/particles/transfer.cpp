@@ -19,8 +19,7 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   ensure(device_, report_, table.homes.size());
 }
 
-void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity,
-                       bool hold) {
+void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold) {
   // The queue is in order: the grid update sees finished tiles.
   particle_to_grid_.enqueue(store, report_, dt, cell, hold);
   grid_.enqueue(store, particle_to_grid_, near, gravity * dt, hold);

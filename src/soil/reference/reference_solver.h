@@ -52,7 +52,8 @@ class ReferenceSolver {
  private:
   /// Mean opening of each point's cell, 0 where none of it is open.
   std::vector<double> openings() const;
-  void scatter(double dt, bool hold);  ///< mixing and law, then mass and momentum to the nodes; held, the stress's alone
+  void scatter(double dt,
+               bool hold);  ///< mixing and law, then mass and momentum to the nodes; held, the stress's alone
   /// Velocity, gravity, contact, resting ground; a node lighter than a quantum is empty.
   void update_grid(double dt, bool hold);
   void gather(double dt);  ///< back to the points, which move

@@ -96,7 +96,7 @@ class Contact {
     Pose X_listed = Pose::Identity();  ///< where it was then
     Pose X = Pose::Identity();         ///< at the start of the transfer
     Pose X_now = Pose::Identity();     ///< at the start of the step
-    BlockKey window;  ///< block its float coordinates count from
+    BlockKey window;                   ///< block its float coordinates count from
     void visit(Archive& a);
   };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }

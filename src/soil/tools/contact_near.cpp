@@ -267,9 +267,9 @@ void Contact::Registered::visit(Archive& a) {
   a("X", X);
   for (const Pose* pose : {&X_listed, &X}) {
     const Mat3 R = pose->linear();
-    a.require(pose->matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) &&
-                  pose->translation().norm() < kFarthest,
-              "X_listed", "must be a rigid pose on the site, as must X");
+    a.require(
+        pose->matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) && pose->translation().norm() < kFarthest,
+        "X_listed", "must be a rigid pose on the site, as must X");
   }
 }
 
