@@ -24,12 +24,9 @@ constexpr std::uint32_t kCheckSteps = 25;
 /// steps.
 constexpr double kMostStep = 1.3;
 
-double extreme_sound(const std::vector<scene::Soil>& soils, bool fastest) {
+double fastest_sound_of(const std::vector<scene::Soil>& soils) {
   double out = 0;
-  for (const scene::Soil& soil : soils) {
-    const double c = sound_speed(soil);
-    out = out == 0 ? c : fastest ? std::max(out, c) : std::min(out, c);
-  }
+  for (const scene::Soil& soil : soils) out = std::max(out, sound_speed(soil));
   return out;
 }
 
@@ -73,12 +70,12 @@ Solver::State::State(device::Device& device_in, const scene::Scene& world_in, he
       cell(ground_in.cell()),
       grid(plan_grid(world_in, ground_in)),
       origin(ground_in.origin().x() + grid.x * cell, ground_in.origin().y() + grid.y * cell, ground_in.datum()),
-      fastest_sound(extreme_sound(world_in.soils, true)),
+      fastest_sound(fastest_sound_of(world_in.soils)),
       transfer_length(kTransferLength * cell / fastest_sound),
       store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
             soil_table(world_in.soils, ground_in.cell())),
       transfer(device_in, needs_extended_law(world_in.soils)),
-      contact(device_in, cell, origin, extreme_sound(world_in.soils, true)),
+      contact(device_in, cell, origin),
       floor(ground_in, grid),
       exchange(world_in, ground_in),
       mass_count(device_in, world_in.soils.size()),

@@ -10,9 +10,10 @@
 namespace navvy::soil::reference {
 namespace {
 
-// The contact's reach as the solver ships it [docs/tools.md, contact weights]; a kinematic lip lies 0.2 cells further
-// out.
-constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.8, kEdgeRamp = 1, kKinematicEdge = 0.6;
+// The contact's reach from a plate's face, which the lattice of particles begins an eighth of a cell behind; its edge
+// as the solver ships it [docs/tools.md, contact shares]. A fractional lip lies 0.2 cells further in.
+constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.6, kEdgeRamp = 1, kFractionEdge = 0.8;
+constexpr double kFarInside = 1e3;         // from a plate's edges [cells]
 constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
 constexpr double kClosingTime = 0.1;       // over which J closes where particles crowd [s]
 constexpr double kEmpty = 1e-9;            // lighter nodes have no velocity [kg]
@@ -34,6 +35,13 @@ template <class Visit>
 void for_nodes(PlaneStrain& plane, const Weights& at, const Visit& visit) {
   for (int b = 0; b < 3; ++b)
     for (int a = 0; a < 3; ++a) visit(plane.node(at.i + a, at.k + b), at.wx[a] * at.wz[b], a, b);
+}
+
+/// Weight of a fractional contact, n = dt / reference step: 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b), equal
+/// at b = 0 (with slope n), at b = 1 and for n = 1.
+double fraction_weight(double clearance, double inset, double n, const Reach* reach) {
+  const double b = contact_share(clearance, kFarInside, reach) * contact_along(inset, reach);
+  return b * n / (1 + (n - 1) * b);
 }
 
 /// sqrt(2 D : D) of the symmetric part of a gradient without its volume change [1/s].
@@ -181,28 +189,20 @@ double PlaneStrain::room_at(int i, int k) const {
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
-  const bool kinematic = method_.contact == PlaneMethod::Contact::kKinematic;
-  const double rate = kinematic ? 1 : dt / longest_step(kReferenceCourant);
-  const Reach reach{kReach, kRamp, kinematic ? kKinematicEdge : kEdge, kEdgeRamp, rate, 0, 0};
+  const bool fraction = method_.contact == PlaneMethod::Contact::kFraction;
+  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;
-  double weight = contact_weight(clearance, inset, &reach);
-  if (kinematic) weight *= contact_along(inset, &reach);
-  if (!(weight > 0)) return;
-  const double along = node.vz, mass = node.mass;
-  double push, share = 1;
-  if (kinematic) {
-    const double allowed = plate.speed - (1 - weight) * std::max(plate.speed, 0.0);
-    push = mass * std::max(allowed - node.vx, 0.0);
-  } else {
-    share = weight;
-    push = mass * std::max(plate.speed - node.vx, 0.0);
-  }
-  const double rub = std::clamp(-mass * along, -plate.friction * push, plate.friction * push);
-  node.vx += share * push / mass;
-  node.vz += share * rub / mass;
-  plate.impulse += share * push;
-  energy_.tool += share * push * plate.speed;
+  ContactNode at{Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
+  double weight = 1;
+  if (fraction) weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);
+  if (!fraction) at.share = contact_share(clearance, inset, &reach);
+  if (!(weight > 0 && at.share > 0)) return;
+  const Vec3 impulse = weight * impulse_on(at, 0, Vec3(plate.speed, 0, 0));
+  node.vx += impulse.x() / node.mass;
+  node.vz += impulse.z() / node.mass;
+  plate.impulse += impulse.x();
+  energy_.tool += impulse.x() * plate.speed;
 }
 
 void PlaneStrain::update_nodes(double dt, bool first) {

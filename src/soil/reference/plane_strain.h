@@ -17,15 +17,15 @@ namespace navvy::soil::reference {
 
 /// What of the method may be changed; as it stands here it is the one that the cures began from.
 struct PlaneMethod {
-  /// kFraction: the contact's weight is a share of the impulse, made independent of the step
-  /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times
-  /// the plate's speed.
+  /// kKinematic: full impulse, but a node that the plate covers in part need only keep up with its share of the plate's
+  /// speed [docs/tools.md, contact shares]. kFraction: the share is one of the impulse, made independent of the step,
+  /// as the kernels once had it; a slow plate leaks.
   enum class Contact { kFraction, kKinematic };
   /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart by their shear rate
   /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
-  Contact contact = Contact::kFraction;
+  Contact contact = Contact::kKinematic;
   Crowding crowding = Crowding::kClosing;
   bool mixing = true;
   /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.

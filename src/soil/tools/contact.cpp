@@ -15,11 +15,10 @@ bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().ma
 
 }  // namespace
 
-Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound)
+Contact::Contact(device::Device& device, double cell, const Vec3& origin_W)
     : device_(device),
       cell_(cell),
       origin_(origin_W),
-      reference_step_(settings_.reference * cell / slowest_sound),
       shells_(device),
       contact_program_(device, kernel_path(device, "contact")),
       sums_kernel_(contact_program_, "contact_sums"),
@@ -51,9 +50,9 @@ void Contact::solve(Transfer& transfer, double dt) {
             static_cast<float>(settings_.ramp),
             static_cast<float>(settings_.edge),
             static_cast<float>(settings_.edge_ramp),
-            static_cast<float>(dt / reference_step_),
             static_cast<float>(dt * cell_ * cell_),
-            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_))};
+            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_)),
+            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_))};
   // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;

@@ -23,28 +23,29 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Lengths in cells [docs/tools.md, contact weights].
+/// Lengths in cells [docs/tools.md, contact shares].
 struct ContactSettings {
   double band = 2.5;          ///< how far from a shell particles keep a side
   double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
-  double ramp = 1.0;          ///< over which their weight falls to zero
-  double edge = 0.8;          ///< nodes closer than this to a free edge do not act
-  double edge_ramp = 1.0;     ///< over which their weight falls along the plate
-  double reference = 0.4;     ///< the step for which the weights hold, as a share of cell / sound speed
+  double ramp = 1.0;          ///< over which their share falls to zero
+  double edge = 0.6;          ///< nodes closer than this to a free edge do not act
+  double edge_ramp = 1.0;     ///< over which their share falls along the plate
   double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
   double longest_push = 0.2;  ///< position correction per step
   int sweeps = 3;             ///< of the two-way solve
   double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
+  double settling = 0.05;     ///< speed at which soil comes nearer to a plate that does not advance, in the same units
 };
 
 /// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
 /// plates with corners, at most 2.
 double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
 
-/// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
+/// Contact of all tools with the soil, two nodal fields, shares of the plate's speed, any number of
+/// tools.
 class Contact {
  public:
-  Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound);
+  Contact(device::Device& device, double cell, const Vec3& origin_W);
 
   int add_tool(const scene::Shell& shell);
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
@@ -112,7 +113,6 @@ class Contact {
   double cell_;
   Vec3 origin_;
   ContactSettings settings_;
-  double reference_step_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
   ShellQuery shells_;

@@ -21,7 +21,7 @@ const char* const kHelp =
     "  wave    share of a shear wave that one transfer keeps: cells (8)\n"
     "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), swell (1.25). cell (0.1 m),\n"
     "courant (0.5).\n"
-    "Method, the kernels' own unless said: contact=fraction|kinematic, crowding=closing|shear|none, mixing=1|0, "
+    "Method, the kernels' own unless said: contact=kinematic|fraction, crowding=closing|shear|none, mixing=1|0, "
     "hold=1\n"
     "(steps a transfer), motion=0.2 (cells at most), bulk=0 (damping), lode=0|1, static=0 (share), rate=0.1 (1/s).\n";
 
@@ -46,7 +46,7 @@ double number(const std::string& key, double otherwise) {
 
 PlaneMethod method() {
   PlaneMethod out;
-  if (text("contact", "fraction") == "kinematic") out.contact = PlaneMethod::Contact::kKinematic;
+  if (text("contact", "kinematic") == "fraction") out.contact = PlaneMethod::Contact::kFraction;
   const std::string crowding = text("crowding", "closing");
   if (crowding == "shear") out.crowding = PlaneMethod::Crowding::kShear;
   if (crowding == "none") out.crowding = PlaneMethod::Crowding::kNone;
