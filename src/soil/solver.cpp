@@ -50,6 +50,9 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   sum.residual_moment += part.residual_moment;
   sum.scale += part.scale;
   sum.scale_moment += part.scale_moment;
+  // Means of a transfer: those of the last part are the newest.
+  sum.force_W = part.force_W;
+  sum.moment_W = part.moment_W;
 }
 
 }  // namespace
@@ -178,6 +181,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     }
     StageClock clock(times, "books");
     contact.book(impulses);
+    contact.feel(dt, impulses);
     if (!hold) check_masses();
   }
   time += dt;
@@ -206,6 +210,7 @@ void Solver::State::queue(double dt, bool hold) {
 void Solver::State::end_transfer() {
   if (!interval.open) return;
   transfer.end(store);
+  contact.end_transfer();
   drift += interval.motion;
   interval = {};
 }

@@ -98,6 +98,28 @@ TEST(SoilTransfer, GoesOnFromASnapshotInTheMiddleAsIfNothingHappened) {
   }
 }
 
+TEST(SoilTransfer, TellsTheImpulseOfAWholeTransferOverItsLength) {
+  Drag drag;
+  drag.motion.inverse_mass.setZero();
+  drag.motion.v_WT = Vec3(-0.1, 0, 0);
+  drag.rig.solver().insert(drag.rig.fill(drag.bed, true));
+  const double dt = drag.rig.solver().step_limit(0.1);
+  Vec3 before = Vec3::Zero();
+  for (int transfer = 0; transfer < 12; ++transfer) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < 4; ++i) {
+      drag.rig.solver().step(dt, std::span(&drag.motion, 1), std::span(&drag.impulse, 1));
+      drag.motion.X_WT.translation() += dt * drag.motion.v_WT;
+      sum += drag.impulse.J_W;
+      // Told is the transfer before; over the first there is none, so its own steps.
+      const Vec3 expected = transfer > 0 ? before : Vec3(sum / ((i + 1) * dt));
+      EXPECT_LT((drag.impulse.force_W - expected).norm(), 1e-9 * (1 + expected.norm())) << transfer << ", step " << i;
+    }
+    before = sum / (4 * dt);
+  }
+  EXPECT_GT(before.x(), 50);
+}
+
 // Soil that comes in, wakes or loses its tool ends a transfer: nothing is held over it.
 TEST(SoilTransfer, EndsWhereSoilOrToolsComeAndGo) {
   Rig rig({rig::sand()});

@@ -77,6 +77,11 @@ class Contact {
   /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
   void book(std::span<ToolImpulse> impulses);
 
+  /// Adds what the tools felt in a step of dt [s] to the transfer under way, and tells their mean force.
+  void feel(double dt, std::span<ToolImpulse> impulses);
+  /// A transfer has ended: what was felt over it is the force that is told from now on.
+  void end_transfer();
+
   /// Near lists hang on where tools were when they were made, sides of nodes on where they were when the transfer under
   /// way began: that is state, the rest follows from it (`list_near`, `go_on`).
   /// @throws InputError for another number of tools than are registered, or a pose that is none.
@@ -98,6 +103,11 @@ class Contact {
     Pose X = Pose::Identity();         ///< at the start of the transfer
     Pose X_now = Pose::Identity();     ///< at the start of the step
     BlockKey window;                   ///< block its float coordinates count from
+    // Sums over the transfer under way, and the means over the one before; without one, over the steps so far.
+    Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
+    double felt_for = 0;  ///< [s]
+    bool told = false;    ///< there is a transfer before
+    Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
     void visit(Archive& a);
   };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }

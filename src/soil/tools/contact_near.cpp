@@ -265,6 +265,13 @@ void Contact::Registered::visit(Archive& a) {
   a("X_listed", X_listed);
   a("present", present);
   a("X", X);
+  a("J_W", J_W);
+  a("L_W", L_W);
+  a("felt_for", felt_for);
+  a("told", told);
+  a("force_W", force_W);
+  a("moment_W", moment_W);
+  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for", "must be finite and not negative");
   for (const Pose* pose : {&X_listed, &X}) {
     const Mat3 R = pose->linear();
     a.require(
