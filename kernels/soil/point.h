@@ -70,8 +70,8 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
 INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return (4.0f / dx) * (moment - f * v); }
 
 // Share of the way apart that a particle goes where soil is crowded, 0 elsewhere: J is integrated and cannot see
-// particles crowd, the nodes can [docs/soil.md, crowding]. Crowded is where nodes hold more than J and the density state
-// both say, for `full` is the mass of a node that means packed at J = 1 [kg]; opened soil (J > J0) in flight is not. By
+// particles crowd, the nodes can [docs/soil.md, crowding]. Crowded is where nodes hold more than J and the density
+// state both say, for `full` is the mass of a node that means packed at J = 1 [kg]; opened soil (J > J0) in flight is not. By
 // shear rate, not by time: soil at rest stays where it is. spread: dt over the shear strain that takes soil apart [s].
 INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
