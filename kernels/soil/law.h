@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the double twin.
 //
-// Rate-form elasticity under a cone of Matsuoka and Nakai [Matsuoka 1974], matched in plane strain [docs/soil.md, yield],
-// with
+// Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain [docs/soil.md, yield], with
+//   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states are near it;
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
 //   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
@@ -46,12 +46,12 @@ typedef struct LawState {
 #undef STATE_REAL
 #undef STATE_REALS
 
-#define RESTING_TIME 10.0f    // 1 / shear rate from which on soil has no static share [s] [docs/soil.md, static friction]
+#define RESTING_TIME 10.0f    // 1 / shear rate at which the static share is gone [s] [docs/soil.md, static friction]
 #define VOLUME_DAMPING 10.0f  // viscosity of closed soil's volume / that of its shear [docs/soil.md, viscosity]
 
 // Radius of the yield surface / that in plane strain, of the deviator's determinant and q: r of a r^3 - r^2 + 1 = 0
-// [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first written out; 2 / sqrt(27) bounds the third
-// invariant.
+// [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first written out; 2 / sqrt(27) is the
+// invariant's bound.
 INLINED real lode_radius(real determinant, real q, real sin_phi) {
   const real safe = fmax(q, (scalar)(1e-3));
   const real invariant = fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
@@ -140,8 +140,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[4] = yz * stay;
   state->s[5] = xz * stay;
 
-  // Viscosity where the step was elastic, and on the volume of closed soil: of the stress that the grid feels alone, yield
-  // has asked the pressure without it [docs/soil.md, viscosity].
+  // Viscosity where the step was elastic, and on the volume of closed soil: only in the stress that the grid feels,
+  // yield has asked the pressure without it [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   const real damped = fmax(pressure - VOLUME_DAMPING * soil->viscosity * trace, 0.0f);
   const real felt = pressure > 0.0f ? damped : pressure;
