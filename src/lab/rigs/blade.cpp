@@ -154,7 +154,9 @@ Report run_plane(const Setup& setup) {
   const double below = whole_cells(depth * (1 + setup["below"]), cell);
   // Six cells behind the lip: what flows under it must have somewhere to lie.
   const ChuteBed bed{6 * cell, cell * std::ceil(reach / cell), below};
-  Site site(setup, chute_site(setup, bed, gap));
+  SiteOptions options = chute_site(setup, bed, gap);
+  options.courant = setup["courant"];
+  Site site(setup, options);
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = blade_height(setup),
   shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);  // over what piles up in front
@@ -190,6 +192,7 @@ Report run_open(const Setup& setup) {
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 8 * cell);
   options.depth = up + 8 * cell;
   options.surface = pit(bed);
+  options.courant = setup["courant"];
   Site site(setup, options);
   // The trench behind the blade is as wide as the blade and half a cell more.
   auto soil = site.fill(bed, [&](const Vec3& p) {
@@ -285,6 +288,7 @@ const std::vector<Parameter> kBlade = {
     {"depth", 0.3, "m", "of the lip under the ground", above(0)},
     {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright", between(15, 150)},
     {"speed", 0.3, "m/s", "ahead", above(0)},
+    {"courant", 0.5, "", "step as a share of cell / sound speed", between(0.05, 0.65)},
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
     yes_no("plane", true, "plane strain between smooth plates", "a blade of its width in open ground"),

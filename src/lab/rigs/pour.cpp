@@ -117,8 +117,9 @@ Report run(const Setup& setup) {
   }
   // Between the angle at which flow stops and the friction angle itself, with the reading's own error of a degree.
   const double phi = degrees(setup.soil.friction_angle), flow = degrees(flow_angle(setup.soil.friction_angle));
-  const char* const range = "soil without cohesion";
-  const bool here = !(setup.soil.cohesion > 0);
+  // A fast stream spreads the heap by its momentum: that is no angle of rest.
+  const char* const range = "soil without cohesion, poured at 0.2 m/s from 2 cells or gentlier";
+  const bool here = !(setup.soil.cohesion > 0) && setup["speed"] < 0.201 && setup["drop"] < 2.01;
   report.add("repose after pouring", at_first, "deg", flow, flow - 1.5, phi + 1, kSource).holds_for(range, here);
   report.add("repose after rest", angle.values.back(), "deg", flow, flow - 1.5, phi + 1, kSource)
       .holds_for(range, here);
@@ -147,8 +148,8 @@ Rig pour_rig() {
                     {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
                     {"gap", 5, "cells", "between the side plates", above(0)},
                     {"stream", 3, "cells", "half width of the stream", above(0)},
-                    {"drop", 4, "cells", "height of the mouth above the heap's top", at_least(0)},
-                    {"speed", 0.8, "m/s", "of the grains at the mouth", above(0)},
+                    {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
+                    {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
                     {"rest", 10, "s", "time at rest", at_least(0)}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;

@@ -17,10 +17,11 @@ constexpr double kViscosityShare = 0.05;
 /// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22.
 constexpr double kMixingTime = 0.02;
 /// J is integrated and cannot see particles crowd: a scooped and dumped loam lay at 0.97 of its bank volume while its J
-/// said 1.24. So J closes towards what the nodes hold, where they hold this much more than min(J, J0) says. One-sided:
-/// beside a free surface or a plate nodes hold less than the soil's density, and opened soil must not be closed by
-/// that. tuned: a scoop of loam dumped from 1.6 m, volume deep inside the heap / state: 0.79 without, 1.055 with these.
-constexpr double kPacked = 1.05, kClosingTime = 0.1;
+/// said 1.24. So particles are moved apart where the nodes hold this much more than min(J, J0) says
+/// [docs/soil.md, crowding]. One-sided: beside a free surface or a plate nodes hold less than the soil's density.
+/// tuned: the plane-strain laboratory. A shear of 0.02 stirs heaps at rest, 0.2 leaves their core at 1.23 of its state.
+constexpr double kPacked = 1.05, kCrowdingShear = 0.1;
+constexpr double kFarthestApart = 0.05;  ///< a tenth of the particles' spacing [cells a transfer]
 constexpr double kNeverCompacts = 1e30;  ///< [Pa]
 constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
 
@@ -37,7 +38,8 @@ double radius_of_dilating(double sin_phi, double b) {
 
 double mixing_time() { return kMixingTime; }
 double packed_mass(double densest, double cell) { return kPacked * densest * cell * cell * cell; }
-double closing_time() { return kClosingTime; }
+double crowding_shear() { return kCrowdingShear; }
+double farthest_apart() { return kFarthestApart; }
 
 LawConstants law_constants(const scene::Soil& soil, double cell) {
   LawConstants k;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.6, kEdgeRamp = 1, kFractionEdge = 0.8;
 constexpr double kFarInside = 1e3;         // from a plate's edges [cells]
 constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
+constexpr double kClosingTime = 0.1;       // over which J closes where particles crowd [s]
 constexpr double kEmpty = 1e-9;            // lighter nodes have no velocity [kg]
 
 struct Weights {
@@ -135,7 +136,7 @@ void PlaneStrain::scatter(double dt, bool first) {
     const Weights at(p);
     // The force alone is what the shared arithmetic makes of no velocity and no gradient.
     const double none[9] = {0}, still[3] = {0, 0, 0}, f[3] = {at.fx, 0, at.fz};
-    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, dt, cell_, start, a);
+    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, 1, dt, cell_, start, a);
     const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6], cz = cell_ * p.c[8];
     moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
     for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
@@ -211,7 +212,8 @@ void PlaneStrain::update_nodes(double dt, bool first) {
 }
 
 void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
-  if (!(std::min(p.j, p.j0) - packed_mass(1, 1) / std::max(p.density, 1e-9) > 0)) return;
+  const double share = crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / crowding_shear());
+  if (!(share > 0)) return;
   const Weights at(p);
   double mass = 0, lean_x = 0, lean_z = 0;
   for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
@@ -219,14 +221,12 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
     lean_x += w * node.room * (i - at.fx);
     lean_z += w * node.room * (k - at.fz);
   });
-  // tuned: none yet; a shear strain of 0.1 takes soil apart once [docs/soil.md, closing].
-  const double part = std::min(dt_interval * shear_rate(p.c) / 0.1, 1.0);
-  p.x += std::clamp(-part * lean_x / mass, -0.05, 0.05);
-  p.z += std::clamp(-part * lean_z / mass, -0.05, 0.05);
+  p.x += way_apart(share, lean_x, mass, farthest_apart());
+  p.z += way_apart(share, lean_z, mass, farthest_apart());
 }
 
 void PlaneStrain::gather(double dt, bool last) {
-  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / closing_time());
+  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / kClosingTime);
   double on_grid = 0, moving = 0, fastest = 0;
   if (last)
     for (const Node& node : nodes_) on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
@@ -249,7 +249,10 @@ void PlaneStrain::gather(double dt, bool last) {
     p.c[6] = velocity_gradient(moment[2], at.fx, v[1], cell_);
     p.c[8] = velocity_gradient(moment[3], at.fz, v[1], cell_);
     p.density = room / (soil_.bank_density * std::pow(cell_, 3));
-    if (method_.crowding == PlaneMethod::Crowding::kClosing) p.j = closed(p.j, p.j0, room, full, closing);
+    if (method_.crowding == PlaneMethod::Crowding::kClosing) {
+      const double packed = full / std::max(room, kEmpty);
+      p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
+    }
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

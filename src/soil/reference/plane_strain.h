@@ -15,14 +15,14 @@
 
 namespace navvy::soil::reference {
 
-/// What of the method may be changed; as it stands here it is that of the kernels.
+/// What of the method may be changed; as it stands here it is the one that the cures began from.
 struct PlaneMethod {
   /// kKinematic: full impulse, but a node that the plate covers in part need only keep up with its share of the plate's
   /// speed [docs/tools.md, contact shares]. kFraction: the share is one of the impulse, made independent of the step,
   /// as the kernels once had it; a slow plate leaks.
   enum class Contact { kFraction, kKinematic };
-  /// Where particles crowd: kClosing takes it out of J [docs/soil.md, closing]; kShear moves them apart by their
-  /// shear rate and leaves J alone; kNone does nothing.
+  /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart by their shear rate
+  /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
   Contact contact = Contact::kKinematic;

@@ -139,4 +139,29 @@ void Contact::book(std::span<ToolImpulse> impulses) {
   }
 }
 
+void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    Registered& tool = tools_[static_cast<std::size_t>(motions_[m].tool)];
+    tool.J_W += impulses[m].J_W;
+    tool.L_W += impulses[m].L_W;
+    tool.felt_for += dt;
+    if (!tool.told) {
+      tool.force_W = tool.J_W / tool.felt_for;
+      tool.moment_W = tool.L_W / tool.felt_for;
+    }
+    impulses[m].force_W = tool.force_W;
+    impulses[m].moment_W = tool.moment_W;
+  }
+}
+
+void Contact::end_transfer() {
+  for (Registered& tool : tools_) {
+    tool.told = tool.felt_for > 0;
+    tool.force_W = tool.told ? Vec3(tool.J_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.moment_W = tool.told ? Vec3(tool.L_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.J_W = tool.L_W = Vec3::Zero();
+    tool.felt_for = 0;
+  }
+}
+
 }  // namespace navvy::soil

@@ -53,7 +53,7 @@ void pour(Rig& rig, const Vec3& floor, double inside, const std::function<void(d
 
 Bed poured_box(const Vec3& floor) {
   scene::Soil soil = rig::sand(33);
-  soil.tool_friction_angle = 0;  // slip walls, where soil crowds [docs/soil.md, closing]
+  soil.tool_friction_angle = 0;  // slip walls, where soil crowds [docs/soil.md, crowding]
   Rig rig({soil});
   const scene::Shell box = rig::open_box(kEdge, kEdge, 1.0);
   ToolMotion motion;
