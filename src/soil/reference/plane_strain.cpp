@@ -44,12 +44,6 @@ double fraction_weight(double clearance, double inset, double n, const Reach* re
   return b * n / (1 + (n - 1) * b);
 }
 
-/// sqrt(2 D : D) of the symmetric part of a gradient without its volume change [1/s].
-double shear_rate(const double* c) {
-  const double third = (c[0] + c[8]) / 3, xx = c[0] - third, zz = c[8] - third, xz = 0.5 * (c[2] + c[6]);
-  return std::sqrt(2 * (xx * xx + zz * zz + third * third) + 4 * xz * xz);
-}
-
 }  // namespace
 
 PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic)
