@@ -71,8 +71,9 @@ INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return 
 
 // Share of the way apart that a particle goes where soil is crowded, 0 elsewhere: J is integrated and cannot see
 // particles crowd, the nodes can [docs/soil.md, crowding]. Crowded is where nodes hold more than J and the density
-// state both say, for `full` is the mass of a node that means packed at J = 1 [kg]; opened soil (J > J0) in flight is not. By
-// shear rate, not by time: soil at rest stays where it is. spread: dt over the shear strain that takes soil apart [s].
+// state both say, for `full` is the mass of a node that means packed at J = 1 [kg]; opened soil (J > J0) in flight is
+// not. By shear rate, not by time: soil at rest stays where it is. spread: dt over the shear strain that takes soil
+// apart [s].
 INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
   const real xy = c[1] + c[3], xz = c[2] + c[6], yz = c[5] + c[7];
