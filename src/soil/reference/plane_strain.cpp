@@ -44,26 +44,6 @@ double fraction_weight(double clearance, double inset, double n, const Reach* re
   return b * n / (1 + (n - 1) * b);
 }
 
-/// sqrt(2 D : D) of the symmetric part of a gradient without its volume change [1/s].
-double shear_rate(const double* c) {
-  const double third = (c[0] + c[8]) / 3, xx = c[0] - third, zz = c[8] - third, xz = 0.5 * (c[2] + c[6]);
-  return std::sqrt(2 * (xx * xx + zz * zz + third * third) + 4 * xz * xz);
-}
-
-/// Radius of Matsuoka and Nakai's surface over that of plane strain at the Lode angle of a deviator of plane strain
-/// [Matsuoka 1974]: kappa c r^3 - (kappa - 3) r^2 + kappa - 9 = 0, c = -det(s) / q^3, r = sin phi where c is 0.
-double lode_radius(const double* s, double sin_phi) {
-  const double q = std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[5] * s[5]);
-  if (!(q > 1e-3) || !(sin_phi > 0)) return 1;
-  const double kappa = (9 - 3 * sin_phi * sin_phi) / (1 - sin_phi * sin_phi);
-  const double det = s[1] * (s[0] * s[2] - s[5] * s[5]);
-  const double shape = kappa * std::clamp(-det / (q * q * q), -0.3849, 0.3849), flat = kappa - 3;
-  double r = sin_phi;
-  for (int newton = 0; newton < 3; ++newton)
-    r -= (shape * r * r * r - flat * r * r + kappa - 9) / ((3 * shape * r - 2 * flat) * r);
-  return r / sin_phi;
-}
-
 }  // namespace
 
 PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic)
@@ -130,25 +110,12 @@ void PlaneStrain::mix(double dt) {
 }
 
 void PlaneStrain::advance_law(PlanePoint& p, double dt, double* sigma) {
-  LawSoil law = law_;
-  double strength = 1;
-  if (method_.matsuoka_nakai) strength *= lode_radius(p.s, law_.alpha);
-  if (method_.static_share > 0)
-    strength *= 1 + method_.static_share * std::max(1 - shear_rate(p.c) / method_.static_rate, 0.0);
-  law.alpha *= strength;
-  law.k_residual *= strength;
-  law.k_bond *= strength;
   const double slipped = p.shear;
-  law_update(p.c, dt, &law, &p, sigma);
+  law_update(p.c, dt, &law_, &p, sigma);
   const double volume = p.mass / soil_.bank_density * p.j;
   const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]) + p.s[5] * p.s[5]);
   energy_.plastic += volume * q * (p.shear - slipped);
   p.pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
-  if (method_.bulk_damping > 0 && p.j < p.j0) {
-    const double damped =
-        std::max(p.pressure - method_.bulk_damping * soil_.bank_density * sound_ * cell_ * (p.c[0] + p.c[8]), 0.0);
-    for (int i = 0; i < 3; ++i) sigma[i] -= damped - p.pressure;
-  }
 }
 
 void PlaneStrain::scatter(double dt, bool first) {

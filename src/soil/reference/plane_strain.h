@@ -30,11 +30,7 @@ struct PlaneMethod {
   bool mixing = true;
   /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.
   int hold = 1;
-  double most_motion = 0.2;     ///< a transfer comes early when the fastest particle has moved this far [cells]
-  double bulk_damping = 0;      ///< viscosity of closed soil against volume change / (density x sound speed x cell)
-  bool matsuoka_nakai = false;  ///< radius of the yield surface by the third invariant, matched in plane strain
-  double static_share = 0;      ///< growth of the friction at rest
-  double static_rate = 0.1;     ///< shear rate at which it is gone [1/s]
+  double most_motion = 0.2;  ///< a transfer comes early when the fastest particle has moved this far [cells]
 };
 
 /// A particle: the law's state, place [cells], velocity [m/s], gradient as in kernels/soil/point.h (x and z only).
