@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "native/native_lanes.h"
 #include "soil/particles/floor.h"
@@ -53,6 +54,7 @@ NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
     : soil_(soil),
       cell_(static_cast<float>(cell)),
       ground_(static_cast<float>(ground)),
+      transfer_length_(soil::kTransferLength * cell / soil::sound_speed(soil)),
       sums_(kCells),
       openings_(kCells) {}
 
@@ -79,6 +81,7 @@ std::vector<soil::Particle> NativeSoil::particles() const {
       FLOAT_FIELDS(GET_ONE, GET_MANY)
 #undef GET_ONE
 #undef GET_MANY
+      for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
       p.mass = static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
       p.id = pack.id[l];
     }
@@ -104,6 +107,8 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
   row_ = static_cast<std::size_t>(nodes_[0]);
   rows_ = static_cast<std::size_t>(nodes_[1]);
   grid_.assign(row_ * rows_ * static_cast<std::size_t>(nodes_[2]), Float4{});
+  velocity_ = grid_;
+  interval_ = {};
   packs_.clear();
   homes_.clear();
   count_ = particles.size();
@@ -178,7 +183,7 @@ bool NativeSoil::sum_openings(const Home& home) {
   return true;
 }
 
-void NativeSoil::scatter(const Home& home, float dt) {
+void NativeSoil::scatter(const Home& home, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
   const float mixing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::mixing_time()));
@@ -206,7 +211,7 @@ void NativeSoil::scatter(const Home& home, float dt) {
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
     const Lanes mass = load(pack.mass);
     Lanes a[9], p[3];
-    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, dt, dx, p, a);
+    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, hold ? 0.0f : 1.0f, dt, dx, p, a);
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
@@ -231,7 +236,7 @@ void NativeSoil::scatter(const Home& home, float dt) {
   }
 }
 
-void NativeSoil::update_grid(float dt) {
+void NativeSoil::update_grid(float dt, bool hold) {
   const float fall = static_cast<float>(kGravity) * dt, empty = static_cast<float>(kMassQuantum);
   std::size_t n = 0;
   for (int z = 0; z < nodes_[2]; ++z) {
@@ -244,11 +249,12 @@ void NativeSoil::update_grid(float dt) {
       if (mass > empty && !held) {
         node *= INVERSE_MASS(mass);
         node[2] -= fall;
+        if (hold) node += velocity_[n];
       } else {
         node = Float4{};
       }
       node[3] = mass * room;
-      grid_[n] = node;
+      velocity_[n] = node;
     }
   }
 }
@@ -256,7 +262,9 @@ void NativeSoil::update_grid(float dt) {
 float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
-  const auto closing = static_cast<float>(std::min(1.0, static_cast<double>(dt) / soil::closing_time()));
+  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
+  const auto most =
+      static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {
@@ -266,7 +274,7 @@ float NativeSoil::gather(const Home& home, float dt) {
     Four v[kLanes]{}, mx[kLanes]{}, my[kLanes]{}, mz[kLanes]{};
     for (std::size_t l = 0; l < lanes; ++l) {
       const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1], w.base[2][l] + corner[2]};
-      const Float4* layer = grid_.data() + node(base);
+      const Float4* layer = velocity_.data() + node(base);
       Four sum{}, sum_x{}, sum_y{}, sum_z{};
       for (int k = 0; k < 3; ++k, layer += row_ * rows_) {
         Four plane{}, plane_x{}, plane_y{};
@@ -288,20 +296,24 @@ float NativeSoil::gather(const Home& home, float dt) {
       my[l] = sum_y;
       mz[l] = sum_z;
     }
-    // v, x += dt v, C = 4/dx^2 sum w v (x_i - x_p)^T, J towards what the nodes hold.
-    Lanes u[4], m[4];
+    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and apart where soil is crowded.
+    Lanes u[4], m[4], c[9], lean[3];
     unturn(v, u);
     const Four* moments[3] = {mx, my, mz};
     for (int axis = 0; axis < 3; ++axis) {
       unturn(moments[axis], m);
-      for (int i = 0; i < 3; ++i) store(velocity_gradient(m[i], w.f[axis], u[i], dx), pack.c[3 * i + axis]);
+      for (int i = 0; i < 3; ++i) c[3 * i + axis] = velocity_gradient(m[i], w.f[axis], u[i], dx);
+      lean[axis] = m[3] - w.f[axis] * u[3];
     }
-    store(closed(load(pack.j), load(pack.j0), u[3], full, closing), pack.j);
+    for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
+    const Lanes share = crowding(c, load(pack.j), load(pack.j0), u[3], full, spread);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
-      store(load(pack.x[a]) + (dt / dx) * u[a], pack.x[a]);
+      const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);
+      store(load(pack.moved[a]) + way, pack.moved[a]);
+      m[a] = way * (dx / dt);
     }
-    fastest = fmax(fastest, fastest_component(u));
+    fastest = fmax(fastest, fastest_component(m));
   }
   float out = 0;
   for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);
@@ -309,13 +321,26 @@ float NativeSoil::gather(const Home& home, float dt) {
 }
 
 void NativeSoil::step(double dt) {
+  const auto cell = static_cast<double>(cell_);
+  const bool hold = interval_.holds(dt, transfer_length_, cell, 0, kGravity);
+  if (!hold) end_transfer();
   if (drift_ > kMostDrift) sort(particles());
   std::fill(grid_.begin(), grid_.end(), Float4{});
-  for (const Home& home : homes_) scatter(home, static_cast<float>(dt));
-  update_grid(static_cast<float>(dt));
+  for (const Home& home : homes_) scatter(home, static_cast<float>(dt), hold);
+  update_grid(static_cast<float>(dt), hold);
   float fastest = 0;
   for (const Home& home : homes_) fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
-  drift_ += static_cast<double>(fastest) * dt / static_cast<double>(cell_);
+  interval_.book(dt, cell, static_cast<double>(fastest), 0);
+}
+
+void NativeSoil::end_transfer() {
+  drift_ += interval_.motion;
+  interval_ = {};
+  for (Pack& pack : packs_)
+    for (int a = 0; a < 3; ++a) {
+      store(load(pack.x[a]) + load(pack.moved[a]), pack.x[a]);
+      store(Lanes{}, pack.moved[a]);
+    }
 }
 
 }  // namespace navvy::bench

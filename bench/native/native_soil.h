@@ -10,6 +10,7 @@
 
 #include "scene/soil.h"
 #include "soil/particle_fields.h"
+#include "soil/particles/interval.h"
 #include "soil/particles/particle.h"
 
 namespace navvy::bench {
@@ -50,8 +51,9 @@ class NativeSoil {
   void sort(const std::vector<soil::Particle>& particles);
   void append(const soil::Particle& p);  ///< to the last home
   bool sum_openings(const Home& home);
-  void scatter(const Home& home, float dt);
-  void update_grid(float dt);
+  void scatter(const Home& home, float dt, bool hold);
+  void update_grid(float dt, bool hold);
+  void end_transfer();                       ///< particles go the way that was booked
   float gather(const Home& home, float dt);  ///< the fastest velocity component
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
@@ -60,6 +62,8 @@ class NativeSoil {
 
   scene::Soil soil_;
   float cell_, ground_;
+  double transfer_length_;  ///< [s]
+  soil::TransferInterval interval_;
   double drift_ = 0;  ///< cells that particles may have moved since they were sorted
   int sorts_ = 0;
   std::size_t count_ = 0;
@@ -68,7 +72,8 @@ class NativeSoil {
   std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
   std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
   std::size_t row_ = 0, rows_ = 0;
-  std::vector<Float4> grid_;  ///< momentum and mass, then velocity and mass per room
+  std::vector<Float4> grid_;      ///< momentum and mass
+  std::vector<Float4> velocity_;  ///< and mass per room
   // Per cell of a home: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
   std::vector<std::array<float, 3>> sums_;
   std::vector<float> openings_;

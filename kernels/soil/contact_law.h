@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one side of a plate and one node near it do to each other: the contact's weight, the area of plate the node
+// What one side of a plate and one node near it do to each other: the contact's share, the area of plate the node
 // stands for, the most it holds in shear, the impulse. One source for the kernels and for the double twin, in the
 // dialect of kernels/README.md. Lengths in cells unless said.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
@@ -23,12 +23,21 @@ INLINED scalar contact_along(scalar inset, const Reach* r) {
   return contact_unit((inset - r->edge + 0.5f * r->edge_ramp) / r->edge_ramp);
 }
 
-// Weight of the contact at a node, 0..1, made independent of the step [docs/tools.md, contact weights].
-// b = 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b): equal at b = 0 (with slope n), at b = 1 and for n = 1.
-INLINED scalar contact_weight(scalar clearance, scalar inset, const Reach* r) {
-  const scalar near = contact_unit((r->h + 0.5f * r->ramp - clearance) / r->ramp);
-  const scalar b = near * contact_along(inset, r);
-  return b * r->rate / (1.0f + (r->rate - 1.0f) * b);
+// 1 at the plate, 0 from the end of its reach on.
+INLINED scalar contact_near(scalar clearance, const Reach* r) {
+  return contact_unit((r->h + 0.5f * r->ramp - clearance) / r->ramp);
+}
+
+// Share of the plate's speed that a node must keep up with, 0..1 [docs/tools.md, contact shares]. Squared along the
+// plate: half a share at its edge would push a wedge that is there by half.
+INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
+  const scalar along = contact_along(inset, r);
+  return contact_near(clearance, r) * along * along;
+}
+
+// Speed at which a node at this clearance settles towards a plate that does not advance [m/s].
+INLINED scalar contact_settling(scalar clearance, const Reach* r) {
+  return (1.0f - contact_near(clearance, r)) * r->settling;
 }
 
 // Along a plate: how much of its area a node stands for. What is cut off at a free edge is given to the nodes just
@@ -51,41 +60,46 @@ INLINED scalar contact_area(scalar clearance, scalar inset, const Reach* r) {
 // touches everywhere.  tuned: none; 0.75 = 1 / 1.33, a large swell.
 INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * (scalar)(1.0 / 0.75)); }
 
-// What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push, before the weight b [N s]. It
-// holds in shear only and ends with the contact: soil carries no tension, so there is nothing to pull at
-// [docs/tools.md, adhesion].
-INLINED scalar contact_stick(scalar adhesion, scalar area, scalar b, const Reach* r) {
-  return adhesion * area * r->patch / b;
-}
+// What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push [N s]. It holds in shear only and
+// ends with the contact: soil on tools carries no tension, so there is nothing to pull at [docs/tools.md, adhesion].
+INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) { return adhesion * area * r->patch; }
 
 // One side of one node.
 typedef struct ContactNode {
-  scalar3 v, r, n;           // velocity [m/s], lever arm from the tool's origin [m], normal away from the plate
-  scalar m, b, mu, stick;    // mass [kg], weight, tan of the friction angle, most shear without any push [N s]
+  scalar3 v, r, n;             // velocity [m/s], lever arm from the tool's origin [m], normal away from the plate
+  scalar m, share, settling;   // mass [kg], contact_share, contact_settling [m/s]
+  scalar mu, stick;            // tan of the friction angle, most shear without any push [N s]
 } ContactNode;
 
 // How an impulse came about.
 typedef struct ContactBranch {
   bool acts, pushing, sticking;  // at all; in the normal direction; slip is stopped whole
+  scalar held;                   // normal impulse that a faster plate adds / (mass x its gain of speed)
 } ContactBranch;
 
-// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]:
-// fractional [weight b], unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0.
+// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with `speed` [m/s]: of its
+// whole mass, unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0. Speeds are
+// taken against the resting ground: a node that a plate covers in part falls behind one that advances, by the share
+// that it does not cover, and settles slowly towards one that stands or recedes, with all its load borne.
 INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
                                 ContactBranch* branch) {
-  const scalar3 rel = node->v - (speed + cross(spin, node->r));
-  const scalar rn = dot(rel, node->n);
+  const scalar3 plate = speed + cross(spin, node->r);
+  const scalar3 rel = node->v - plate;
+  const scalar leaves = dot(rel, node->n), advance = dot(plate, node->n);
+  const scalar behind = (1.0f - node->share) * advance;
+  const scalar rn = leaves + fmax(behind, node->settling);
+  branch->held = behind > node->settling ? node->share : 1.0f;
   branch->pushing = rn < 0.0f;
   branch->acts = branch->pushing || (node->stick > 0.0f && rn < opening);
   branch->sticking = false;
   if (!branch->acts) return (scalar)(0.0) * node->n;
   const scalar jn = branch->pushing ? -node->m * rn : 0.0f;
-  const scalar3 slip = rel - rn * node->n;
+  const scalar3 slip = rel - leaves * node->n;
   const scalar speed_t = sqrt(dot(slip, slip));
   const scalar most = node->mu * jn + node->stick;
   branch->sticking = node->m * speed_t <= most;
   const scalar stopped = branch->sticking ? node->m : most / fmax(speed_t, (scalar)(1e-12));
-  return node->b * (jn * node->n - slip * stopped);
+  return jn * node->n - slip * stopped;
 }
 
 #endif  // NAVVY_KERNELS_SOIL_CONTACT_LAW_H

@@ -23,8 +23,9 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   if (tool->active == 0 || (only >= 0 && only != node_tool[i])) return false;
   const float sign = s == 0 ? 1.0f : -1.0f;
   const float clearance = sign * shell[i].distance - tool->half_thickness, inset = shell[i].inset;
-  node->b = contact_weight(clearance, inset, &reach);
-  if (!(node->b > 0.0f)) return false;
+  node->share = contact_share(clearance, inset, &reach);
+  if (!(node->share > 0.0f)) return false;
+  node->settling = contact_settling(clearance, &reach);
   node->v = v.xyz;
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
@@ -34,7 +35,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
     const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
     const float touch = contact_touch(v.w * surface[i].inv_density / (dx * dx * dx * room));
     const float adhesion = surface[i].adhesion * tool->adhesion * touch;
-    node->stick = contact_stick(adhesion, contact_area(clearance, inset, &reach), node->b, &reach);
+    node->stick = contact_stick(adhesion, contact_area(clearance, inset, &reach), &reach);
   }
   node->r = dx * (convert_float3(place - 4 * vload3(0, tool->window)) - vload3(0, tool->origin));
   return true;
@@ -55,8 +56,8 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 #define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
 
 // Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the tool's origin, linear)
-// and G^T b m P G, where P is what of the node's velocity the contact holds: the normal, the slip, or both
-// [docs/tools.md, two-way solve].
+// and G^T m P G, where P is what of the plate's velocity the contact hands to the node: its share along the normal, all
+// of the slip when it sticks [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);
   ContactNode node;
@@ -73,17 +74,18 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   sums->wrench[3] += j.x;
   sums->wrench[4] += j.y;
   sums->wrench[5] += j.z;
-  // Directions held: three axes when it sticks, the normal when it pushes; what sticks without push leaves the normal
-  // out. Each adds b m g g^T with g = (r x d, d).
+  // Directions: three axes when it sticks, which hold the normal too and are corrected there. Each adds
+  // m p g g^T with g = (r x d, d) and the part p that is held.
+  const float along_normal = (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
-    if (a == 3 && branch.pushing == branch.sticking) continue;
+    if (a == 3 && along_normal == 0.0f) continue;
     const float3 d = a == 3 ? node.n : (float3)(a == 0, a == 1, a == 2);
-    const float bm = a == 3 && !branch.pushing ? -node.b * node.m : node.b * node.m;
+    const float held = node.m * (a == 3 ? along_normal : 1.0f);
     const float3 moment = cross(node.r, d);
     const float g[6] = {moment.x, moment.y, moment.z, d.x, d.y, d.z};
     int k = 0;
     for (int row = 0; row < 6; ++row)
-      for (int col = row; col < 6; ++col) sums->stiffness[k++] += bm * g[row] * g[col];
+      for (int col = row; col < 6; ++col) sums->stiffness[k++] += held * g[row] * g[col];
   }
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the double twin.
 //
-// Rate-form Drucker-Prager [Drucker 1952], matched in plane strain [docs/soil.md, yield], with
+// Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain [docs/soil.md, yield], with
+//   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states are near it;
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
 //   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
-//   - viscosity on soil that does not yield, so that intact ground does not ring;
+//   - a static share of its strength, which soil that hardly shears has on top;
+//   - viscosity on soil that does not yield, so that intact ground does not ring, and on the volume of closed soil;
 // and, where LAW_EXTENDED is defined (a scene whose soils have them; the rest need not pay),
 //   - dilatancy: shear widens J0 also against pressure, less and less until it is loose;
 //   - compaction: pressure above what the density state bears makes J0 denser for good;
@@ -44,6 +46,22 @@ typedef struct LawState {
 #undef STATE_REAL
 #undef STATE_REALS
 
+#define RESTING_TIME 10.0f    // 1 / shear rate at which the static share is gone [s] [docs/soil.md, static friction]
+#define VOLUME_DAMPING 10.0f  // viscosity of closed soil's volume / that of its shear [docs/soil.md, viscosity]
+
+// Radius of the yield surface / that in plane strain, of the deviator's determinant and q: r of a r^3 - r^2 + 1 = 0
+// [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first written out; 2 / sqrt(27) is the
+// invariant's bound.
+INLINED real lode_radius(real determinant, real q, real sin_phi) {
+  const real safe = fmax(q, (scalar)(1e-3));
+  const real invariant = fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
+  const real a = 0.5f * sin_phi * (3.0f - sin_phi * sin_phi) * invariant;
+  real r = 1.0f + a / (2.0f - 3.0f * a);
+  for (int newton = 0; newton < 2; ++newton)
+    r = r - ((a * r - 1.0f) * r * r + 1.0f) / ((3.0f * a * r - 2.0f) * r);
+  return r;
+}
+
 // Advances the state by dt [s] under the velocity gradient c. sigma: the stress the grid feels, order of state->s, with
 // pressure and viscosity. Positive in tension.
 INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state, real* sigma) {
@@ -81,20 +99,26 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // Yield stress, its cohesion faded [docs/soil.md, cohesion]; return [Klar 2016] [docs/soil.md, return mapping].
   const real soft = 1.0f + state->shear * soil->inv_remould;
   const real fade = fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
+  const real rate =
+      sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
 #ifdef LAW_EXTENDED
   const real dense = fmin(fmax((soil->swell - j0) * soil->inv_range, 0.0f), 1.0f);
   // mu(I) [Jop 2006] on sin phi [docs/soil.md, flow rate].
-  const real rate =
-      sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
   const real flow = soil->grain * rate;
   const real fast = flow / (flow + soil->inertial * sqrt(p) + (scalar)(1e-9));
-  const real scale = 1.0f + soil->matched * dense;
-  const real alpha = scale * (soil->alpha + soil->alpha_fast * fast);
-  const real q_yield = alpha * p + scale * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+  const real sin_phi = soil->alpha + soil->alpha_fast * fast;
 #else
-  const real q_yield = soil->alpha * p + (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+  const real sin_phi = soil->alpha;
 #endif
   const real q = sqrt(0.5f * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
+  const real determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  real strength = lode_radius(determinant, q, sin_phi) *
+                  (1.0f + soil->static_share * fmax(1.0f - rate * RESTING_TIME, 0.0f));
+#ifdef LAW_EXTENDED
+  strength = strength * (1.0f + soil->matched * dense);
+#endif
+  const real alpha = strength * sin_phi;
+  const real q_yield = alpha * p + strength * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
   const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
   // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up
@@ -116,11 +140,14 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[4] = yz * stay;
   state->s[5] = xz * stay;
 
-  // Viscosity where the step was elastic [docs/soil.md, viscosity].
+  // Viscosity where the step was elastic, and on the volume of closed soil: only in the stress that the grid feels,
+  // yield has asked the pressure without it [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
-  sigma[0] = s[0] + eta2 * dxx - pressure;
-  sigma[1] = s[1] + eta2 * dyy - pressure;
-  sigma[2] = s[2] + eta2 * dzz - pressure;
+  const real damped = fmax(pressure - VOLUME_DAMPING * soil->viscosity * trace, 0.0f);
+  const real felt = pressure > 0.0f ? damped : pressure;
+  sigma[0] = s[0] + eta2 * dxx - felt;
+  sigma[1] = s[1] + eta2 * dyy - felt;
+  sigma[2] = s[2] + eta2 * dzz - felt;
   sigma[3] = s[3] + eta2 * dxy;
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;

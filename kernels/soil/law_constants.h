@@ -8,6 +8,7 @@
 // alpha: sin(friction angle)
 // k_residual, k_bond: residual, and intact less residual cohesion, x cos(friction angle) [Pa]
 // inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
+// static_share: growth of the yield stress at rest [docs/soil.md, static friction]
 // viscosity: of the deviator, where it does not yield [Pa s] [docs/soil.md, viscosity]
 // swell: largest J0
 // loosening: growth of J0 per plastic shear, as far as J allows
@@ -19,6 +20,7 @@
   X(k_bond)                    \
   X(inv_remould)               \
   X(inv_opening)               \
+  X(static_share)              \
   X(viscosity)                 \
   X(swell)                     \
   X(loosening)

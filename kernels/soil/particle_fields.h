@@ -7,12 +7,14 @@
 #ifndef NAVVY_KERNELS_SOIL_PARTICLE_FIELDS_H
 #define NAVVY_KERNELS_SOIL_PARTICLE_FIELDS_H
 
-// x: offset from the home block's corner [cells]; v: velocity [m/s]; c: velocity gradient, row major, c[3 * i + j] =
-// dv_i/dx_j [1/s].
+// x: offset from the home block's corner at the last transfer [cells]; v: velocity [m/s]; c: velocity gradient, row
+// major, c[3 * i + j] = dv_i/dx_j [1/s]; moved: the way since the last transfer, which is added to x by the next one
+// [cells] [docs/soil.md, transfer].
 #define MOTION_FIELDS(ONE, MANY) \
   MANY(X, x, 3, 2.0f)            \
   MANY(V, v, 3, 0.0f)            \
-  MANY(C, c, 9, 0.0f)
+  MANY(C, c, 9, 0.0f)            \
+  MANY(MOVED, moved, 3, 0.0f)
 
 // What the law advances. s: deviatoric stress xx yy zz xy yz xz [Pa], positive in tension; j: volume / bank volume;
 // j0: density state, the volume ratio without pressure; shear: accumulated plastic shear.

@@ -46,10 +46,11 @@ INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real o
 
 // Momentum that a particle brings to the nodes: start at its base node, and its change per node step, a[3 * i + j] of
 // component i along axis j [kg m/s]. A = m C dx - dt 4/dx V sigma: the affine part [Jiang 2015] and the stress as
-// MLS-MPM has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells].
+// MLS-MPM has it [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells]. In a held step the
+// nodes have kept their momentum, `carried` is 0 and the stress alone is brought; else it is 1.
 INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f, real mass, real bank,
-                             real j, scalar dt, scalar dx, real* start, real* a) {
-  const real cm = mass * dx, sv = (4.0f * dt / dx) * bank * j;
+                             real j, scalar carried, scalar dt, scalar dx, real* start, real* a) {
+  const real kept = carried * mass, cm = kept * dx, sv = (4.0f * dt / dx) * bank * j;
   a[0] = cm * c[0] - sv * sigma[0];
   a[1] = cm * c[1] - sv * sigma[3];
   a[2] = cm * c[2] - sv * sigma[5];
@@ -59,21 +60,31 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
   a[6] = cm * c[6] - sv * sigma[5];
   a[7] = cm * c[7] - sv * sigma[4];
   a[8] = cm * c[8] - sv * sigma[2];
-  start[0] = mass * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
-  start[1] = mass * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
-  start[2] = mass * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
+  start[0] = kept * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
+  start[1] = kept * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
+  start[2] = kept * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
 }
 
 // Component of C = 4/dx^2 sum w v (x_i - x_p)^T [1/s] from a component of the gathered velocity v, its first moment
 // about the base node along one axis [m/s x cells], and the offset f along that axis.
 INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return (4.0f / dx) * (moment - f * v); }
 
-// J after the nodes were asked how full they are. full: mass of a node that means packed at J = 1 [kg]; soil packed
-// tighter than J and its density state say closes by the share `closing` [docs/soil.md, closing]. Opened soil (J > J0)
-// in flight keeps its J: it could not find back to the gaps it has.
-INLINED real closed(real j, real j0, real node_mass, scalar full, scalar closing) {
+// Share of the way apart that a particle goes where soil is crowded, 0 elsewhere: J is integrated and cannot see
+// particles crowd, the nodes can [docs/soil.md, crowding]. Crowded is where nodes hold more than J and the density
+// state both say, for `full` is the mass of a node that means packed at J = 1 [kg]; opened soil (J > J0) in flight is
+// not. By shear rate, not by time: soil at rest stays where it is. spread: dt over the shear strain that takes soil
+// apart [s].
+INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
-  return j - closing * fmax(fmin(j, j0) - packed, 0.0f);
+  const real xy = c[1] + c[3], xz = c[2] + c[6], yz = c[5] + c[7];
+  const real rate = sqrt(2.0f * (c[0] * c[0] + c[4] * c[4] + c[8] * c[8]) + (xy * xy + xz * xz + yz * yz));
+  return fmin(j, j0) > packed ? fmin(spread * rate, 1.0f) : 0.0f;
+}
+
+// Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,
+// seen from the particle [kg cells]; most: farthest way [cells].
+INLINED real way_apart(real share, real lean, real node_mass, scalar most) {
+  return fmin(fmax(-share * lean / fmax(node_mass, MASS_QUANTUM), -most), most);
 }
 
 // Fastest component of a velocity, infinite when one is not finite.

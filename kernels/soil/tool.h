@@ -7,18 +7,18 @@
 #ifndef NAVVY_KERNELS_SOIL_TOOL_H
 #define NAVVY_KERNELS_SOIL_TOOL_H
 
-// Reach of a contact. h: nodes closer than this to the plate's face act; ramp: over which their weight falls to zero;
-// edge: nodes closer than this to a free edge do not act; edge_ramp: over which their weight falls along the plate [all
-// cells]; rate: dt / reference step; patch: face of a cell x dt [m2 s]; opening: soil that leaves the plate faster has
-// let go [m/s].
+// Reach of a contact. h: nodes closer than this to the plate's face act; ramp: over which their share falls to zero;
+// edge: nodes closer than this to a free edge do not act; edge_ramp: over which their share falls along the plate [all
+// cells]; patch: face of a cell x dt [m2 s]; opening: soil that leaves the plate faster has let go
+// [m/s]; settling: speed at the end of the reach at which soil comes nearer to a plate that does not advance [m/s].
 #define REACH_FIELDS(X) \
   X(h)                  \
   X(ramp)               \
   X(edge)               \
   X(edge_ramp)          \
-  X(rate)               \
   X(patch)              \
-  X(opening)
+  X(opening)            \
+  X(settling)
 
 #ifdef __cplusplus
 #include <cstddef>

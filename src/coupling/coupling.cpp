@@ -113,8 +113,8 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     ToolLoad& tool = tools_[i];
     const soil::ToolImpulse& impulse = impulses[i];
     tool.impulse = impulse;
-    tool.force_W = impulse.J_W / dt;
-    tool.moment_W = impulse.L_W / dt;
+    tool.force_W = impulse.force_W;
+    tool.moment_W = impulse.moment_W;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
     const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.shell) / dt;
     tool.rock_W += blend * (rock - tool.rock_W);

@@ -70,7 +70,10 @@ std::function<double(double, double)> pit(const Box& box) {
 }
 
 Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, const SiteOptions& options)
-    : device_(&device), world_(make_world(std::move(soils), cell, options)), ground_(make_ground(world_, options)) {
+    : device_(&device),
+      world_(make_world(std::move(soils), cell, options)),
+      ground_(make_ground(world_, options)),
+      crowding_(options.crowding) {
   make_solver();
 }
 
@@ -83,6 +86,7 @@ void Site::make_solver() {
   // Tools first exist in the solver: their numbers are the order in which they are added, here as before.
   solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_);
   for (const scene::Shell& shell : shells_) solver_->add_tool(shell);
+  solver_->set_crowding(crowding_);
 }
 
 soil::Particle Site::particle(const Vec3& p_W, double volume, int soil) const {

@@ -33,6 +33,7 @@ struct SiteOptions {
   std::function<double(double x, double y)> surface;  ///< of the resting ground [m]; empty: flat at 0
   Vec3 gravity = Vec3(0, 0, -kGravity);               ///< tilt it for slopes, zero it for weightless cases
   bool exchange = false;                              ///< ground wakes and takes soil back by itself
+  bool crowding = true;                               ///< crowded particles are moved apart [docs/soil.md, crowding]
   double courant = 0.5;                               ///< share of cell / sound speed
 };
 
@@ -123,6 +124,7 @@ class Site {
   device::Device* device_;
   scene::Scene world_;
   heightfield::Ground ground_;
+  bool crowding_;
   std::unique_ptr<soil::Solver> solver_;
   std::vector<scene::Shell> shells_;
   std::vector<Tool> tools_;

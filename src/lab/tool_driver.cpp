@@ -26,9 +26,8 @@ void ToolDriver::step(double dt) {
   travelled_ += (pose().translation() - before).norm();
   trace_.time.push_back(site_->time());
   trace_.travel.push_back(travelled_);
-  // An impulse over the step is the mean force in it: nothing is lost between two entries.
-  trace_.force.push_back(impulse.J_W / dt);
-  trace_.moment.push_back(impulse.L_W / dt);
+  trace_.force.push_back(impulse.force_W);
+  trace_.moment.push_back(impulse.moment_W);
 }
 
 Vec3 ToolDriver::run(double seconds, double dt) {
@@ -40,9 +39,10 @@ Vec3 ToolDriver::run(double seconds, double dt) {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < steps; ++i) {
     step(seconds / steps);
-    sum += trace_.force.back();
+    // Impulses over the time are the mean force: nothing is lost between two stretches.
+    sum += site_->tool(tool_).impulse.J_W;
   }
-  return sum / steps;
+  return sum / seconds;
 }
 
 Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {

@@ -12,7 +12,7 @@ namespace navvy::lab {
 struct Trace {
   std::vector<double> time;    ///< at the end of the step [s]
   std::vector<double> travel;  ///< path length of the frame's origin since the driver was made [m]
-  std::vector<Vec3> force;     ///< soil on tool, mean over the step [N]
+  std::vector<Vec3> force;     ///< soil on tool, mean over the last transfer that has ended [N]
   std::vector<Vec3> moment;    ///< about the frame's origin [N m]
 };
 

@@ -10,16 +10,17 @@ namespace navvy::scene {
 /// a soil changes nothing about itself during a run.
 struct Soil {
   std::string name;
-  std::string source;               ///< where the numbers come from
-  double bank_density = 1540;       ///< undisturbed [kg/m3]
-  double swell = 1.23;              ///< loose volume / bank volume [-], >= 1
-  double friction_angle = 0.5236;   ///< plane-strain internal friction angle phi [rad]
-  double cohesion = 5000;           ///< c of intact soil [Pa]
-  double residual_cohesion = 1000;  ///< c_r after remoulding [Pa]
-  double remoulding_strain = 0.5;   ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
-  double loosening_strain = 0.3;    ///< plastic shear over which the swell develops [-]
-  double opening_strain = 0.05;     ///< eps: volume ratio above closed at which cohesion is gone [-]
-  double young_modulus = 1.0e6;     ///< softened for speed [Pa]
+  std::string source;                  ///< where the numbers come from
+  double bank_density = 1540;          ///< undisturbed [kg/m3]
+  double swell = 1.23;                 ///< loose volume / bank volume [-], >= 1
+  double friction_angle = 0.5236;      ///< plane-strain internal friction angle phi [rad]
+  double static_friction_share = 0.1;  ///< by which soil that hardly shears is stronger than soil that flows [-]
+  double cohesion = 5000;              ///< c of intact soil [Pa]
+  double residual_cohesion = 1000;     ///< c_r after remoulding [Pa]
+  double remoulding_strain = 0.5;      ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
+  double loosening_strain = 0.3;       ///< plastic shear over which the swell develops [-]
+  double opening_strain = 0.05;        ///< eps: volume ratio above closed at which cohesion is gone [-]
+  double young_modulus = 1.0e6;        ///< softened for speed [Pa]
   double poisson = 0.3;
   double dilatancy_angle = 0;       ///< psi in bank state, fades to 0 at the loose density [rad]
   double fast_friction_angle = 0;   ///< that of fast flow in mu(I) [rad]; not above phi: friction knows no rate

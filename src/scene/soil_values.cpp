@@ -38,6 +38,7 @@ const std::vector<SoilValue>& soil_values() {
       {"bank_density_kg_per_m3", &Soil::bank_density, 50, 20000},
       {"swell", &Soil::swell, 1, 2},
       {"friction_angle_deg", &Soil::friction_angle, 0, 60, kDegree},
+      {"static_friction_share", &Soil::static_friction_share, 0, 0.1},
       {"cohesion_pa", &Soil::cohesion, 0, 1e6},
       {"residual_cohesion_pa", &Soil::residual_cohesion, 0, 1e6},
       {"remoulding_strain", &Soil::remoulding_strain, 1e-3, 100},

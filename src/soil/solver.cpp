@@ -12,9 +12,10 @@
 namespace navvy::soil {
 namespace {
 
-/// Drift that calls for a re-bin before the next step [cells]: one cell is the tile's margin, less one step's push.
+/// Drift that calls for a re-bin before the next transfer [cells]: one cell is the tile's margin, less one push.
 constexpr double kMostDrift = 0.75;
-/// Tool travel between exchange checks [cells], and steps between them when no tool moves.
+/// Tool travel between exchange checks [cells], and steps between them when no tool moves. Checks wait for the end of
+/// a transfer.
 constexpr double kCheckTravel = 0.3;
 constexpr std::uint32_t kCheckSteps = 25;
 
@@ -23,12 +24,9 @@ constexpr std::uint32_t kCheckSteps = 25;
 /// steps.
 constexpr double kMostStep = 1.3;
 
-double extreme_sound(const std::vector<scene::Soil>& soils, bool fastest) {
+double fastest_sound_of(const std::vector<scene::Soil>& soils) {
   double out = 0;
-  for (const scene::Soil& soil : soils) {
-    const double c = sound_speed(soil);
-    out = out == 0 ? c : fastest ? std::max(out, c) : std::min(out, c);
-  }
+  for (const scene::Soil& soil : soils) out = std::max(out, sound_speed(soil));
   return out;
 }
 
@@ -52,6 +50,9 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   sum.residual_moment += part.residual_moment;
   sum.scale += part.scale;
   sum.scale_moment += part.scale_moment;
+  // Means of a transfer: those of the last part are the newest.
+  sum.force_W = part.force_W;
+  sum.moment_W = part.moment_W;
 }
 
 }  // namespace
@@ -72,11 +73,12 @@ Solver::State::State(device::Device& device_in, const scene::Scene& world_in, he
       cell(ground_in.cell()),
       grid(plan_grid(world_in, ground_in)),
       origin(ground_in.origin().x() + grid.x * cell, ground_in.origin().y() + grid.y * cell, ground_in.datum()),
-      fastest_sound(extreme_sound(world_in.soils, true)),
+      fastest_sound(fastest_sound_of(world_in.soils)),
+      transfer_length(kTransferLength * cell / fastest_sound),
       store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
             soil_table(world_in.soils, ground_in.cell())),
       transfer(device_in, needs_extended_law(world_in.soils)),
-      contact(device_in, cell, origin, extreme_sound(world_in.soils, true)),
+      contact(device_in, cell, origin),
       floor(ground_in, grid),
       exchange(world_in, ground_in),
       mass_count(device_in, world_in.soils.size()),
@@ -89,6 +91,8 @@ Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::G
 Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_tool(shell); }
+
+void Solver::set_crowding(bool on) { state_->crowding = on; }
 
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
@@ -140,37 +144,45 @@ void Solver::State::advance_in_parts(double dt, int parts, std::span<const ToolM
 }
 
 void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
-  exchange_if_due(dt, motions);
+  double tools = 0;
+  for (const ToolMotion& motion : motions) tools = std::max(tools, tool_speed(motion));
+  const bool hold = holds(dt, tools, motions);
+  if (!hold) {
+    end_transfer();
+    exchange_if_due(dt, tools, motions);
+  }
+  since_check += dt;
+  travel += tools * dt;
+  ++steps_since_check;
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
     impulses[m].p_W = motions[m].X_WT.translation();
   }
-  if (store.count() > 0) {
+  if (hold) {
+    contact.set_twists(motions);
+    update_floor();
+  } else if (store.count() > 0) {
     rebin_if_due();
     lay_out(motions);
   }
   if (store.count() > 0) {
-    {
-      StageClock clock(times, "queue");
-      contact.classify(store, transfer);
-      transfer.scatter(store, contact.nodes(), dt, cell, world.gravity);
-      contact.solve(transfer, dt);
-      transfer.gather(store, contact.nodes(), dt, cell);
-      contact.read_later();
-      mass_count.queue(store);
-    }
+    queue(dt, hold);
     Transfer::Largest report;
     {
       StageClock clock(times, "particles");
       report = transfer.read_report(store.homes().size());
     }
     if (!(report.speed * dt / cell < 1 - kMostDrift / 4)) fail(report.speed);
-    drift += report.push + report.speed * dt / cell;
+    interval.book(dt, cell, report.speed, tools);
     stats.max_speed = report.speed;
-    stats.shell_crossings += report.crossed;
+    if (!hold) {  // sides are looked at once a transfer
+      drift += report.push;
+      stats.shell_crossings += report.crossed;
+    }
     StageClock clock(times, "books");
     contact.book(impulses);
-    check_masses();
+    contact.feel(dt, impulses);
+    if (!hold) check_masses();
   }
   time += dt;
   ++stats.steps;
@@ -180,20 +192,38 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
   stats.blocks = static_cast<int>(store.homes().size());
 }
 
-void Solver::State::exchange_if_due(double dt, std::span<const ToolMotion> motions) {
+bool Solver::State::holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const {
+  return store.count() > 0 && contact.moves_same(motions) &&
+         interval.holds(dt, transfer_length, cell, tool_speed, world.gravity.norm());
+}
+
+void Solver::State::queue(double dt, bool hold) {
+  StageClock clock(times, "queue");
+  if (!hold) contact.classify(store, transfer);
+  transfer.scatter(store, contact.nodes(), dt, cell, world.gravity, hold);
+  contact.solve(transfer, dt);
+  transfer.gather(store, contact.nodes(), dt, crowding ? dt / transfer_length : 0, cell);
+  contact.read_later();
+  if (!hold) mass_count.queue(store);  // nothing changes a mass meanwhile
+}
+
+void Solver::State::end_transfer() {
+  if (!interval.open) return;
+  transfer.end(store);
+  contact.end_transfer();
+  drift += interval.motion;
+  interval = {};
+}
+
+void Solver::State::exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions) {
   if (!world.solver.exchange) return;
-  double next_travel = 0;
-  for (const ToolMotion& motion : motions) next_travel = std::max(next_travel, tool_speed(motion) * dt);
-  const bool due = first_check || steps_since_check >= kCheckSteps || travel + next_travel > kCheckTravel * cell;
-  if (due) {
-    check_exchange(since_check, motions);
-    first_check = false;
-    since_check = travel = 0;
-    steps_since_check = 0;
-  }
-  since_check += dt;
-  travel += next_travel;
-  ++steps_since_check;
+  // The next chance comes after the transfer that begins now.
+  const double ahead = std::min(tool_speed * std::max(dt, transfer_length), kMostHeld * cell);
+  if (!first_check && steps_since_check < kCheckSteps && travel + ahead <= kCheckTravel * cell) return;
+  check_exchange(since_check, motions);
+  first_check = false;
+  since_check = travel = 0;
+  steps_since_check = 0;
 }
 
 void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> motions) {
@@ -257,6 +287,7 @@ void Solver::State::assign(const std::vector<Particle>& particles) {
 
 void Solver::State::add(std::vector<Particle> particles) {
   if (particles.empty()) return;
+  end_transfer();
   std::vector<Particle> all = store.records();
   for (Particle& p : particles) {
     p.id = next_id++;
@@ -288,11 +319,17 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
     const int tiles = store.set_near(contact.near_homes());
     transfer.set_blocks(store, contact.near_slot(), tiles);
   }
-  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.blocks());
+  update_floor();
   blocks_changed = false;
 }
 
+// In held steps, too: a state that was loaded knows only the ground of its moment.
+void Solver::State::update_floor() {
+  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.blocks());
+}
+
 void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {
+  state_->end_transfer();
   std::vector<Particle> resting = state_->store.records();
   for (Particle& p : resting) p = in_cell_block(p);
   state_->add(state_->exchange.wake(rect, z_bottom, resting));

@@ -59,6 +59,9 @@ class Solver {
   /// Registers a shell; returns its tool index.
   int add_tool(const scene::Shell& shell);
 
+  /// Whether crowded particles are moved apart, as they are unless a rig asks what that changes; not part of the state.
+  void set_crowding(bool on);
+
   /// Largest stable step at the given fastest speed of tools [s].
   double step_limit(double tool_speed) const;
 

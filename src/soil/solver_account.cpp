@@ -50,7 +50,11 @@ Ledger Solver::ledger() const { return state_->ledger(); }
 
 std::vector<Particle> Solver::particles() const {
   std::vector<Particle> out = state_->records();
-  for (Particle& p : out) p = in_cell_block(p);
+  // Where they are now, not where the transfer under way found them.
+  for (Particle& p : out) {
+    for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
+    p = in_cell_block(p);
+  }
   std::sort(out.begin(), out.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
   return out;
 }
@@ -60,7 +64,8 @@ std::vector<PointMass> Solver::State::masses_near(const Vec3& low, const Vec3& h
   std::vector<PointMass> out;
   for (const Particle& p : unplaced) {
     PointMass point;
-    for (int a = 0; a < 3; ++a) point.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
+    for (int a = 0; a < 3; ++a)
+      point.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
     point.mass = p.mass;
     out.push_back(point);
   }
@@ -162,21 +167,48 @@ void Solver::State::visit(Archive& a) {
   a.unhashed("counts for people, no step reads them", [&] { a("stats", stats); });
   a("contact", contact);
   a("exchange", exchange);
+  a("interval", interval);
+  if (interval.open) visit_nodes(a);
+}
+
+// Velocities that the nodes keep while a transfer is under way, of every active block and of the near ones' backs: so
+// a run with snapshots is the run without. Masses and what lies near shells follow from particles and poses.
+void Solver::State::visit_nodes(Archive& a) {
+  if (a.loading()) {
+    a("front", loaded_nodes[0]);
+    a("back", loaded_nodes[1]);
+    return;
+  }
+  const auto front = transfer.velocity().map_read(0, store.table().active.size() * 4 * BLOCK_NODES);
+  std::span<const float> felt = front.span();
+  a("front", felt);
+  const auto back = contact.nodes().velocity1.map_read(0, contact.nodes().values());
+  std::span<const float> behind = back.span();
+  a("back", behind);
 }
 
 // Lists and layout follow from the blocks and the poses the lists were made for.
-void Solver::State::rebuild() {
+void Solver::State::rebuild(Archive& a) {
   in_particles = store.masses(world.soils.size());
   floor = Floor(ground, grid);
   contact.list_near(store.table());
   transfer.set_blocks(store, contact.near_slot(), store.set_near(contact.near_homes()));
   floor.update(store.table().active, true);
   transfer.set_floor(floor.blocks());
+  if (!interval.open) return;
+  a.require(loaded_nodes[0].size() == store.table().active.size() * 4 * BLOCK_NODES &&
+                loaded_nodes[1].size() == contact.nodes().values(),
+            "front", "must be four numbers for each node of the blocks that the particles reach");
+  transfer.velocity().write(loaded_nodes[0]);
+  if (!loaded_nodes[1].empty()) contact.nodes().velocity1.write(loaded_nodes[1]);
+  contact.go_on(transfer);
 }
 
 void Solver::visit(Archive& a) {
-  a.section("soil", 2, [&] { state_->visit(a); });
-  if (a.loading()) state_->rebuild();
+  a.section("soil", 3, [&] {
+    state_->visit(a);
+    if (a.loading()) state_->rebuild(a);
+  });
 }
 
 }  // namespace navvy::soil

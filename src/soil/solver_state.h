@@ -8,6 +8,7 @@
 #include "device/device.h"
 #include "soil/exchange/exchange.h"
 #include "soil/particles/floor.h"
+#include "soil/particles/interval.h"
 #include "soil/particles/mass_count.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/soil_table.h"
@@ -22,10 +23,17 @@ struct Solver::State {
 
   void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
-  void exchange_if_due(double dt, std::span<const ToolMotion> motions);
+  void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
   void check_exchange(double elapsed, std::span<const ToolMotion> motions);
   void rebin_if_due();
   void lay_out(std::span<const ToolMotion> motions);
+  void update_floor();
+  /// Whether this step belongs to the transfer that is under way.
+  bool holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const;
+  /// Queues a step's kernels; `hold`: not the first step of a transfer.
+  void queue(double dt, bool hold);
+  /// Particles go where the transfer that is under way takes them; then blocks, lists and sides may change.
+  void end_transfer();
   void add(std::vector<Particle> particles);
   void assign(const std::vector<Particle>& particles);
   /// What there is, on the device or because the device had no room on the host.
@@ -44,8 +52,9 @@ struct Solver::State {
   [[noreturn]] void fail(double speed) const;
   void visit(Archive& a);
   void visit_particles(Archive& a);
+  void visit_nodes(Archive& a);
   /// What follows from the state, after it was loaded.
-  void rebuild();
+  void rebuild(Archive& a);
 
   device::Device& device;
   scene::Scene world;
@@ -54,6 +63,7 @@ struct Solver::State {
   PlanGrid grid;
   Vec3 origin;  ///< W of the grid frame's origin
   double fastest_sound;
+  double transfer_length;  ///< [s]
   ParticleStore store;
   Transfer transfer;
   Contact contact;
@@ -61,8 +71,11 @@ struct Solver::State {
   Exchange exchange;
   MassCount mass_count;
 
-  std::vector<Particle> unplaced;  ///< all particles, once the device could not take them: the run is over
+  std::vector<Particle> unplaced;      ///< all particles, once the device could not take them: the run is over
+  TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
+  std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
   bool blocks_changed = true;
+  bool crowding = true;      ///< particles are moved apart where they crowd
   bool over_budget = false;  ///< said so already
   double drift = 0;          ///< cells particles may have moved since the last re-bin
   double time = 0;           ///< simulated, sum over steps; only handed to the exchange [s]

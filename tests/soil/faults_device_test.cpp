@@ -149,8 +149,8 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
     all = rig.fill(big, true);
     wanted = all.size();
   }
-  // 108 bytes a particle, once for the state and once more for the first re-bin: the limit lies between.
-  const std::size_t state = 108 * wanted;
+  // 120 bytes a particle, once for the state and once more for the first re-bin: the limit lies between.
+  const std::size_t state = 120 * wanted;
   setenv("NAVVY_DEVICE_MEMORY_MIB", std::to_string((state * 7 / 4) >> 20).c_str(), 1);
   device::Device small;
   unsetenv("NAVVY_DEVICE_MEMORY_MIB");

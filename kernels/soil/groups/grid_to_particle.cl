@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and moves them: schedule of work-groups.
+// Gathers node velocities to particles and books their way: schedule of work-groups.
 //
 // In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then
 // each work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is
@@ -44,7 +44,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     global const int* restrict neighbours, global const float4* restrict velocity0,
     global const float4* restrict velocity1, global const int* restrict near_slot,
     global const int* restrict node_split, global const int* restrict used, global Report* restrict report,
-    const float dt, const float dx, const float full, const float closing) {
+    const float dt, const float dx, const float full, const float spread, const float most) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
   local int fastest;
@@ -81,18 +81,38 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     const int tile = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
     const float4 sum = gather(front, back, split, base, tile, w[0], w[1], w[2], &moments[0], &moments[1], &moments[2]);
     const float v[3] = {sum.x, sum.y, sum.z};
-    // v, C, J from the nodes' mean mass, x += dt v.
+    // v, C, and the way: dt v, and apart where soil is crowded.
+    float c[9], speed[3];
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const float m[3] = {moments[axis].x, moments[axis].y, moments[axis].z}, f = x[axis] - b[axis];
       UNROLL
-      for (int i = 0; i < 3; ++i) STORE(FIELD_C + 3 * i + axis, velocity_gradient(m[i], f, v[i], dx));
+      for (int i = 0; i < 3; ++i) c[3 * i + axis] = velocity_gradient(m[i], f, v[i], dx);
       STORE(FIELD_V + axis, v[axis]);
-      STORE(FIELD_X + axis, x[axis] + (dt / dx) * v[axis]);
     }
-    STORE(FIELD_J, closed(LOAD(FIELD_J), LOAD(FIELD_J0), sum.w, full, closing));
-    keep_largest(&fastest, fastest_component(v));
+    UNROLL
+    for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
+    const float share = crowding(c, LOAD(FIELD_J), LOAD(FIELD_J0), sum.w, full, spread);
+    UNROLL
+    for (int axis = 0; axis < 3; ++axis) {
+      const float lean = moments[axis].w - (x[axis] - b[axis]) * sum.w;
+      const float way = (dt / dx) * v[axis] + way_apart(share, lean, sum.w, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
+      speed[axis] = way * (dx / dt);
+    }
+    keep_largest(&fastest, fastest_component(speed));
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me == 0) report[block].speed = as_float(fastest);
+}
+
+// See soil/lanes/grid_to_particle.cl.
+__attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
+    global float* restrict state, const int capacity, global const Home* restrict homes) {
+  const Home home = homes[get_group_id(0)];
+  for (int slot = home.start + (int)get_local_id(0); slot < home.start + home.count; slot += MEMBERS)
+    for (int axis = 0; axis < 3; ++axis) {
+      STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
+      STORE(FIELD_MOVED + axis, 0.0f);
+    }
 }

@@ -16,16 +16,18 @@ static inline int tile_node(int n) {
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
-// v = p / m + dv; nodes lighter than a mass quantum are empty.
-static inline float4 velocity_of(float4 momentum, float4 dv) {
+// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum are empty.
+static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 before) {
   if (!(momentum.w > MASS_QUANTUM)) return (float4)(momentum.xyz * 0.0f, momentum.w);
-  return (float4)(momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz, momentum.w);
+  float3 v = momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz;
+  if (hold) v += before.xyz;
+  return (float4)(v, momentum.w);
 }
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float4* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
-    global float4* restrict velocity, const float4 dv) {
+    global float4* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
   for (int n = 0; n < 27; ++n) {
@@ -39,7 +41,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   if (any(sum != 0.0f)) {
     global const BlockFloor* ground = floors + block;
     const float z = (float)(me >> 4);
-    v = velocity_of(sum, dv);
+    v = velocity_of(sum, dv, hold, velocity[(size_t)block * BLOCK_NODES + me]);
     if (z <= ground->held[me & 15]) v.xyz *= 0.0f;
     v.w *= 1.0f / room_above(z - vload4(me & 15, ground->around[0]));
   }
@@ -51,7 +53,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float4* restrict field0, global float4* restrict field1,
-    global float4* restrict node_surface, const float4 dv) {
+    global float4* restrict node_surface, global const float4* restrict last0, global const float4* restrict last1,
+    const float4 dv, const int hold) {
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = list[near];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
@@ -79,7 +82,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   // Neutral soil joins the side its node lies on; an unsplit node joins everything.
   const int near_node = near * BLOCK_NODES + me, split = node_split[near_node];
   const float4 sum = neutral + front + back, none = 0.0f;
-  field0[near_node] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv);
-  field1[near_node] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv);
+  field0[near_node] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv, hold,
+                                  last0[(size_t)block * BLOCK_NODES + me]);
+  field1[near_node] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv, hold, last1[near_node]);
   node_surface[near_node] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
 }

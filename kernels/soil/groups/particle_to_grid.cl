@@ -18,7 +18,7 @@ static inline LawSoil load_soil(constant SoilRow* row) {
 
 // Law and momentum of the particle in `slot`; false when a value is not finite. out: STAGED words.
 static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
-                           float dt, float dx, float mixing, float* out) {
+                           float dt, float dx, float mixing, float carried, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
@@ -34,7 +34,8 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   const float v[3] = {LOAD(FIELD_V), LOAD(FIELD_V + 1), LOAD(FIELD_V + 2)};
   const float mass = convert_float(as_int(LOAD(FIELD_MASS))) * MASS_QUANTUM;
   float p[3], a[9];
-  affine_momentum(c, sigma, v, f, mass, mass * row->inv_density, soil_state.j, dt, dx, p, a);
+  affine_momentum(c, sigma, v, f, mass, mass * row->inv_density, soil_state.j, carried, dt, dx, p,
+                  a);
   UNROLL
   for (int i = 0; i < 3; ++i) {
     out[STAGED_P + i] = p[i];
@@ -95,7 +96,7 @@ static inline int needs(global float* state, int capacity, Home home) {
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
     global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing) {
+    const float dx, const float mixing, const float carried) {
   local float4 tile[TILE_SIZE];
   local float stage[STAGED * CHUNK];
   local int cells[CHUNK], sides[CHUNK], first[CELLS], counts[CELLS];
@@ -124,7 +125,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
       const int slot = home.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, mine)) atomic_or(&broken, 1);
+      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, carried, mine)) atomic_or(&broken, 1);
       cells[me] = cell;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

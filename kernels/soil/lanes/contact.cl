@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of the two node fields with tools: fractional, unilateral, Coulomb and adhesion; and the sums of
+// Contact of the two node fields with tools: kinematic, unilateral, Coulomb and adhesion; and the sums of
 // the two-way solve.
 //
 // In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per near node; tools.

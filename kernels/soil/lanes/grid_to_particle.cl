@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and moves them.
+// Gathers node velocities to particles and books their way; particles take it at the transfer's end.
 //
 // In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
-//      BLOCK_NODES per active block; full = such a mass of a node that means packed [kg]; closing = share of the excess
-//      a step takes;
+//      BLOCK_NODES per active block; full = such a mass of a node that means packed [kg]; spread [s] and most [cells]:
+//      crowding() and way_apart() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C, x and J of the particles; Report.speed.
+// Out: v, C and moved of the particles; Report.speed, of the way that is booked.
 // One work-item per home block, no shared writes. Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
@@ -84,7 +84,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
-    const float closing) {
+    const float spread, const float most) {
   const int block = get_global_id(0);
   const Home home = homes[block];
   float tile[3 * TILE_NODES * 4];
@@ -149,20 +149,39 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     }
     for (int l = count; l < 16; ++l)  // lanes without a particle stay where they are
       for (int part = 0; part < 4; ++part) vstore4((float4)(0.0f), turned(l), parts[part]);
-    // v, C, J from the nodes' mean mass, x += dt v.
-    real v[3], m[3], node_mass, unused;
+    // v, C, and the way: dt v, and apart where soil is crowded.
+    real v[3], m[3], c[9], lean[3], node_mass;
     UNTURN(parts[0], v[0], v[1], v[2], node_mass);
     for (int axis = 0; axis < 3; ++axis) {
-      UNTURN(parts[1 + axis], m[0], m[1], m[2], unused);
+      UNTURN(parts[1 + axis], m[0], m[1], m[2], lean[axis]);
+      lean[axis] -= f[axis] * node_mass;
       UNROLL
-      for (int i = 0; i < 3; ++i) STORE(FIELD_C + 3 * i + axis, velocity_gradient(m[i], f[axis], v[i], dx));
+      for (int i = 0; i < 3; ++i) c[3 * i + axis] = velocity_gradient(m[i], f[axis], v[i], dx);
     }
-    STORE(FIELD_J, closed(LOAD(FIELD_J), LOAD(FIELD_J0), node_mass, full, closing));
+    for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
-    for (int axis = 0; axis < 3; ++axis) STORE(FIELD_X + axis, x[axis] + (dt / dx) * v[axis]);
-    fastest = fmax(fastest, fastest_component(v));
+    const real share = crowding(c, LOAD(FIELD_J), LOAD(FIELD_J0), node_mass, full, spread);
+    UNROLL
+    for (int axis = 0; axis < 3; ++axis) {
+      const real way = (dt / dx) * v[axis] + way_apart(share, lean[axis], node_mass, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
+      m[axis] = way * (dx / dt);
+    }
+    fastest = fmax(fastest, fastest_component(m));
   }
   const float8 f8 = fmax(fastest.lo, fastest.hi);
   const float4 f4 = fmax(f8.lo, f8.hi);
   report[block].speed = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
+}
+
+// Ends a transfer: particles go the way they were booked, which begins anew.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
+                                                                                const int capacity,
+                                                                                global const Home* restrict homes) {
+  const Home home = homes[get_global_id(0)];
+  for (int slot = home.start; slot < home.start + home.count; slot += 16)
+    for (int axis = 0; axis < 3; ++axis) {
+      STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
+      STORE(FIELD_MOVED + axis, (real)(0.0f));
+    }
 }

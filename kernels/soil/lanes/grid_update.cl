@@ -4,6 +4,7 @@
 // In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
 //      particles there); homes.
 //      floors = resting ground per active block.
+//      hold = 1 in a held step: nodes add the step's impulse to the velocity they have.
 // Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
 //      share of the node's kernel that lies above the ground (soil/node.h).
 // One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
@@ -28,13 +29,15 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
     }
 }
 
-// v = p / m + g dt for four nodes; nodes lighter than a mass quantum are empty.
-static inline float16 velocity_of(float16 momentum, float4 dv) {
+// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter than a mass quantum are
+// empty.
+static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
   const float4 on = select((float4)(0.0f), (float4)(1.0f), m > MASS_QUANTUM);
-  const float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
-                    (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
+  float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
+              (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
+  if (hold) v += vload16(0, before) * (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
@@ -60,7 +63,7 @@ static inline bool far_above(global const BlockFloor* ground) {
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
-    global float* restrict velocity, const float4 dv) {
+    global float* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
@@ -79,7 +82,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
       vstore16((float16)(0.0f), i, out);
       continue;
     }
-    const float16 v = velocity_of(rows[i], dv);
+    const float16 v = velocity_of(rows[i], dv, hold, out + 16 * i);
     vstore16(in_the_open ? v : held(v, ground, i), i, out);
   }
 }
@@ -87,12 +90,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 // Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
 // yet [docs/tools.md, two nodal fields].
 // node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
-// ContactSoil per home block; node_surface = its mean at the node by mass.
+// ContactSoil per home block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
+// contact made of both fields in the step before.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
     global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
-    global float4* restrict node_surface, const float4 dv) {
+    global float4* restrict node_surface, global const float* restrict last0, global const float* restrict last1,
+    const float4 dv, const int hold) {
   const int near = get_global_id(0);
   const int block = list[near];
   float16 rows[3][16], total[16];
@@ -130,6 +135,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
       weight[4 * i + 3] += here * m.w;
     }
   }
+  global const float* from0 = last0 + (size_t)block * (4 * BLOCK_NODES);
+  global const float* from1 = last1 + (size_t)near * (4 * BLOCK_NODES);
   global float* out0 = field0 + (size_t)near * (4 * BLOCK_NODES);
   global float* out1 = field1 + (size_t)near * (4 * BLOCK_NODES);
   for (int i = 0; i < 16; ++i) {
@@ -140,8 +147,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     const float16 sum = rows[0][i] + rows[1][i] + rows[2][i];
     const float16 front = rows[1][i] + select(none, rows[0][i], s == 1);
     const float16 back = rows[2][i] + select(none, rows[0][i], s == 2);
-    vstore16(velocity_of(select(sum, front, s > 0), dv), i, out0);
-    vstore16(velocity_of(select(none, back, s > 0), dv), i, out1);
+    vstore16(velocity_of(select(sum, front, s > 0), dv, hold, from0 + 16 * i), i, out0);
+    vstore16(velocity_of(select(none, back, s > 0), dv, hold, from1 + 16 * i), i, out1);
     const float4 m = fmax(sum.s37bf, MASS_QUANTUM);
     global float4* out = node_surface + near * BLOCK_NODES + 4 * i;
     out[0] = mixed ? weight[4 * i] / m.x : first;

@@ -2,7 +2,7 @@
 // Stress update of each particle, then scatter of mass and momentum to its block's tile.
 //
 // In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing = share of the way to
-// its      cell's opening that a particle goes.
+//      its cell's opening that a particle goes; carried = 0 in a held step, whose nodes have kept their momentum.
 // Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
 //      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit.
@@ -72,7 +72,7 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
     global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing) {
+    const float dx, const float mixing, const float carried) {
   const int block = get_global_id(0);
   const Home home = homes[block];
   global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
@@ -120,7 +120,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     const real f[3] = {x - bx, y - by, z - bz};
     const real mass = convert_float16(as_int16(LOAD(FIELD_MASS))) * MASS_QUANTUM;
     real p[3], a[9];
-    affine_momentum(c, sigma, v, f, mass, mass * inv_density, soil_state.j, dt, dx, p, a);
+    affine_momentum(c, sigma, v, f, mass, mass * inv_density, soil_state.j, carried, dt, dx, p, a);
 
     // A sum is finite only if each term is; lanes past the count hold zeros.
     const real sum = (x + y + z) + (p[0] + p[1] + p[2]) + (a[0] + a[4] + a[8]) +

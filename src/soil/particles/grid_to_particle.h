@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gather of node velocities to particles, which move.
+// Gather of node velocities to particles, and the way they go at a transfer's end.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,17 @@ class GridToParticle {
 
   /// Takes over which active blocks lie around each home.
   void set_blocks(const BlockTable& table);
-  /// Queues gather and motion of a step of dt [s]. `velocity`: GridUpdate::velocity; `used`: ParticleToGrid::used.
-  /// Writes Report.speed of every home.
+  /// Queues gather of a step of dt [s], the share `part` of a transfer, whose way is booked. `velocity`:
+  /// GridUpdate::velocity; `used`: ParticleToGrid::used. Writes Report.speed of every home.
   void enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
-               device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double cell);
+               device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double part, double cell);
+  /// Queues that particles go the way that was booked: the transfer ends, and what was held may change.
+  void enqueue_end(ParticleStore& store);
 
  private:
   device::Device& device_;
   device::Program program_;
-  device::Kernel kernel_;
+  device::Kernel kernel_, end_kernel_;
   device::Buffer<std::int32_t> neighbours_;  ///< 27 active indices per home
 };
 

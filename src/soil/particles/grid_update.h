@@ -24,8 +24,9 @@ class GridUpdate {
   void set_blocks(const BlockTable& table, const std::vector<int>& near_slot);
   /// One per active block, see Floor.
   void set_floor(const std::vector<BlockFloor>& floors);
-  /// Queues velocities after `dv` [m/s] of gravity: final in far blocks, before contact and floor in near ones.
-  void enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv);
+  /// Queues velocities after `dv` [m/s] of gravity: final in far blocks, before contact and floor in near ones. In a
+  /// `hold` step nodes add what was scattered to the velocity of the step before.
+  void enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv, bool hold);
 
   device::Buffer<float>& velocity() { return velocity_; }
   device::Buffer<BlockFloor>& floors() { return floors_; }

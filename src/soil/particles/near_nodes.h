@@ -2,6 +2,7 @@
 // Arrays of node data that exist only in active blocks near shells.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "device/buffer.h"
@@ -18,6 +19,8 @@ struct NearNodes {
   device::Buffer<float> before0, before1;  ///< float4 per node: v after gravity [m/s], m [kg] (grid_update_near)
   device::Buffer<ContactSoil> surface;     ///< mean by mass of the homes around (grid_update_near)
   device::Buffer<float> velocity1;         ///< float4: what particles behind a shell feel (contact_apply)
+  /// Numbers of an array of float4s.
+  std::size_t values() const { return static_cast<std::size_t>(count) * 4 * BLOCK_NODES; }
 };
 
 }  // namespace navvy::soil

@@ -16,9 +16,10 @@ inline constexpr int kBlockCells = 4;
 /// Host record; the device keeps the same fields in its own order. Velocities [m/s], stress [Pa], positive in tension.
 struct Particle {
   std::int32_t block[3] = {0, 0, 0};
-  float x[3] = {0, 0, 0};  ///< offset from the block's lower corner [cells], normally 0..4
+  float x[3] = {0, 0, 0};  ///< offset from the block's lower corner at the last transfer [cells], normally 0..4
   float v[3] = {0, 0, 0};
   float c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< velocity gradient, row major: c[3*i+j] = dv_i/dx_j [1/s]
+  float moved[3] = {0, 0, 0};                ///< way since the last transfer [cells]; Solver::particles has it in x
   float s[6] = {0, 0, 0, 0, 0, 0};           ///< deviatoric stress xx yy zz xy yz xz
   float j = 1;                               ///< volume / bank volume of its mass, tracked
   float j0 = 1;           ///< density state: the volume ratio at which it carries no pressure (1 .. swell)

@@ -294,8 +294,9 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
       const float* words = view.data() + homes_[h].start + i;
       PointMass point;
       for (std::size_t a = 0; a < 3; ++a)
-        point.grid[static_cast<int>(a)] =
-            corner[static_cast<int>(a)] + static_cast<double>(words[(FIELD_X + a) * capacity]);
+        point.grid[static_cast<int>(a)] = corner[static_cast<int>(a)] +
+                                          static_cast<double>(words[(FIELD_X + a) * capacity]) +
+                                          static_cast<double>(words[(FIELD_MOVED + a) * capacity]);
       point.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
       out.push_back(point);
     }

@@ -28,7 +28,7 @@ struct PointMass {
 /// Holds all particle fields (kernels/soil/layout.h) and the block table; sorts, adds, removes, reads back.
 ///
 /// A particle's home is the block of its base node floor(x - 0.5). The stored order is repeatable: by home, inside a
-/// home by cell as of the last re-bin, inside a cell in the order of arrival. Memory is 2 x 108 bytes a particle plus
+/// home by cell as of the last re-bin, inside a cell in the order of arrival. Memory is 2 x 120 bytes a particle plus
 /// the tables of the touched blocks.
 class ParticleStore {
  public:

@@ -22,11 +22,12 @@ void ParticleToGrid::set_blocks(std::size_t homes, int tiles) {
   ensure(device_, used_, homes);
 }
 
-void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell) {
+void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold) {
   // Mixing goes a share of the way a step, never past the mean.
   kernel_
       .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report,
-            static_cast<float>(dt), static_cast<float>(cell), static_cast<float>(std::min(1.0, dt / mixing_time())))
+            static_cast<float>(dt), static_cast<float>(cell), static_cast<float>(std::min(1.0, dt / mixing_time())),
+            hold ? 0.0f : 1.0f)
       .enqueue_groups(store.homes().size());
 }
 

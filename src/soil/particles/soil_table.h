@@ -16,10 +16,12 @@ double sound_speed(const scene::Soil& soil);
 double mixing_time();
 
 /// Mean mass per room of the nodes around a particle [kg] from which on soil counts as crowded at J = 1, for the
-/// densest soil of the scene: where min(J, J0) promises more room than the nodes show, J closes over `closing_time`
-/// [s]. Lighter soil beside the densest is corrected too little, never too much.
+/// densest soil of the scene: where min(J, J0) promises more room than the nodes show, particles are moved apart, all
+/// of the way over a shear strain of `crowding_shear`, at most `farthest_apart` [cells] a transfer. Lighter soil beside
+/// the densest is corrected too little, never too much.
 double packed_mass(double densest, double cell);
-double closing_time();
+double crowding_shear();
+double farthest_apart();
 
 /// Whether the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has dilatancy, mu(I) or compaction.
 bool needs_extended_law(const std::vector<scene::Soil>& soils);

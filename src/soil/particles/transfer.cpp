@@ -19,14 +19,14 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   ensure(device_, report_, table.homes.size());
 }
 
-void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity) {
+void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold) {
   // The queue is in order: the grid update sees finished tiles.
-  particle_to_grid_.enqueue(store, report_, dt, cell);
-  grid_.enqueue(store, particle_to_grid_, near, gravity * dt);
+  particle_to_grid_.enqueue(store, report_, dt, cell, hold);
+  grid_.enqueue(store, particle_to_grid_, near, gravity * dt, hold);
 }
 
-void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double cell) {
-  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt, cell);
+void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell) {
+  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt, part, cell);
 }
 
 Transfer::Largest Transfer::read_report(std::size_t homes) const {

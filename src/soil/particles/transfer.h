@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step between particles and grid: scatter to tiles, tiles to node velocities, gather. A portable, unfused
-// schedule: each work-item writes only what it owns, every sum has a fixed order.
+// The step between particles and grid: scatter to tiles, tiles to node velocities, gather; over the steps of a transfer
+// nodes keep their velocities and particles their places [docs/soil.md, transfer]. A portable, unfused schedule: each
+// work-item writes only what it owns, every sum has a fixed order.
 #pragma once
 
 #include <vector>
@@ -27,9 +28,13 @@ class Transfer {
   void set_floor(const std::vector<BlockFloor>& floors) { grid_.set_floor(floors); }
 
   /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in near ones.
-  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity);
-  /// Queues gather and motion.
-  void gather(ParticleStore& store, NearNodes& near, double dt, double cell);
+  /// `hold`: not the first step of a transfer.
+  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold);
+  /// Queues gather of a step that is the share `part` of a transfer, 0: nothing is moved apart; the way of the
+  /// particles is booked.
+  void gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell);
+  /// Queues the transfer's end: particles go the way that was booked.
+  void end(ParticleStore& store) { grid_to_particle_.enqueue_end(store); }
   /// Largest values over the home blocks after a step; waits.
   struct Largest {
     double speed = 0;  ///< velocity component [m/s]; infinite when a value was not finite

@@ -9,10 +9,10 @@ namespace navvy::soil::reference {
 #include "soil/contact_law.h"  // NOLINT: on purpose inside the namespace
 #include "soil/node.h"         // NOLINT: the same
 
-/// Impulse on a node whose velocity is relative to the plate [N s].
-inline Vec3 impulse_on(const ContactNode& node, double opening) {
+/// Impulse [N s] on a node of a plate that moves with `speed` [m/s] against the resting ground, without turning.
+inline Vec3 impulse_on(const ContactNode& node, double opening, const Vec3& speed = Vec3::Zero()) {
   ContactBranch branch;
-  return contact_impulse(&node, Vec3::Zero(), Vec3::Zero(), opening, &branch);
+  return contact_impulse(&node, Vec3::Zero(), speed, opening, &branch);
 }
 
 }  // namespace navvy::soil::reference

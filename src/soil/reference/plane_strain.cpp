@@ -10,10 +10,12 @@
 namespace navvy::soil::reference {
 namespace {
 
-// The contact's reach as the solver ships it [docs/tools.md, contact weights]; a kinematic lip lies 0.2 cells further
-// out.
-constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.8, kEdgeRamp = 1, kKinematicEdge = 0.6;
+// The contact's reach from a plate's face, which the lattice of particles begins an eighth of a cell behind; its edge
+// as the solver ships it [docs/tools.md, contact shares]. A fractional lip lies 0.2 cells further in.
+constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.6, kEdgeRamp = 1, kFractionEdge = 0.8;
+constexpr double kFarInside = 1e3;         // from a plate's edges [cells]
 constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
+constexpr double kClosingTime = 0.1;       // over which J closes where particles crowd [s]
 constexpr double kEmpty = 1e-9;            // lighter nodes have no velocity [kg]
 
 struct Weights {
@@ -35,24 +37,11 @@ void for_nodes(PlaneStrain& plane, const Weights& at, const Visit& visit) {
     for (int a = 0; a < 3; ++a) visit(plane.node(at.i + a, at.k + b), at.wx[a] * at.wz[b], a, b);
 }
 
-/// sqrt(2 D : D) of the symmetric part of a gradient without its volume change [1/s].
-double shear_rate(const double* c) {
-  const double third = (c[0] + c[8]) / 3, xx = c[0] - third, zz = c[8] - third, xz = 0.5 * (c[2] + c[6]);
-  return std::sqrt(2 * (xx * xx + zz * zz + third * third) + 4 * xz * xz);
-}
-
-/// Radius of Matsuoka and Nakai's surface over that of plane strain at the Lode angle of a deviator of plane strain
-/// [Matsuoka 1974]: kappa c r^3 - (kappa - 3) r^2 + kappa - 9 = 0, c = -det(s) / q^3, r = sin phi where c is 0.
-double lode_radius(const double* s, double sin_phi) {
-  const double q = std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[5] * s[5]);
-  if (!(q > 1e-3) || !(sin_phi > 0)) return 1;
-  const double kappa = (9 - 3 * sin_phi * sin_phi) / (1 - sin_phi * sin_phi);
-  const double det = s[1] * (s[0] * s[2] - s[5] * s[5]);
-  const double shape = kappa * std::clamp(-det / (q * q * q), -0.3849, 0.3849), flat = kappa - 3;
-  double r = sin_phi;
-  for (int newton = 0; newton < 3; ++newton)
-    r -= (shape * r * r * r - flat * r * r + kappa - 9) / ((3 * shape * r - 2 * flat) * r);
-  return r / sin_phi;
+/// Weight of a fractional contact, n = dt / reference step: 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b), equal
+/// at b = 0 (with slope n), at b = 1 and for n = 1.
+double fraction_weight(double clearance, double inset, double n, const Reach* reach) {
+  const double b = contact_share(clearance, kFarInside, reach) * contact_along(inset, reach);
+  return b * n / (1 + (n - 1) * b);
 }
 
 }  // namespace
@@ -121,25 +110,12 @@ void PlaneStrain::mix(double dt) {
 }
 
 void PlaneStrain::advance_law(PlanePoint& p, double dt, double* sigma) {
-  LawSoil law = law_;
-  double strength = 1;
-  if (method_.matsuoka_nakai) strength *= lode_radius(p.s, law_.alpha);
-  if (method_.static_share > 0)
-    strength *= 1 + method_.static_share * std::max(1 - shear_rate(p.c) / method_.static_rate, 0.0);
-  law.alpha *= strength;
-  law.k_residual *= strength;
-  law.k_bond *= strength;
   const double slipped = p.shear;
-  law_update(p.c, dt, &law, &p, sigma);
+  law_update(p.c, dt, &law_, &p, sigma);
   const double volume = p.mass / soil_.bank_density * p.j;
   const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]) + p.s[5] * p.s[5]);
   energy_.plastic += volume * q * (p.shear - slipped);
   p.pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
-  if (method_.bulk_damping > 0 && p.j < p.j0) {
-    const double damped =
-        std::max(p.pressure - method_.bulk_damping * soil_.bank_density * sound_ * cell_ * (p.c[0] + p.c[8]), 0.0);
-    for (int i = 0; i < 3; ++i) sigma[i] -= damped - p.pressure;
-  }
 }
 
 void PlaneStrain::scatter(double dt, bool first) {
@@ -154,7 +130,7 @@ void PlaneStrain::scatter(double dt, bool first) {
     const Weights at(p);
     // The force alone is what the shared arithmetic makes of no velocity and no gradient.
     const double none[9] = {0}, still[3] = {0, 0, 0}, f[3] = {at.fx, 0, at.fz};
-    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, dt, cell_, start, a);
+    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, 1, dt, cell_, start, a);
     const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6], cz = cell_ * p.c[8];
     moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
     for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
@@ -180,28 +156,20 @@ double PlaneStrain::room_at(int i, int k) const {
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
-  const bool kinematic = method_.contact == PlaneMethod::Contact::kKinematic;
-  const double rate = kinematic ? 1 : dt / longest_step(kReferenceCourant);
-  const Reach reach{kReach, kRamp, kinematic ? kKinematicEdge : kEdge, kEdgeRamp, rate, 0, 0};
+  const bool fraction = method_.contact == PlaneMethod::Contact::kFraction;
+  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;
-  double weight = contact_weight(clearance, inset, &reach);
-  if (kinematic) weight *= contact_along(inset, &reach);
-  if (!(weight > 0)) return;
-  const double along = node.vz, mass = node.mass;
-  double push, share = 1;
-  if (kinematic) {
-    const double allowed = plate.speed - (1 - weight) * std::max(plate.speed, 0.0);
-    push = mass * std::max(allowed - node.vx, 0.0);
-  } else {
-    share = weight;
-    push = mass * std::max(plate.speed - node.vx, 0.0);
-  }
-  const double rub = std::clamp(-mass * along, -plate.friction * push, plate.friction * push);
-  node.vx += share * push / mass;
-  node.vz += share * rub / mass;
-  plate.impulse += share * push;
-  energy_.tool += share * push * plate.speed;
+  ContactNode at{Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
+  double weight = 1;
+  if (fraction) weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);
+  if (!fraction) at.share = contact_share(clearance, inset, &reach);
+  if (!(weight > 0 && at.share > 0)) return;
+  const Vec3 impulse = weight * impulse_on(at, 0, Vec3(plate.speed, 0, 0));
+  node.vx += impulse.x() / node.mass;
+  node.vz += impulse.z() / node.mass;
+  plate.impulse += impulse.x();
+  energy_.tool += impulse.x() * plate.speed;
 }
 
 void PlaneStrain::update_nodes(double dt, bool first) {
@@ -238,7 +206,8 @@ void PlaneStrain::update_nodes(double dt, bool first) {
 }
 
 void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
-  if (!(std::min(p.j, p.j0) - packed_mass(1, 1) / std::max(p.density, 1e-9) > 0)) return;
+  const double share = crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / crowding_shear());
+  if (!(share > 0)) return;
   const Weights at(p);
   double mass = 0, lean_x = 0, lean_z = 0;
   for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
@@ -246,14 +215,12 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
     lean_x += w * node.room * (i - at.fx);
     lean_z += w * node.room * (k - at.fz);
   });
-  // tuned: none yet; a shear strain of 0.1 takes soil apart once [docs/soil.md, closing].
-  const double part = std::min(dt_interval * shear_rate(p.c) / 0.1, 1.0);
-  p.x += std::clamp(-part * lean_x / mass, -0.05, 0.05);
-  p.z += std::clamp(-part * lean_z / mass, -0.05, 0.05);
+  p.x += way_apart(share, lean_x, mass, farthest_apart());
+  p.z += way_apart(share, lean_z, mass, farthest_apart());
 }
 
 void PlaneStrain::gather(double dt, bool last) {
-  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / closing_time());
+  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / kClosingTime);
   double on_grid = 0, moving = 0, fastest = 0;
   if (last)
     for (const Node& node : nodes_) on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
@@ -276,7 +243,10 @@ void PlaneStrain::gather(double dt, bool last) {
     p.c[6] = velocity_gradient(moment[2], at.fx, v[1], cell_);
     p.c[8] = velocity_gradient(moment[3], at.fz, v[1], cell_);
     p.density = room / (soil_.bank_density * std::pow(cell_, 3));
-    if (method_.crowding == PlaneMethod::Crowding::kClosing) p.j = closed(p.j, p.j0, room, full, closing);
+    if (method_.crowding == PlaneMethod::Crowding::kClosing) {
+      const double packed = full / std::max(room, kEmpty);
+      p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
+    }
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

@@ -15,26 +15,22 @@
 
 namespace navvy::soil::reference {
 
-/// What of the method may be changed; as it stands here it is that of the kernels.
+/// What of the method may be changed; as it stands here it is the one that the cures began from.
 struct PlaneMethod {
-  /// kFraction: the contact's weight is a share of the impulse, made independent of the step
-  /// [docs/tools.md, contact weights]. kKinematic: full impulse, but a node of weight b need only keep up with b times
-  /// the plate's speed.
+  /// kKinematic: full impulse, but a node that the plate covers in part need only keep up with its share of the plate's
+  /// speed [docs/tools.md, contact shares]. kFraction: the share is one of the impulse, made independent of the step,
+  /// as the kernels once had it; a slow plate leaks.
   enum class Contact { kFraction, kKinematic };
-  /// Where particles crowd: kClosing takes it out of J [docs/soil.md, closing]; kShear moves them apart by their
-  /// shear rate and leaves J alone; kNone does nothing.
+  /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart by their shear rate
+  /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
-  Contact contact = Contact::kFraction;
+  Contact contact = Contact::kKinematic;
   Crowding crowding = Crowding::kClosing;
   bool mixing = true;
   /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.
   int hold = 1;
-  double most_motion = 0.2;     ///< a transfer comes early when the fastest particle has moved this far [cells]
-  double bulk_damping = 0;      ///< viscosity of closed soil against volume change / (density x sound speed x cell)
-  bool matsuoka_nakai = false;  ///< radius of the yield surface by the third invariant, matched in plane strain
-  double static_share = 0;      ///< growth of the friction at rest
-  double static_rate = 0.1;     ///< shear rate at which it is gone [1/s]
+  double most_motion = 0.2;  ///< a transfer comes early when the fastest particle has moved this far [cells]
 };
 
 /// A particle: the law's state, place [cells], velocity [m/s], gradient as in kernels/soil/point.h (x and z only).

@@ -54,6 +54,7 @@ Point from_particle(const Particle& particle) {
   for (int a = 0; a < 3; ++a) {
     p.x[a] += kBlockCells * particle.block[a];
     p.home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(std::floor(p.x[a] - 0.5) / kBlockCells));
+    p.x[a] += p.moved[a];
   }
   p.mass = kilograms(particle.mass);
   p.soil = particle.soil;
@@ -62,7 +63,11 @@ Point from_particle(const Particle& particle) {
 
 ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
                                  std::function<double(int, int)> ground)
-    : soils_(std::move(soils)), cell_(cell), gravity_(gravity), ground_(std::move(ground)) {}
+    : soils_(std::move(soils)), cell_(cell), gravity_(gravity), ground_(std::move(ground)) {
+  double fastest = 0;
+  for (const scene::Soil& soil : soils_) fastest = std::max(fastest, sound_speed(soil));
+  transfer_length_ = kTransferLength * cell_ / fastest;
+}
 
 std::vector<double> ReferenceSolver::openings() const {
   // Sums per cell of base nodes, in mass quanta as in the kernels.
@@ -71,7 +76,7 @@ std::vector<double> ReferenceSolver::openings() const {
   };
   std::map<std::array<int, 6>, Cell> cells;
   const auto key = [](const Point& p) {
-    const Weights at = weights_at(p.x);
+    const Weights at = weights_at(p.x - p.moved);
     return std::array<int, 6>{p.home[0], p.home[1], p.home[2], at.base[0], at.base[1], at.base[2]};
   };
   for (const Point& p : points) {
@@ -88,20 +93,24 @@ std::vector<double> ReferenceSolver::openings() const {
   return out;
 }
 
-void ReferenceSolver::scatter(double dt) {
+void ReferenceSolver::scatter(double dt, bool hold) {
   // All openings first: mixing compares particles as the step found them.
   const std::vector<double> opening = openings();
   const double mixing = std::min(1.0, dt / mixing_time());
-  nodes_.clear();
+  if (!hold) nodes_.clear();
+  for (auto& [at, node] : nodes_) {
+    node.mass = 0;
+    node.momentum.setZero();
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
     Point& p = points[i];
     const scene::Soil& soil = soils_.at(static_cast<std::size_t>(p.soil));
     const LawSoil law = law_soil(soil, cell_);
     double sigma[6], start[3], a[9];
     advance_state(p.c, dt, &law, opening[i], mixing, &p, sigma);
-    const Weights weights = weights_at(p.x);
-    affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, dt, cell_, start,
-                    a);
+    const Weights weights = weights_at(p.x - p.moved);
+    affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, hold ? 0 : 1, dt,
+                    cell_, start, a);
     // Momentum is linear around a particle: a node has that at the base node and its change over the way there.
     const Vec3 base(start[0], start[1], start[2]);
     const Mat3 change = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(a);
@@ -113,49 +122,62 @@ void ReferenceSolver::scatter(double dt) {
   }
 }
 
-void ReferenceSolver::update_grid(double dt) {
+void ReferenceSolver::update_grid(double dt, bool hold) {
   for (auto& [at, node] : nodes_) {
     const double above = at[2] - ground_(at[0], at[1]);
     // A node lighter than a mass quantum is empty, as in the kernels.
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
-    node.momentum = empty || fixed ? Vec3(Vec3::Zero()) : Vec3(node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt);
-    if (contact && !empty && !fixed) node.momentum += contact(at, node.mass, node.momentum) / node.mass;
-    // From momentum to velocity, from mass to mass per room: what the particles ask for.
-    node.mass /= room_above(above);
+    const Vec3 before = hold ? node.velocity : Vec3(Vec3::Zero());
+    node.velocity = Vec3::Zero();
+    if (!empty && !fixed) node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
+    if (contact && !empty && !fixed) node.velocity += contact(at, node.mass, node.velocity) / node.mass;
+    // Mass per room is what the particles ask for.
+    node.room_mass = node.mass / room_above(above);
   }
 }
 
 void ReferenceSolver::gather(double dt) {
-  // `momentum` of a node is its velocity now, `mass` that per room.
   // Crowding is judged by the densest soil of the scene, see packed_mass.
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
-  const double full = packed_mass(densest, cell_), closing = std::min(1.0, dt / closing_time());
+  const double full = packed_mass(densest, cell_), spread = dt / crowding_shear();
+  const double most = farthest_apart() * std::min(1.0, dt / transfer_length_);
+  fastest_ = 0;
   for (Point& p : points) {
-    Vec3 v = Vec3::Zero();
+    Vec3 v = Vec3::Zero(), lean = Vec3::Zero();
     Mat3 moment = Mat3::Zero();
     double mass = 0;
-    const Weights weights = weights_at(p.x);
+    const Weights weights = weights_at(p.x - p.moved);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
       const Node& node = nodes_.at(at);
-      mass += w * node.mass;
-      v += w * node.momentum;
-      moment += w * node.momentum * place.transpose();
+      mass += w * node.room_mass;
+      lean += w * node.room_mass * (place - weights.f);
+      v += w * node.velocity;
+      moment += w * node.velocity * place.transpose();
     });
     for (int i = 0; i < 3; ++i)
       for (int axis = 0; axis < 3; ++axis)
         p.c[3 * i + axis] = velocity_gradient(moment(i, axis), weights.f[axis], v[i], cell_);
-    // J before x: the nodes told of where the particle was.
-    p.j = closed(p.j, p.j0, mass, full, closing);
     p.v = v;
-    p.x += (dt / cell_) * v;
+    Vec3 way = (dt / cell_) * v;
+    const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
+    for (int axis = 0; axis < 3; ++axis) way[axis] += way_apart(share, lean[axis], mass, most);
+    p.x += way;
+    p.moved += way;
+    fastest_ = std::max(fastest_, way.cwiseAbs().maxCoeff() * cell_ / dt);
   }
 }
 
 void ReferenceSolver::step(double dt) {
-  scatter(dt);
-  update_grid(dt);
+  const bool hold = interval_.holds(dt, transfer_length_, cell_, 0, gravity_.norm());
+  if (!hold) {
+    interval_ = {};
+    for (Point& p : points) p.moved.setZero();
+  }
+  scatter(dt, hold);
+  update_grid(dt, hold);
   gather(dt);
+  interval_.book(dt, cell_, fastest_, 0);
 }
 
 Vec3 ReferenceSolver::momentum() const {

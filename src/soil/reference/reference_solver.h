@@ -9,17 +9,20 @@
 
 #include "core/math.h"
 #include "scene/soil.h"
+#include "soil/particles/interval.h"
 #include "soil/particles/particle.h"
 #include "soil/reference/double_law.h"
 
 namespace navvy::soil::reference {
 
 /// One particle in doubles, with the law's state and what moves it; fields as in kernels/soil/particle_fields.h, but
-/// for its position, which counts in cells of the grid frame G.
+/// for its position, which counts in cells of the grid frame G and is that of now: `moved` of it is the way since the
+/// last transfer.
 struct Point : LawState {
   Point() : LawState{} {}
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();
   double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  Vec3 moved = Vec3::Zero();
   double mass = 0;  ///< [kg]
   int soil = 0;
   /// Home block: that of the base node floor(x - 0.5) at the start. Cells are mixed within a home, as in the kernels.
@@ -49,15 +52,20 @@ class ReferenceSolver {
  private:
   /// Mean opening of each point's cell, 0 where none of it is open.
   std::vector<double> openings() const;
-  void scatter(double dt);      ///< mixing and law, then mass and momentum to the nodes
-  void update_grid(double dt);  ///< velocity, gravity, contact, resting ground; a node lighter than a quantum is empty
-  void gather(double dt);       ///< back to the points, which move
+  void scatter(double dt,
+               bool hold);  ///< mixing and law, then mass and momentum to the nodes; held, the stress's alone
+  /// Velocity, gravity, contact, resting ground; a node lighter than a quantum is empty.
+  void update_grid(double dt, bool hold);
+  void gather(double dt);  ///< back to the points, which move
   struct Node {
-    double mass = 0;
-    Vec3 momentum = Vec3::Zero();
+    double mass = 0, room_mass = 0;
+    Vec3 momentum = Vec3::Zero(), velocity = Vec3::Zero();
   };
   std::vector<scene::Soil> soils_;
   double cell_;
+  double transfer_length_;  ///< [s]
+  TransferInterval interval_;
+  double fastest_ = 0;  ///< component of the ways in the last step [m/s]
   Vec3 gravity_;
   std::function<double(int, int)> ground_;
   std::map<std::array<int, 3>, Node> nodes_;

@@ -15,11 +15,10 @@ bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().ma
 
 }  // namespace
 
-Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound)
+Contact::Contact(device::Device& device, double cell, const Vec3& origin_W)
     : device_(device),
       cell_(cell),
       origin_(origin_W),
-      reference_step_(settings_.reference * cell / slowest_sound),
       shells_(device),
       contact_program_(device, kernel_path(device, "contact")),
       sums_kernel_(contact_program_, "contact_sums"),
@@ -51,9 +50,9 @@ void Contact::solve(Transfer& transfer, double dt) {
             static_cast<float>(settings_.ramp),
             static_cast<float>(settings_.edge),
             static_cast<float>(settings_.edge_ramp),
-            static_cast<float>(dt / reference_step_),
             static_cast<float>(dt * cell_ * cell_),
-            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_))};
+            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_)),
+            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_))};
   // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;
@@ -137,6 +136,31 @@ void Contact::book(std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     impulses[m].residual = impulses[m].J_W + (momentum[m].after - momentum[m].before);
     impulses[m].residual_moment = impulses[m].L_W + (momentum[m].after_moment - momentum[m].before_moment);
+  }
+}
+
+void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
+  for (std::size_t m = 0; m < motions_.size(); ++m) {
+    Registered& tool = tools_[static_cast<std::size_t>(motions_[m].tool)];
+    tool.J_W += impulses[m].J_W;
+    tool.L_W += impulses[m].L_W;
+    tool.felt_for += dt;
+    if (!tool.told) {
+      tool.force_W = tool.J_W / tool.felt_for;
+      tool.moment_W = tool.L_W / tool.felt_for;
+    }
+    impulses[m].force_W = tool.force_W;
+    impulses[m].moment_W = tool.moment_W;
+  }
+}
+
+void Contact::end_transfer() {
+  for (Registered& tool : tools_) {
+    tool.told = tool.felt_for > 0;
+    tool.force_W = tool.told ? Vec3(tool.J_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.moment_W = tool.told ? Vec3(tool.L_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.J_W = tool.L_W = Vec3::Zero();
+    tool.felt_for = 0;
   }
 }
 

@@ -23,28 +23,29 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Lengths in cells [docs/tools.md, contact weights].
+/// Lengths in cells [docs/tools.md, contact shares].
 struct ContactSettings {
   double band = 2.5;          ///< how far from a shell particles keep a side
   double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
-  double ramp = 1.0;          ///< over which their weight falls to zero
-  double edge = 0.8;          ///< nodes closer than this to a free edge do not act
-  double edge_ramp = 1.0;     ///< over which their weight falls along the plate
-  double reference = 0.4;     ///< the step for which the weights hold, as a share of cell / sound speed
+  double ramp = 1.0;          ///< over which their share falls to zero
+  double edge = 0.6;          ///< nodes closer than this to a free edge do not act
+  double edge_ramp = 1.0;     ///< over which their share falls along the plate
   double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
   double longest_push = 0.2;  ///< position correction per step
   int sweeps = 3;             ///< of the two-way solve
   double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
+  double settling = 0.05;     ///< speed at which soil comes nearer to a plate that does not advance, in the same units
 };
 
 /// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
 /// plates with corners, at most 2.
 double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
 
-/// Contact of all tools with the soil, two nodal fields, fractional weights, any number of tools.
+/// Contact of all tools with the soil, two nodal fields, shares of the plate's speed, any number of
+/// tools.
 class Contact {
  public:
-  Contact(device::Device& device, double cell, const Vec3& origin_W, double slowest_sound);
+  Contact(device::Device& device, double cell, const Vec3& origin_W);
 
   int add_tool(const scene::Shell& shell);
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
@@ -52,6 +53,13 @@ class Contact {
   /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
   /// lays out tiles again (near_homes, near_slot).
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
+  /// Takes the tools' twists and places for a step that the transfer under way holds: lists, sides of nodes and plates
+  /// stay those of its start, and levers are those of now.
+  void set_twists(std::span<const ToolMotion> motions);
+  /// Whether these are motions of the tools that the last `set_motions` had.
+  bool moves_same(std::span<const ToolMotion> motions) const;
+  /// Queues what a transfer under way knows of the shells, after `visit` has loaded and the lists are built.
+  void go_on(Transfer& transfer);
   /// Builds the near lists for the poses they were last built for (after `visit` has loaded).
   void list_near(const BlockTable& table);
   const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
@@ -69,7 +77,13 @@ class Contact {
   /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
   void book(std::span<ToolImpulse> impulses);
 
-  /// Near lists hang on where tools were when they were made: that is state, the lists follow from it (`list_near`).
+  /// Adds what the tools felt in a step of dt [s] to the transfer under way, and tells their mean force.
+  void feel(double dt, std::span<ToolImpulse> impulses);
+  /// A transfer has ended: what was felt over it is the force that is told from now on.
+  void end_transfer();
+
+  /// Near lists hang on where tools were when they were made, sides of nodes on where they were when the transfer under
+  /// way began: that is state, the rest follows from it (`list_near`, `go_on`).
   /// @throws InputError for another number of tools than are registered, or a pose that is none.
   void visit(Archive& a);
 
@@ -83,15 +97,22 @@ class Contact {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
     double area_factor = 1;            ///< plate area / what nodes stand for
-    bool present = false;              ///< has a motion this step
+    bool present = false;              ///< has a motion in this transfer
     bool listed = false;               ///< near lists hold it
     Pose X_listed = Pose::Identity();  ///< where it was then
-    Pose X = Pose::Identity();
-    BlockKey window;  ///< block its float coordinates count from
+    Pose X = Pose::Identity();         ///< at the start of the transfer
+    Pose X_now = Pose::Identity();     ///< at the start of the step
+    BlockKey window;                   ///< block its float coordinates count from
+    // Sums over the transfer under way, and the means over the one before; without one, over the steps so far.
+    Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
+    double felt_for = 0;  ///< [s]
+    bool told = false;    ///< there is a transfer before
+    Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
     void visit(Archive& a);
   };
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
+  void set_window(Registered& tool) const;
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
   void upload_tools();
   Tool tool_now(std::size_t index) const;
@@ -102,7 +123,6 @@ class Contact {
   double cell_;
   Vec3 origin_;
   ContactSettings settings_;
-  double reference_step_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
   ShellQuery shells_;

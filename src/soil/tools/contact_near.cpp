@@ -65,15 +65,47 @@ bool Contact::moved_far() const {
   return false;
 }
 
+void Contact::set_window(Registered& tool) const {
+  const Vec3 p = to_grid(tool.X.translation());
+  tool.window = {floor_div(p.x()), floor_div(p.y()), floor_div(p.z())};
+}
+
+bool Contact::moves_same(std::span<const ToolMotion> motions) const {
+  const auto present = std::count_if(tools_.begin(), tools_.end(), [](const Registered& tool) { return tool.present; });
+  return static_cast<std::size_t>(present) == motions.size() &&
+         std::all_of(motions.begin(), motions.end(), [this](const ToolMotion& motion) {
+           return tools_.at(static_cast<std::size_t>(motion.tool)).present;
+         });
+}
+
+void Contact::set_twists(std::span<const ToolMotion> motions) {
+  motions_.assign(motions.begin(), motions.end());
+  for (const ToolMotion& motion : motions) tools_.at(static_cast<std::size_t>(motion.tool)).X_now = motion.X_WT;
+  if (nodes_.count == 0) return;
+  std::vector<Tool> now;
+  for (std::size_t t = 0; t < tools_.size(); ++t) now.push_back(tool_now(t));
+  shells_.set_twists(std::move(now));
+}
+
+void Contact::go_on(Transfer& transfer) {
+  for (Registered& tool : tools_) {
+    tool.X_now = tool.X;
+    set_window(tool);
+  }
+  if (nodes_.count == 0) return;
+  upload_tools();
+  shells_.enqueue_nodes(transfer, nodes_, settings_.band);
+  device_.finish();  // what was uploaded may be replaced by the next step
+}
+
 bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed) {
   motions_.assign(motions.begin(), motions.end());
   for (Registered& tool : tools_) tool.present = false;
   for (const ToolMotion& motion : motions) {
     Registered& tool = tools_.at(static_cast<std::size_t>(motion.tool));
     tool.present = true;
-    tool.X = motion.X_WT;
-    const Vec3 p = to_grid(motion.X_WT.translation());
-    tool.window = {floor_div(p.x()), floor_div(p.y()), floor_div(p.z())};
+    tool.X = tool.X_now = motion.X_WT;
+    set_window(tool);
   }
   // New blocks have no lists yet; far tools have outrun theirs.
   const bool again = blocks_changed || moved_far();
@@ -172,7 +204,7 @@ Tool Contact::tool_now(std::size_t index) const {
   out.window[1] = tool.window.y;
   out.window[2] = tool.window.z;
   out.active = tool.present ? 1 : 0;
-  put(out.origin, snapped(to_grid(tool.X.translation()) - corner));
+  put(out.origin, snapped(to_grid(tool.X_now.translation()) - corner));
   out.half_thickness = static_cast<float>(shell.half_thickness / cell_);
   out.friction = static_cast<float>(shell.friction_share);
   out.adhesion = static_cast<float>(shell.adhesion_share * tool.area_factor);
@@ -231,10 +263,21 @@ void Contact::classify(ParticleStore& store, Transfer& transfer) {
 void Contact::Registered::visit(Archive& a) {
   a("listed", listed);
   a("X_listed", X_listed);
-  const Mat3 R = X_listed.linear();
-  a.require(X_listed.matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) &&
-                X_listed.translation().norm() < kFarthest,
-            "X_listed", "must be a rigid pose on the site");
+  a("present", present);
+  a("X", X);
+  a("J_W", J_W);
+  a("L_W", L_W);
+  a("felt_for", felt_for);
+  a("told", told);
+  a("force_W", force_W);
+  a("moment_W", moment_W);
+  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for", "must be finite and not negative");
+  for (const Pose* pose : {&X_listed, &X}) {
+    const Mat3 R = pose->linear();
+    a.require(
+        pose->matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) && pose->translation().norm() < kFarthest,
+        "X_listed", "must be a rigid pose on the site, as must X");
+  }
 }
 
 void Contact::visit(Archive& a) { a.fixed("tools", tools_); }

@@ -40,17 +40,26 @@ void ShellQuery::set_tools(ToolShells shells) {
   send(tools_, now_.tools);
 }
 
-void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
-  const auto band_f = static_cast<float>(band);
-  // Neither kernel reads what the other writes; both see the poses of this step.
+void ShellQuery::set_twists(std::vector<Tool> tools) {
+  now_.tools = std::move(tools);
+  ensure(device_, tools_, now_.tools.size());
+  tools_.write_later(now_.tools);
+}
+
+void ShellQuery::enqueue_nodes(Transfer& transfer, NearNodes& near, double band) {
   nodes_kernel_
       .args(near.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(now_.rims.size()), tools_,
-            block_first_, block_triangles_, band_f, near.split, node_tool_, node_shell_)
+            block_first_, block_triangles_, static_cast<float>(band), near.split, node_tool_, node_shell_)
       .enqueue_groups(static_cast<std::size_t>(near.count));
+}
+
+void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
+  // Neither kernel reads what the other writes; both see the poses of this step.
+  enqueue_nodes(transfer, near, band);
   // Particles may be near a shell although no node of their own block is.
   particles_kernel_
       .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_, tools_,
-            home_first_, home_triangles_, band_f, static_cast<float>(longest_push), transfer.report())
+            home_first_, home_triangles_, static_cast<float>(band), static_cast<float>(longest_push), transfer.report())
       .enqueue_groups(near_homes_);
 }
 

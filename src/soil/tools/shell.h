@@ -36,6 +36,10 @@ class ShellQuery {
                 const std::vector<std::int32_t>& near_homes);
   /// Takes over the tools of the step without waiting; the two-way solve changes their twists on the device.
   void set_tools(ToolShells shells);
+  /// Takes over new twists and places of the same tools without waiting; the plates stay where they are.
+  void set_twists(std::vector<Tool> tools);
+  /// Queues split, tool and place of near nodes.
+  void enqueue_nodes(Transfer& transfer, NearNodes& near, double band);
   /// Queues both kernels: split, tool and place of near nodes, then side and position of particles, with Report.push
   /// and Report.crossed of near homes. `band`, `longest_push` in cells, see ContactSettings.
   void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push);

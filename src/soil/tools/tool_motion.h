@@ -29,8 +29,11 @@ struct ToolImpulse {
   Vec3 J_W = Vec3::Zero();  ///< impulse on the tool [N s]
   Vec3 L_W = Vec3::Zero();  ///< angular impulse about p_W [N m s]
   Vec3 p_W = Vec3::Zero();  ///< T's origin [m]
-  double normal = 0;        ///< sum of |normal impulses| [N s]
-  double friction = 0;      ///< sum of |tangential impulses| [N s]
+  /// Mean force and moment about T's origin [N, N m] over the last transfer that has ended: what is to be shown and
+  /// read. The impulses of single steps have a saw-tooth of its period [docs/tools.md, force].
+  Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
+  double normal = 0;    ///< sum of |normal impulses| [N s]
+  double friction = 0;  ///< sum of |tangential impulses| [N s]
   // Momentum proof of the nodal solve, summed in double: J_W + sum of nodal momentum changes, and its scale.
   Vec3 residual = Vec3::Zero(), residual_moment = Vec3::Zero();
   double scale = 0, scale_moment = 0;

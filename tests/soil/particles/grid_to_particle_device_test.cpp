@@ -24,7 +24,7 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
                       kBlockCells * key.z + (n >> 4));
       const Vec3 v = v0 + gradient * (kStageCell * (node - Vec3::Constant(40)));
       for (int k = 0; k < 3; ++k) nodes[4 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
-      nodes[4 * i + 3] = 1e-3f;  // loose: nothing closes
+      nodes[4 * i + 3] = 1e-3f;  // loose: nothing is moved apart
     }
     stages.grid.velocity().write(nodes);
     stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
@@ -50,6 +50,43 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
     for (const Report& report : stages.report.map_read(0, table.homes.size()))
       reported = std::max(reported, static_cast<double>(report.speed));
     EXPECT_NEAR(reported, fastest, 2e-6);
+  }
+}
+
+// Nodes that hold more to the right: where that is crowded, what is sheared goes left and what is not stays.
+TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
+  for (const double gradient : {0.0, 5.0, 1000.0}) {
+    Stages stages(strewn(33));
+    const BlockTable& table = stages.store.table();
+    const double full = packed_mass(stages.store.densest(), kStageCell), slope = 0.02 * full;
+    std::vector<float> nodes(stages.grid.velocity().size(), 0.0f);
+    for (std::size_t i = 0; i < BLOCK_NODES * table.active.size(); ++i) {
+      const BlockKey key = table.active[i / BLOCK_NODES];
+      const int n = static_cast<int>(i % BLOCK_NODES);
+      const double x = kBlockCells * key.x + (n & 3) - 40, y = kBlockCells * key.y + (n >> 2 & 3) - 40;
+      nodes[4 * i] = static_cast<float>(gradient * kStageCell * y);  // v_x(y)
+      nodes[4 * i + 3] = static_cast<float>(1.2 * full + slope * x);
+    }
+    stages.grid.velocity().write(nodes);
+    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    const std::vector<Particle> before = stages.store.records();
+    stages.enqueue_gather();
+    const std::vector<Particle> after = stages.store.records();
+    int crowded = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const double x = kBlockCells * before[i].block[0] + static_cast<double>(before[i].x[0]) - 40;
+      const double y = kBlockCells * before[i].block[1] + static_cast<double>(before[i].x[1]) - 40;
+      // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter of a cell.
+      const double mass = 1.2 * full + slope * x, share = std::min(1.0, kStageStep * gradient / crowding_shear());
+      double apart = std::max(-share * 0.25 * slope / mass, -0.25 * farthest_apart());
+      if (static_cast<double>(before[i].j) * mass <= full) apart = 0;
+      crowded += apart < 0;
+      const double way = kStageStep * gradient * y + apart;
+      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]), way, 2e-6 * (1 + gradient));
+      EXPECT_NEAR(static_cast<double>(after[i].x[2]), static_cast<double>(before[i].x[2]), 1e-6);
+      EXPECT_EQ(after[i].j, before[i].j);
+    }
+    EXPECT_EQ(crowded > 20, gradient > 0);
   }
 }
 

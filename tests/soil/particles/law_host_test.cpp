@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/math.h"
 #include "soil/reference/double_law.h"
@@ -26,6 +28,13 @@ struct Element : LawState {
   }
   double pressure() const { return -(sigma[0] + sigma[1] + sigma[2]) / 3; }
 };
+
+/// Sand whose strength knows no rate.
+scene::Soil plain_sand(double phi_degrees) {
+  scene::Soil soil = rig::sand(phi_degrees);
+  soil.static_friction_share = 0;
+  return soil;
+}
 
 TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
   for (const double phi : {20.0, 30.0, 40.0}) {
@@ -127,7 +136,7 @@ struct ShearBox {
 
 TEST(SoilLaw, DenseSoilDilatesByItsAngleAtItsFrictionAngleUntilItIsLoose) {
   for (const double psi : {5.0, 12.0}) {
-    scene::Soil soil = rig::sand(35);
+    scene::Soil soil = plain_sand(35);
     soil.swell = 2;  // far away: what is measured is nearly bank soil
     soil.dilatancy_angle = radians(psi);
     soil.loosening_strain = 100;
@@ -142,7 +151,7 @@ TEST(SoilLaw, DenseSoilDilatesByItsAngleAtItsFrictionAngleUntilItIsLoose) {
                 "plane-strain match with dilatancy");
     EXPECT_NEAR(box.mobilised(), std::sin(radians(35)), 0.01 * std::sin(radians(35)));
   }
-  scene::Soil soil = rig::sand(35);
+  scene::Soil soil = plain_sand(35);
   soil.swell = 1.1;
   soil.dilatancy_angle = radians(12);
   soil.loosening_strain = 100;
@@ -208,7 +217,7 @@ TEST(SoilLaw, PressureCompactsForGoodAlongItsLineAndUnloadsElastically) {
 }
 
 TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
-  scene::Soil soil = rig::sand(30);
+  scene::Soil soil = plain_sand(30);
   soil.fast_friction_angle = radians(40);
   soil.grain_diameter = 0.002;
   for (const double rate : {0.01, 5.0, 50.0, 5000.0}) {
@@ -225,6 +234,106 @@ TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
                 "mu(I) [Jop 2006] on sin phi");
     EXPECT_NEAR(e.q() / e.pressure(), wanted, 1e-3 * wanted);
   }
+}
+
+/// Sheared in proportion to the diagonal `rates` [1/s], which sum up to 0, at a constant pressure until it flows.
+Element sheared(const scene::Soil& soil, double pressure, const Vec3& rates) {
+  Element e{law_soil(soil, 0.1)};
+  e.soil.viscosity = 0;
+  e.j = 1 - pressure / e.soil.bulk;
+  for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = rates[axis];
+  for (int i = 0; i < 2000; ++i) e.step(1e-3);
+  return e;
+}
+
+/// Angle whose sine is (largest - least) / (largest + least) principal stress [deg].
+double mobilised_degrees(const Element& e) {
+  const auto [least, most] = std::minmax({-e.sigma[0], -e.sigma[1], -e.sigma[2]});
+  return std::asin((most - least) / (most + least)) * 180 / kPi;
+}
+
+TEST(SoilLaw, TriaxialStatesMobiliseTheAngleOfMatsuokaAndNakai) {
+  // I1 I2 / I3 of the plane-strain state fixes the surface; triaxial states of either sign with the same value have
+  // tan^2 phi_t = (I1 I2 / I3 - 9) / 8.
+  for (const double phi : {30.0, 35.0, 40.0}) {
+    const double s = std::sin(radians(phi)), kappa = (9 - 3 * s * s) / (1 - s * s);
+    const double expected = std::atan(std::sqrt((kappa - 9) / 8)) * 180 / kPi;
+    const Element compressed = sheared(plain_sand(phi), 20e3, Vec3(0.1, 0.1, -0.2));
+    const Element extended = sheared(plain_sand(phi), 20e3, Vec3(-0.1, -0.1, 0.2));
+    const std::string gate = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
+    const std::string name = ", phi " + std::to_string(phi).substr(0, 2) + ", mobilised angle [deg]";
+    print_value("triaxial compression" + name, mobilised_degrees(compressed), gate, source);
+    print_value("triaxial extension" + name, mobilised_degrees(extended), gate, source);
+    EXPECT_NEAR(mobilised_degrees(compressed), expected, 0.2);
+    EXPECT_NEAR(mobilised_degrees(extended), expected, 0.2);
+    EXPECT_GT(compressed.q(), 1.3 * extended.q()) << "the cone is no circle";
+  }
+}
+
+TEST(SoilLaw, PlaneStrainMobilisesItsFrictionAngleAsItDidOnACircularCone) {
+  for (const double phi : {30.0, 35.0, 40.0}) {
+    const Element e = sheared(plain_sand(phi), 20e3, Vec3(0.2, 0, -0.2));
+    EXPECT_NEAR(mobilised_degrees(e), phi, 0.01);
+  }
+}
+
+TEST(SoilLaw, StressesBetweenTriaxialStatesKeepTheInvariantsOfMatsuokaAndNakai) {
+  const double phi = 35, s = std::sin(radians(phi)), expected = (9 - 3 * s * s) / (1 - s * s);
+  for (const double lean : {-0.1, -0.07, -0.03, 0.02, 0.06, 0.1}) {
+    const Element e = sheared(plain_sand(phi), 20e3, Vec3(0.1, lean, -0.1 - lean));
+    const double a = -e.sigma[0], b = -e.sigma[1], c = -e.sigma[2];
+    // Of three Newton steps; the excess over 9 is what friction makes.
+    EXPECT_NEAR((a + b + c) * (a * b + b * c + c * a) / (a * b * c) - 9, expected - 9, 1e-3 * (expected - 9)) << lean;
+  }
+}
+
+TEST(SoilLaw, SoilWithoutFrictionHasOneCohesionInEveryDirection) {
+  scene::Soil soil = plain_sand(0);
+  soil.cohesion = soil.residual_cohesion = 5000;
+  for (const Vec3& rates : {Vec3(0.1, 0.1, -0.2), Vec3(-0.1, -0.1, 0.2), Vec3(0.1, 0, -0.1)})
+    EXPECT_NEAR(sheared(soil, 20e3, rates).q(), 5000, 1e-6);
+}
+
+TEST(SoilLaw, SoilThatHardlyShearsHasAStaticShareOfItsStrengthOnTop) {
+  scene::Soil soil = rig::sand(35);
+  soil.static_friction_share = 0.08;
+  // Shear rates sqrt(2 D : D) of 2 x the figure; from 0.1 /s on it is gone.
+  for (const double half : {0.01, 0.04, 0.05, 0.2}) {
+    Element e{law_soil(soil, 0.1)};
+    e.soil.viscosity = 0;
+    e.j = 1 - 5e3 / e.soil.bulk;
+    e.c[0] = half;
+    e.c[8] = -half;
+    for (int i = 0; i < 4000; ++i) e.step(1e-2 * 0.05 / half);
+    const double share = 0.08 * std::max(1 - 2 * half / 0.1, 0.0);
+    EXPECT_NEAR(e.q() / (std::sin(radians(35)) * e.pressure()), 1 + share, 1e-3) << half;
+  }
+}
+
+TEST(SoilLaw, ClosedSoilsVolumeIsDampedInTheStressAndNotInTheYield) {
+  const scene::Soil soil = plain_sand(35);
+  const double zeta = 0.5 * soil.bank_density * sound_speed(soil) * 0.1;
+  Element e{law_soil(soil, 0.1)};
+  e.j = 1 - 5e3 / e.soil.bulk;
+  for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = -0.2;
+  e.c[2] = 40;  // far over the yield stress in one step
+  e.step(1e-3);
+  const double still = e.soil.bulk * (1 - e.j);
+  EXPECT_NEAR(e.pressure(), still + zeta * 0.6, 1e-9 * still);
+  EXPECT_NEAR(e.q(), std::sin(radians(35)) * still, 1e-9 * still);
+  // Both signs, but never tension; opened soil carries nothing, however fast it closes.
+  for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = 0.02;
+  e.c[2] = 0;
+  e.step(1e-3);
+  EXPECT_NEAR(e.pressure(), e.soil.bulk * (1 - e.j) - zeta * 0.06, 1e-9 * still);
+  for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = 1;
+  e.step(1e-4);
+  EXPECT_LT(e.j, e.j0);
+  EXPECT_NEAR(e.pressure(), 0, 1e-9 * still);  // but for the deviator's rounding
+  e.j = 1.01;
+  for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = -1;
+  e.step(1e-4);
+  EXPECT_NEAR(e.pressure(), 0, 1e-9 * still);
 }
 
 TEST(SoilLaw, TurningWithoutStrainTurnsTheStress) {

@@ -63,10 +63,12 @@ struct Stages {
     near.split = device::Buffer<std::int32_t>(rig::Rig::device(), 1);
     near.velocity1 = device::Buffer<float>(rig::Rig::device(), 16);
   }
-  void enqueue_scatter() { scatter.enqueue(store, report, kStageStep, kStageCell); }
-  void enqueue_grid(const Vec3& dv) { grid.enqueue(store, scatter, near, dv); }
+  void enqueue_scatter() { scatter.enqueue(store, report, kStageStep, kStageCell, false); }
+  void enqueue_grid(const Vec3& dv) { grid.enqueue(store, scatter, near, dv, false); }
+  /// And the transfer's end.
   void enqueue_gather() {
-    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, kStageCell);
+    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, 0.25, kStageCell);
+    gather.enqueue_end(store);
   }
 
   std::vector<scene::Soil> soils;

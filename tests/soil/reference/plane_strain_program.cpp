@@ -19,11 +19,11 @@ const char* const kHelp =
     "  shear   shear cell: speed (0.3 m/s), stress (3000 Pa), strain (0.5)\n"
     "  rest    bed at rest: height (1 m), time (3 s)\n"
     "  wave    share of a shear wave that one transfer keeps: cells (8)\n"
-    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), swell (1.25). cell (0.1 m),\n"
-    "courant (0.5).\n"
-    "Method, the kernels' own unless said: contact=fraction|kinematic, crowding=closing|shear|none, mixing=1|0, "
+    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), swell (1.25),\n"
+    "static (0.1). cell (0.1 m), courant (0.5).\n"
+    "Method, the kernels' own unless said: contact=kinematic|fraction, crowding=closing|shear|none, mixing=1|0, "
     "hold=1\n"
-    "(steps a transfer), motion=0.2 (cells at most), bulk=0 (damping), lode=0|1, static=0 (share), rate=0.1 (1/s).\n";
+    "(steps a transfer), motion=0.2 (cells at most).\n";
 
 std::map<std::string, std::string> keys;
 
@@ -46,17 +46,13 @@ double number(const std::string& key, double otherwise) {
 
 PlaneMethod method() {
   PlaneMethod out;
-  if (text("contact", "fraction") == "kinematic") out.contact = PlaneMethod::Contact::kKinematic;
+  if (text("contact", "kinematic") == "fraction") out.contact = PlaneMethod::Contact::kFraction;
   const std::string crowding = text("crowding", "closing");
   if (crowding == "shear") out.crowding = PlaneMethod::Crowding::kShear;
   if (crowding == "none") out.crowding = PlaneMethod::Crowding::kNone;
   out.mixing = number("mixing", 1) != 0;
   out.hold = static_cast<int>(number("hold", 1));
   out.most_motion = number("motion", 0.2);
-  out.bulk_damping = number("bulk", 0);
-  out.matsuoka_nakai = number("lode", 0) != 0;
-  out.static_share = number("static", 0);
-  out.static_rate = number("rate", 0.1);
   return out;
 }
 
@@ -69,6 +65,7 @@ scene::Soil soil_of_keys() {
   out.cohesion = number("c", 0);
   out.residual_cohesion = number("residual", out.cohesion);
   out.swell = number("swell", 1.25);
+  out.static_friction_share = number("static", 0.1);
   return out;
 }
 

@@ -52,21 +52,22 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
                                s.ramp,
                                s.edge,
                                s.edge_ramp,
-                               kDt * sound_speed(soil) / (s.reference * cell),
                                kDt * cell * cell,
-                               s.opening * std::sqrt(kGravity * cell)};
+                               s.opening * std::sqrt(kGravity * cell),
+                               s.settling * std::sqrt(kGravity * cell)};
   const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), s, cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;
-    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0};
+    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0};
     node.mu = std::tan(soil.tool_friction_angle);
-    node.b = reference::contact_weight(clearance, inset, &reach);
-    if (!(node.b > 0)) return Vec3(Vec3::Zero());
+    node.share = reference::contact_share(clearance, inset, &reach);
+    node.settling = reference::contact_settling(clearance, &reach);
+    if (!(node.share > 0)) return Vec3(Vec3::Zero());
     const double touch =
         reference::contact_touch(mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance)));
     const double area = factor * touch * reference::contact_area(clearance, inset, &reach);
-    node.stick = reference::contact_stick(soil.adhesion, area, node.b, &reach);
+    node.stick = reference::contact_stick(soil.adhesion, area, &reach);
     const Vec3 j = reference::impulse_on(node, reach.opening);
     on_soil += j;
     return j;

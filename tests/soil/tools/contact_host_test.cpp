@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shares that nodes have in a contact: weights and areas, in doubles.
+// What a plate and a node do to each other: shares, areas, impulses, in doubles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace navvy::soil {
 namespace {
 
 using reference::contact_area;
-using reference::contact_weight;
+using reference::contact_share;
 using reference::ContactNode;
 using reference::impulse_on;
 using reference::Reach;
 
-Reach shipped(double rate = 1) {
+Reach shipped() {
   const ContactSettings s;
-  return {s.reach, s.ramp, s.edge, s.edge_ramp, rate, 1, s.opening};
+  return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling};
 }
 
 /// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide) with two free edges.
@@ -61,33 +61,90 @@ TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
   EXPECT_NEAR(factor * mean / (length * width), 1, 0.01);
 }
 
-TEST(ContactLaw, ANodeThatHasAreaHasWeight) {
-  // The shear that adhesion holds is divided by the weight.
-  const Reach r = shipped(0.4);
+TEST(ContactLaw, ANodeThatHasAreaHasAShare) {
+  // Without one it is no contact, and what its area holds in shear would be lost.
+  const Reach r = shipped();
   for (double clearance = -2; clearance <= 2; clearance += 0.01)
     for (double inset = 0; inset <= 3; inset += 0.05) {
       if (contact_area(clearance, inset, &r) <= 1e-6) continue;
-      EXPECT_TRUE(contact_weight(clearance, inset, &r) > 0 || inset < r.edge) << clearance << " " << inset;
+      EXPECT_GT(contact_share(clearance, inset, &r), 0) << clearance << " " << inset;
     }
 }
 
 TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
-  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0.4, 0.3};
+  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3};  // a share changes none of it
   double opening = 0;
   const Vec3 sliding = impulse_on(node, opening);
-  EXPECT_NEAR(sliding.z(), 0.5 * 0.2, 1e-12);
-  EXPECT_NEAR(sliding.x(), -0.5 * (0.3 + 0.4 * 0.2), 1e-12);
+  EXPECT_NEAR(sliding.z(), 0.2, 1e-12);
+  EXPECT_NEAR(sliding.x(), -(0.3 + 0.4 * 0.2), 1e-12);
   node.v = Vec3(0.1, 0, -0.1);
-  EXPECT_NEAR(impulse_on(node, opening).x(), -0.5 * 2 * 0.1, 1e-12) << "sticks: no more than stops it";
+  EXPECT_NEAR(impulse_on(node, opening).x(), -2 * 0.1, 1e-12) << "sticks: no more than stops it";
   node.v = Vec3(1, 0, 0.1);
   opening = 0.05;
   EXPECT_EQ(impulse_on(node, opening), Vec3(Vec3::Zero())) << "no pull, and no shear once it lets go";
   node.v.z() = 0.04;
-  EXPECT_NEAR(impulse_on(node, opening).x(), -0.5 * 0.3, 1e-12) << "adhesion needs no push";
+  EXPECT_NEAR(impulse_on(node, opening).x(), -0.3, 1e-12) << "adhesion needs no push";
   EXPECT_EQ(impulse_on(node, opening).z(), 0);
   node.v = Vec3(1, 0, -0.1);
   node.mu = node.stick = 0;
   EXPECT_EQ(impulse_on(node, opening).x(), 0) << "a smooth tool feels no shear";
+}
+
+TEST(ContactLaw, ACoveredPartOfANodeKeepsUpWithItsShareOfAnAdvancingPlate) {
+  // Four tenths covered, 2 kg, the plate advances at 0.5 m/s: soil from 0.2 m/s on is left alone.
+  const Vec3 advance(0, 0, 0.5);
+  ContactNode node{Vec3(0, 0, 0.2), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0, 0};
+  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 0, 1e-15);
+  node.v.z() = 0.1;
+  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.1, 1e-12) << "the whole mass, up to the share of the speed";
+  node.share = 1;
+  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.4, 1e-12) << "covered whole: the plate's speed";
+}
+
+TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
+  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.01, 0, 0, 0};
+  EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.3, 1e-12);
+  EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, -0.2)).z(), 2 * 0.1, 1e-12);
+  EXPECT_NEAR(impulse_on(node, 0, Vec3(0.7, 0, 0)).z(), 2 * 0.3, 1e-12) << "sideways is no advance";
+}
+
+TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAPlateThatStandsAndBearsItsWholeLoadMeanwhile) {
+  // 0.02 m/s are left to the node; what is more is taken from its whole mass, however slowly it came.
+  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0};
+  EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.28, 1e-12);
+  node.v.z() = -0.02;
+  EXPECT_NEAR(impulse_on(node, 0).z(), 0, 1e-15);
+  EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, 0.5)).z(), 2 * (0.2 + 0.02), 1e-12) << "a plate that advances: its share";
+  const Reach r = shipped();
+  EXPECT_EQ(reference::contact_settling(r.h - 0.5 * r.ramp, &r), 0) << "soil at the plate stands";
+  EXPECT_EQ(reference::contact_settling(r.h + 0.5 * r.ramp, &r), r.settling);
+}
+
+TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {
+  const Vec3 advance(0, 0, 0.5);
+  ContactNode node{Vec3(1, 0, 0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0.25, 0};
+  const Vec3 impulse = impulse_on(node, 0, advance);
+  EXPECT_NEAR(impulse.x(), -0.25 * impulse.z(), 1e-12);
+  node.mu = 1e3;
+  EXPECT_NEAR(impulse_on(node, 0, advance).x(), -2, 1e-12) << "the slip along the plate is stopped, not more";
+}
+
+TEST(ContactLaw, TheSlopeThatTheTwoWaySolveTakesIsThatOfTheImpulse) {
+  // Across the branches: nodes covered whole and in part, sticking and sliding, plates that advance and recede.
+  const double step = 1e-6;
+  for (const double share : {0.3, 1.0})
+    for (const double speed : {0.4, -0.4})
+      for (const double mu : {0.0, 1e3}) {
+        const ContactNode node{Vec3(0.2, 0, -0.6), Vec3::Zero(), Vec3::UnitZ(), 2, share, 0, mu, 0};
+        reference::ContactBranch branch;
+        const auto at = [&](const Vec3& v) { return reference::contact_impulse(&node, Vec3::Zero(), v, 0, &branch); };
+        const Vec3 plate(0, 0, speed);
+        const Vec3 along = (at(plate + Vec3(step, 0, 0)) - at(plate)) / step;
+        const Vec3 across = (at(plate + Vec3(0, 0, step)) - at(plate)) / step;
+        EXPECT_NEAR(across.z(), node.m * branch.held, 1e-6) << share << " " << speed;
+        EXPECT_NEAR(along.x(), branch.sticking ? node.m : 0.0, 1e-6) << share << " " << speed;
+        EXPECT_EQ(branch.held, speed > 0 ? share : 1.0);
+      }
 }
 
 }  // namespace
