@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worlds side by side, each in a thread of its own with a device of its own: `navvy_worlds SCENE SECONDS [SCENE
-// SECONDS]...` runs each for so long [s simulated] and prints its name, steps and state hash. What `./dev sanitize`
-// runs under ThreadSanitizer and AddressSanitizer.
+// SECONDS]...` runs each for so long [s simulated] and prints its name, steps and state hash. For builds under
+// ThreadSanitizer and AddressSanitizer.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
