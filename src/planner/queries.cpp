@@ -18,7 +18,8 @@ struct Patch {
 
 /// Whether W (x, y) is on the site, its edge included; false for what is no number.
 bool on_site(const TerrainMap& map, double x, double y) {
-  const Vec2 low = map.origin(), high = low + map.cell() * Vec2(map.nx(), map.ny());
+  const Vec2& low = map.origin();
+  const Vec2 high = low + map.cell() * Vec2(map.nx(), map.ny());
   return x >= low.x() && y >= low.y() && x <= high.x() && y <= high.y();
 }
 
