@@ -241,7 +241,6 @@ const std::vector<Parameter> kBlade = {
     {"depth", 0.3, "m", "of the lip under the ground", above(0)},
     {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright", between(15, 150)},
     {"speed", 0.3, "m/s", "ahead", above(0)},
-    {"courant", 0.5, "", "step as a share of cell / sound speed", between(0.05, 0.65)},
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
     {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
