@@ -66,7 +66,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   // The first word with a dash that nobody knows; what follows it may be its value.
   for (int i = 2; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    if (word.rfind("-", 0) == 0 && std::find(known.begin(), known.end(), word) == known.end() && word.size() > 2)
+    if (!word.empty() && word.front() == '-' && std::find(known.begin(), known.end(), word) == known.end() &&
+        word.size() > 2)
       return "'" + word + "' is no option of `navvy " + chosen->get_name() + "`; " + suggestion(word, known) + " " +
              where;
   }
@@ -133,6 +134,7 @@ int run(int argc, char** argv) {
   const auto is_chosen = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_chosen)) {
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     std::cerr << "error: '" << argv[1] << "' is no command; " << suggestion(argv[1], names) << " (navvy --help)\n";
     return cli::kBadInput;

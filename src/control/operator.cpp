@@ -12,7 +12,7 @@
 namespace navvy::control {
 
 struct Operator::State {
-  State(const scene::Machine& machine, const scene::Program& program_in, std::string name_in);
+  State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in);
 
   // Activities refer to the steps and to the workplace: all three keep their addresses, as the state does not move.
   const scene::Program program;
@@ -42,9 +42,9 @@ struct Operator::State {
   void note(const Command& out);
 };
 
-Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, std::string name_in)
+Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in)
     : program(program_in),
-      name(name_in.empty() ? machine.name : std::move(name_in)),
+      name(name_in.empty() ? machine.name : name_in),
       place(machine),
       commanded(machine.joints.size()) {
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));

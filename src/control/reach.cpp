@@ -26,13 +26,13 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 }
 
 ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-                       const SurfaceView& surface_in, std::string file, std::string name)
+                       const SurfaceView& surface_in, std::string file, const std::string& name)
     : machine(machine_in),
       surface(surface_in),
       X_WB(X_WB_at_start),
       program_(program),
       file_(std::move(file)),
-      name_(name.empty() ? machine_in.name : std::move(name)) {}
+      name_(name.empty() ? machine_in.name : name) {}
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {

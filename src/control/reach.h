@@ -23,7 +23,7 @@ class ReachCheck {
   /// `file`, the program's lines and the machine's `name` in the scene are for messages. The machine stands at
   /// `X_WB_at_start`.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-             const SurfaceView& surface_in, std::string file, std::string name);
+             const SurfaceView& surface_in, std::string file, const std::string& name);
 
   const scene::Machine& machine;  ///< whose program it is
   const SurfaceView& surface;     ///< what digs and drives look at
