@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -18,17 +19,9 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// A handler may do no more than this: count, and wake the thread through a pipe.
 std::atomic<int> signals{0};
 int wake[2] = {-1, -1};
-struct sigaction before[3];
-
-extern "C" void on_stop(int) {
-  ++signals;
-  const char byte = 0;
-  // A full pipe holds enough to wake whoever reads it.
-  if (::write(wake[1], &byte, 1) < 0) return;
-}
+sigset_t before;
 
 [[noreturn]] void leave() {
   record::leave_last_words("interrupted",
@@ -41,17 +34,23 @@ extern "C" void on_stop(int) {
 
 }  // namespace
 
+// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which delete what they
+// are writing before they pass the signal on, and the build then fails as if the kernels were wrong. Blocked here,
+// before any other thread is there to inherit it, the signals wait for the one thread that asks for them.
 StopSignals::StopSignals() {
   signals = 0;
   if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
-  struct sigaction action = {};
-  action.sa_handler = on_stop;
-  action.sa_flags = SA_RESTART;
-  for (int i = 0; i < 3; ++i) {
-    sigaction(kSignals[i], nullptr, &before[i]);
-    if (kSignals[i] == SIGHUP && before[i].sa_handler == SIG_IGN) continue;
-    sigaction(kSignals[i], &action, nullptr);
+  sigset_t wanted;
+  sigemptyset(&wanted);
+  for (const int signal : kSignals) {
+    struct sigaction now = {};
+    sigaction(signal, nullptr, &now);
+    if (signal != SIGHUP || now.sa_handler != SIG_IGN) sigaddset(&wanted, signal);
   }
+  pthread_sigmask(SIG_BLOCK, &wanted, &before);
+  signals_ = signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK);
+  // Without a file to wait on (none left) the signals do what they did before.
+  if (signals_ < 0) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   watcher_ = std::thread([this] { watch(); });
 }
 
@@ -60,9 +59,8 @@ StopSignals::~StopSignals() {
   const char byte = 0;
   if (::write(wake[1], &byte, 1) < 0) over_ = true;  // the thread looks up by itself
   watcher_.join();
-  for (int i = 0; i < 3; ++i) sigaction(kSignals[i], &before[i], nullptr);
-  ::close(wake[0]);
-  ::close(wake[1]);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
 }
 
 bool StopSignals::asked() { return signals > 0; }
@@ -71,12 +69,11 @@ void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point first{};
   while (!over_) {
-    pollfd in{wake[0], POLLIN, 0};
+    pollfd in[] = {{signals_, POLLIN, 0}, {wake[0], POLLIN, 0}};
     // Asleep until a signal comes; from then on it looks often.
-    poll(&in, 1, signals > 0 ? 50 : 1000);
-    char bytes[64];
-    while (::read(wake[0], bytes, sizeof bytes) > 0) {
-    }
+    poll(in, 2, signals > 0 ? 50 : 1000);
+    signalfd_siginfo what{};
+    while (::read(signals_, &what, sizeof what) == sizeof what) ++signals;
     if (over_ || signals == 0) continue;
     if (first == Clock::time_point{}) first = Clock::now();
     if (signals > 1 || (!obeyed_ && Clock::now() - first > std::chrono::milliseconds(kPatience))) leave();

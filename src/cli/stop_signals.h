@@ -14,9 +14,10 @@ namespace navvy::cli {
 /// that says "interrupted" and ends the process with status 130. So does a second signal, at once.
 class StopSignals {
  public:
-  /// SIGHUP stays ignored where it was (nohup).
+  /// To be made before any other thread, which inherits that these signals are not for it. SIGHUP stays ignored where
+  /// it was (nohup).
   StopSignals();
-  /// Puts back what the process did before at these signals.
+  /// From here on the process does at these signals what it did before.
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
@@ -32,6 +33,7 @@ class StopSignals {
   void watch();
 
   std::atomic<bool> obeyed_{false}, over_{false};
+  int signals_ = -1;  ///< file that the signals are read from
   std::thread watcher_;
 };
 

@@ -6,12 +6,24 @@
 #include <cstdint>
 
 namespace navvy::cli {
+namespace {
 
-std::string above_zero(const std::string& text) {
+/// The number that the whole text is; NaN when it is none, or not finite.
+double number(const std::string& text) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool ok = code == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value > 0;
-  return ok ? "" : "'" + text + "': must be a number above 0";
+  return code == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? value : NAN;
+}
+
+}  // namespace
+
+// A NaN compares as false.
+std::string above_zero(const std::string& text) {
+  return number(text) > 0 ? "" : "'" + text + "': must be a number above 0";
+}
+
+std::string not_negative(const std::string& text) {
+  return number(text) >= 0 ? "" : "'" + text + "': must be a number, 0 or above";
 }
 
 std::string whole_number(const std::string& text) {

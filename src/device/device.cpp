@@ -176,6 +176,7 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device::State::~State() {
+  if (lost) return;
   // Buffers, programs and kernels hold the state, so nothing of them is alive here; what is still queued is waited for,
   // because releasing a queue does not.
   if (queue != nullptr) clFinish(queue);

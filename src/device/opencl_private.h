@@ -23,6 +23,7 @@ struct Device::State {
   cl_context context = nullptr;
   cl_command_queue queue = nullptr;
   bool profiling = false;
+  bool lost = false;              ///< the driver threw within itself and keeps its locks: nothing is released any more
   std::uint64_t memory_used = 0;  ///< by buffers [bytes]
   // An event holds driver memory, so the list is emptied when it is long and at every wait.
   std::vector<std::pair<std::string, cl_event>> events;  ///< launches not yet added to `times`

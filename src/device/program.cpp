@@ -19,7 +19,7 @@ struct Program::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (program != nullptr) clReleaseProgram(program);
+    if (program != nullptr && !device->lost) clReleaseProgram(program);
   }
 };
 
@@ -36,7 +36,7 @@ struct Kernel::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (kernel != nullptr) clReleaseKernel(kernel);
+    if (kernel != nullptr && !program->device->lost) clReleaseKernel(kernel);
   }
 };
 
@@ -64,12 +64,14 @@ std::string build_log(cl_program program, const Device::State& device) {
 }
 
 /// Compilers are written in C++ and take what they need by `new`: out of memory they throw through the driver's C code,
-/// which then keeps its locks for ever. The program is given up with them: releasing it would wait for one.
+/// which then keeps its locks for ever. All that the driver made is given up with them: releasing any program, also one
+/// that was built before, would wait for one.
 cl_int build_or_give_up(Program::State& state, const std::string& flags) {
   try {
     return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
   } catch (const std::exception& error) {
     state.program = nullptr;
+    state.device->lost = true;
     throw DeviceError("the OpenCL driver failed within itself (" + std::string(error.what()) +
                           ") while it built kernels/" + state.name + "; is there memory left?",
                       CL_OUT_OF_HOST_MEMORY);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fault/attack.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -56,14 +58,60 @@ std::vector<std::pair<std::string, std::string>> environment_of(const Attack& wi
   return out;
 }
 
-/// Exit status of the process, or minus its signal, whether it ended by itself or was killed at `limit` [s]; true when
-/// it was killed.
-bool wait_or_kill(pid_t child, double limit, int& status) {
+/// A device that gave no memory: status 3, words that say so, and a summary with books that are closed. Nothing is
+/// wrong with a run that ended before it had a summary.
+std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& got) {
+  if (got.status != 3) return "ended with " + std::to_string(got.status);
+  if (got.said.find("clCreateBuffer") == std::string::npos) return "does not name what failed";
+  if (got.said.find("incomplete") != std::string::npos) return "its results are incomplete";
+  if (got.summary.empty()) return "";
+  if (got.summary != "failed") return "the summary says '" + got.summary + "'";
+  const auto units = summary.value("/mass_ledger/error_units"_json_pointer, nlohmann::json(-1));
+  return units == 0 ? "" : "the mass ledger is open: " + units.dump();
+}
+
+/// Processor time that a process has had [s]; 0 when it is gone.
+double processor_time(pid_t process) {
+  const std::string text = text_of("/proc/" + std::to_string(process) + "/stat");
+  // Behind the name, which may hold anything but ends in the last bracket, the 12th and 13th word.
+  std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::string word;
+  for (int i = 0; i < 11; ++i) words >> word;
+  double user = 0, system = 0;
+  words >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Whether a process still gets on: a machine that is full of others gives it a second of a processor in minutes, and
+/// one that hangs uses none, or more than its patience.
+class Patience {
+ public:
+  Patience(pid_t process, double limit) : process_(process), limit_(limit) {}
+  bool ended(double spent) {
+    if (spent < until_ + limit_) return false;
+    const double had = processor_time(process_);
+    const bool gets_on = had > had_ + kStirs && had < limit_;
+    until_ = spent;
+    had_ = had;
+    return !gets_on;
+  }
+
+ private:
+  static constexpr double kStirs = 0.1;  // [s] of a processor
+  pid_t process_;
+  double limit_, until_ = 0, had_ = 0;
+};
+
+/// Exit status of the process, or minus its signal, whether it ended by itself or was killed, at `kill_after` [s] where
+/// that is not 0 and else when it has hung for `patience` [s]; true when it was killed.
+bool wait_or_kill(pid_t child, double kill_after, double patience, int& status) {
   const auto begun = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };
+  Patience left(child, patience);
+  const auto over = [&] { return kill_after > 0 ? spent() >= kill_after : left.ended(spent()); };
   int raw = 0;
   pid_t ended = 0;
-  while ((ended = waitpid(child, &raw, WNOHANG)) == 0 && spent() < limit)
+  while ((ended = waitpid(child, &raw, WNOHANG)) == 0 && !over())
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   if (ended == 0) kill(child, SIGKILL);
   if (ended == 0) waitpid(child, &raw, 0);
@@ -116,7 +164,7 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
   const pid_t child =
       test::start({NAVVY_PROGRAM, all, environment_of(with), "/dev/null", "/dev/null", folder + "/stderr"});
   Outcome got;
-  const bool cut = wait_or_kill(child, with.kill_after > 0 ? with.kill_after : with.patience, got.status);
+  const bool cut = wait_or_kill(child, with.kill_after, with.patience, got.status);
   got.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   got.said = text_of(folder + "/stderr");
   const auto summary = nlohmann::json::parse(text_of(out + "/summary.json"), nullptr, false);
@@ -137,6 +185,8 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
     got.broken = "said nothing";
   else if (got.said.find("internal error") != std::string::npos)
     got.broken = "an internal error";
+  else if (with.fault.rfind("buffer", 0) == 0)
+    got.broken = broken_by_full_device(summary, got);
   else if (got.summary == "running")
     got.broken = "the summary still says running";
   else if (got.status == 0 && got.summary != "finished" && got.summary != "incomplete")  // --duration cuts it off
@@ -158,9 +208,9 @@ std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
   std::istringstream lines(text_of(file));
   std::string name;
   long count = 0;
-  // Programs that the driver starts tell theirs as well, before; the last five lines are navvy's own.
+  // Programs that the driver starts tell theirs as well, before; the last lines, one a kind of call, are navvy's own.
   while (lines >> name >> count) out.emplace_back(name, count);
-  if (out.size() > 5) out.erase(out.begin(), out.end() - 5);
+  if (out.size() > kKinds) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(kKinds));
   return out;
 }
 

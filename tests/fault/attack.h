@@ -2,6 +2,7 @@
 // One attack on a run, and the verdict on what it left. Used by the tests and by the campaign.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,7 @@ struct Attack {
   std::string fault;      ///< as the shim's NAVVY_FAULT; empty: none
   std::string hang;       ///< as its NAVVY_HANG
   double kill_after = 0;  ///< SIGKILL after so many seconds; 0: none
-  double patience = 300;  ///< [s] after which a run that has not ended by itself counts as hung and is killed
+  double patience = 300;  ///< [s] without any processor time, or with as much of it, count as hung: killed
   std::vector<std::pair<std::string, std::string>> environment;
 };
 
@@ -37,6 +38,9 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
 /// Why the files of a run are not whole; empty when they are. Tables of one that was `killed` may end in a line without
 /// its end, which readers leave out.
 std::string broken_files(const std::string& out, bool killed = false);
+
+/// Kinds of calls that the shim counts and lets fail: open, write, fsync, rename, new, buffer.
+constexpr std::size_t kKinds = 6;
 
 /// How often the calls that the shim counts were made in the run, by name.
 std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole campaign (`./dev fault`): every open, write, fsync and rename of a small run fails once, some hundred times
-// our own memory, some hundred kills while it compiles and draws. Goes on where it stopped; its table stands in a CSV.
+// The whole campaign (`./dev fault`): every open, write, fsync and rename of a small run fails once, every buffer on
+// the device, some hundred times our own memory, some hundred kills while it compiles and draws. Goes on where it
+// stopped; its table stands in a CSV.
 //
 // An attack costs what it takes to start the program, three tenths of a second of a core: the run itself is a fifth of
 // that, and its kernels come out of a cache that all attacks of a lane share unless the attack is on compiling.
@@ -132,11 +133,9 @@ class Lane {
 };
 
 std::vector<std::string> Lane::all() const {
-  const std::map<std::string, std::vector<std::string>> codes = {{"open", {"EMFILE"}},
-                                                                 {"write", {"ENOSPC", "EIO"}},
-                                                                 {"fsync", {"EIO", "ENOSPC"}},
-                                                                 {"rename", {"EIO", "ENOSPC"}},
-                                                                 {"new", {"ENOMEM"}}};
+  const std::map<std::string, std::vector<std::string>> codes = {
+      {"open", {"EMFILE"}},          {"write", {"ENOSPC", "EIO"}}, {"fsync", {"EIO", "ENOSPC"}},
+      {"rename", {"EIO", "ENOSPC"}}, {"new", {"ENOMEM"}},          {"buffer", {"ENOMEM"}}};
   std::vector<std::string> out;
   for (const auto& [call, count] : count_calls(folder_, plain_, none_)) {
     const long step = call == "new" ? std::max(1L, count / kAllocations) : 1;

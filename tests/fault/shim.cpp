@@ -2,13 +2,14 @@
 // Preloaded into a program, makes one of its calls fail, or its OpenCL driver hang.
 //
 // NAVVY_FAULT=call:n:errno makes the n-th call (from 1) fail; call:n+:errno that one and all after it. `call` is open,
-// write, fsync, rename (each with its relatives; write of regular files only) or new (operator new called from the
-// program's own code, by whatever thread, once main has begun: sigaltstack tells). With n+ and write, what lies within
+// write, fsync, rename (each with its relatives; write of regular files only), new (operator new called from the
+// program's own code, by whatever thread, once main has begun: sigaltstack tells) or buffer (clCreateBuffer, which says
+// that the device has no memory left, whatever the errno). With n+ and write, what lies within
 // a file's present size still succeeds, as on a full disk. NAVVY_FAULT_COUNT=FILE appends the number of calls of each
 // kind when the program ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the
 // OpenCL driver hang in its n-th build of a program and in those after it; NAVVY_HANG=wait:n:seconds in the calls that
-// wait for the device; NAVVY_HANG=thrown:n:seconds throws out of the n-th build, and hangs where its program is
-// released.
+// wait for the device; NAVVY_HANG=thrown:n:seconds throws out of the n-th build, and hangs where any program is
+// released from then on.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -31,8 +32,8 @@
 
 namespace {
 
-enum Call { kOpen, kWrite, kFsync, kRename, kNew, kCalls };
-const char* const kNames[kCalls] = {"open", "write", "fsync", "rename", "new"};
+enum Call { kOpen, kWrite, kFsync, kRename, kNew, kBuffer, kCalls };
+const char* const kNames[kCalls] = {"open", "write", "fsync", "rename", "new", "buffer"};
 
 std::atomic<long> counts[kCalls];
 int failing = -1;  // which call
@@ -139,7 +140,7 @@ void hang(const char* call) {
 
 }  // namespace
 
-#define NEXT(function) static const auto real = next<decltype(&function)>(#function)
+#define NEXT(function) static const auto real = next<decltype(&(function))>(#function)
 
 extern "C" {
 
@@ -222,6 +223,13 @@ int renameat(int from_folder, const char* from, int to_folder, const char* to) {
   return fails(kRename) ? -1 : real(from_folder, from, to_folder, to);
 }
 
+void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t size, void* host, int* result) {
+  static const auto real = next<void* (*)(void*, std::uint64_t, std::size_t, void*, int*)>("clCreateBuffer");
+  constexpr int kNoMemory = -4;  // CL_MEM_OBJECT_ALLOCATION_FAILURE
+  if (!fails(kBuffer)) return real(context, flags, size, host, result);
+  if (result != nullptr) *result = kNoMemory;
+  return nullptr;
+}
 int clFinish(void* queue) {
   static const auto real = next<int (*)(void*)>("clFinish");
   hang("wait");
@@ -244,7 +252,10 @@ int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, std::size_
 }
 int clReleaseProgram(void* program) {
   static const auto real = next<int (*)(void*)>("clReleaseProgram");
-  if (program == thrown_out_of) hang("thrown");
+  timespec left{600, 0};
+  // The lock is the compiler's: no program comes past it, whichever was thrown out of.
+  while (thrown_out_of != nullptr && nanosleep(&left, &left) != 0) {
+  }
   return real(program);
 }
 int clBuildProgram(void* program, unsigned count, const void* devices, const char* options, void* notify, void* data) {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "fault/attack.h"
 #include "folder.h"
@@ -27,10 +29,11 @@ using test::text_of;
 
 class Stop : public testing::Test {
  protected:
-  pid_t start(const std::string& hang) {
+  pid_t start(const char* hang) { return start({{"LD_PRELOAD", NAVVY_FAULT_SHIM}, {"NAVVY_HANG", hang}}); }
+  pid_t start(const std::vector<std::pair<std::string, std::string>>& environment) {
     return test::start({NAVVY_PROGRAM,
                         {"run", navvy::source_dir() + "/scenarios/bucket_path.sdf", "--no-render", "--out", out()},
-                        {{"LD_PRELOAD", NAVVY_FAULT_SHIM}, {"NAVVY_HANG", hang}},
+                        environment,
                         "/dev/null",
                         "/dev/null",
                         folder_ / "stderr"});
@@ -66,6 +69,20 @@ TEST_F(Stop, WhileTheDriverCompiles) {
   EXPECT_LT(seconds, kLongBefore);
   EXPECT_NE(complained().find("driver is busy"), std::string::npos) << complained();
   std::printf("SIGTERM while the driver compiles: %.2f s\n", seconds);
+}
+
+// The compiler inside the driver has handlers of its own, which delete the file it is writing: a build that failed for
+// that would be told as kernels that are wrong.
+TEST_F(Stop, WhileTheDriversOwnCompilerWorks) {
+  for (const int pause : {0, 700, 1400}) {  // [ms] after the folder was taken, just before the device
+    fs::remove_all(out());
+    const std::string cache = folder_ / ("cache" + std::to_string(pause));
+    const pid_t child = start({{"POCL_CACHE_DIR", cache}});
+    wait_for_file(out() + "/navvy.run");
+    std::this_thread::sleep_for(std::chrono::milliseconds(pause));
+    const auto [status, seconds] = send(child, SIGTERM);
+    EXPECT_EQ(status, 130) << pause << " ms: " << complained();
+  }
 }
 
 TEST_F(Stop, WhileTheDeviceDoesNotAnswer) {

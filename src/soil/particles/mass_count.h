@@ -18,6 +18,9 @@ class MassCount {
  public:
   MassCount(device::Device& device, std::size_t soils);
 
+  /// Makes room for a count of so many homes: a step asks before it queues its first kernel, so that a full device does
+  /// not stop it half-way. @throws DeviceError when there is none.
+  void make_room(std::size_t homes);
   /// Queues the count of what is stored now and its way to the host.
   void queue(ParticleStore& store);
   /// The sums of the last `queue`, once something queued after it was waited for; zeros when there are none.

@@ -147,7 +147,7 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
 }
 
 // Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
-int ParticleStore::lay_out(const std::vector<int>& counts) {
+void ParticleStore::lay_out(const std::vector<int>& counts) {
   homes_.assign(table_.homes.size(), Home{});
   int slot = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
@@ -157,17 +157,13 @@ int ParticleStore::lay_out(const std::vector<int>& counts) {
     slot += padded(counts[h]);
   }
   count_ = std::accumulate(counts.begin(), counts.end(), 0);
-  return slot;
 }
 
 void ParticleStore::upload_homes() {
-  fit(device_, homes_buffer_, homes_.size());
   homes_buffer_.write(homes_);
   std::vector<std::array<std::int32_t, 4>> keys(homes_.size());
   for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z, 0};
-  fit(device_, home_keys_, keys.size());
   home_keys_.write(keys);
-  fit(device_, home_surface_, homes_.size());
 }
 
 // Tiles are numbered anew: a home near a shell has three in a row.
@@ -222,10 +218,15 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
     }
     ++counts.back();
   }
+  // Room first, as in `rebin`: a store whose device is full holds what it held.
+  const int slots = slots_of(counts);
+  fit(device_, homes_buffer_, keys.size());
+  fit(device_, home_keys_, keys.size());
+  fit(device_, home_surface_, keys.size());
+  make_room(now_, slots, slots + slots / 2);
   // Sorted particles of one home stand together, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
-  const int slots = lay_out(counts);
-  make_room(now_, slots, slots + slots / 2);
+  lay_out(counts);
   {
     // Every slot of the runs is written, padding as well: kernels read whole packs.
     const auto view = state_[now_].map_update();

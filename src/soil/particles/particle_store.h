@@ -35,7 +35,8 @@ class ParticleStore {
   /// `site` = x and y of its lower left and its upper right corner in G [cells]; `soils` the constant table.
   ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<SoilRow>& soils);
 
-  /// Replaces everything; finds homes and sorts.
+  /// Replaces everything; finds homes and sorts. @throws DeviceError when the device has no room; then the store holds
+  /// what it held before, as after a `rebin` that throws.
   void assign(const std::vector<Particle>& particles) { place(sorted(particles)); }
   /// The same of particles that lie as `sorted` and `records` give them: Particle::block is the home to keep, homes
   /// ascend, and the order inside them stays.
@@ -73,11 +74,12 @@ class ParticleStore {
   static void visit(Archive& a, std::vector<Particle>& records, std::size_t soils);
 
  private:
-  int lay_out(const std::vector<int>& counts);
+  /// Homes of the table, with so many particles each. @pre the buffers have room.
+  void lay_out(const std::vector<int>& counts);
   /// The state arrays of a side hold at least `slots`, made for `wanted` when they must be made. Changes nothing when
   /// the device has no room.
   void make_room(int side, int slots, int wanted);
-  void upload_homes();
+  void upload_homes();  ///< @pre their buffers have room
   /// Mean over the particles of each home.
   std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
   std::vector<Particle> drop_outside();

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of `navvy run` that cannot come true are refused before the run, or end it with a status.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "cli/program_run.h"
+
+namespace navvy {
+namespace {
+
+class RunOptions : public test::ProgramRun {
+ protected:
+  /// A run of some steps, with more words.
+  int short_run(const std::vector<std::string>& more, const std::string& input = "") {
+    std::vector<std::string> words = {"run", kScene, "--no-render", "--duration", "0.05", "--out", out()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, input);
+  }
+  void expect_told(const std::string& part) const {
+    const std::string all = said() + complained();
+    EXPECT_NE(all.find(part), std::string::npos) << all;
+  }
+  const std::string kScene = navvy::source_dir() + "/scenarios/bucket_path.sdf";
+  std::string snapshot() const { return (directory_ / "state.snapshot").string(); }
+};
+
+TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
+  EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "5"}), 2);
+  expect_told("the run lasts 0.05 s at most");
+  EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "-3"}), 2);
+  EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "nan"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(snapshot()));
+  EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.05"}), 0) << complained();
+  EXPECT_TRUE(std::filesystem::exists(snapshot()));
+  // There is nothing behind it.
+  EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
+  expect_told("nothing left to run");
+}
+
+TEST_F(RunOptions, ARunThatEndsBeforeTheSnapshotAskedForHasAStatusOfItsOwn) {
+  EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"}, "{\"end\": true}\n"),
+            4);
+  expect_told("before --snapshot-at 0.04");
+}
+
+TEST_F(RunOptions, AnEmptyFolderNameIsRefused) {
+  EXPECT_EQ(run({"run", kScene, "--out", ""}), 2);
+  expect_told("the folder's name is empty");
+}
+
+TEST_F(RunOptions, PipesAndFoldersAreToldAsWhatTheyAre) {
+  const std::string pipe = (directory_ / "pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(short_run({"--resume", pipe}), 2);
+  expect_told("it is a pipe");
+  EXPECT_EQ(run({"check", kScene, "--terrain", directory_.string()}), 2);
+  expect_told("it is a directory");
+}
+
+TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreToldBeforeTheyAreMadeUp) {
+  // A column that no ground is as high as, and no word on what that means.
+  const std::string map = (directory_ / "map.asc").string();
+  std::string text = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) text += column == 7 ? "1e38 " : "1.5 ";
+    text += "\n";
+  }
+  std::ofstream(map) << text;
+  const std::string scene = navvy::source_dir() + "/scenarios/block_collapse.sdf";
+  EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
+  expect_told("15 of 225 map cells under the site (6.67 %) have no height");
+  expect_told("15 of them hold no ground's height (1e+38)");
+  expect_told("0 errors, 1 warning");
+  // Declared it is a gap like others.
+  text.insert(text.find("1.5"), "NODATA_value 1e38\n");
+  std::ofstream(map) << text;
+  EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
+  EXPECT_EQ(said().find("hold no ground's height"), std::string::npos) << said();
+}
+
+TEST_F(RunOptions, ASnapshotOfAnotherSceneIsToldByBothNames) {
+  ASSERT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.02"}), 0) << complained();
+  const std::string other = navvy::source_dir() + "/scenarios/block_collapse.sdf";
+  for (const bool anyway : {false, true}) {
+    std::vector<std::string> words = {"run", other, "--no-render", "--out", out() + "2", "--resume", snapshot()};
+    if (anyway) words.push_back("--resume-anyway");
+    EXPECT_EQ(run(words), 2);
+    expect_told("'block_collapse'");
+    expect_told("bucket_path");
+    expect_told("--resume-anyway lets parameters of one scene differ");
+  }
+}
+
+}  // namespace
+}  // namespace navvy
