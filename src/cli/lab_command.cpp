@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `navvy lab`: one experiment on soil, its result as a table and as JSON.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,15 +14,16 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/lab_output.h"
 #include "cli/validators.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/math.h"
-#include "core/stopwatch.h"
 #include "device/device.h"
 #include "lab/rig.h"
 #include "lab/soils.h"
+#include "lab/sweep.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
 
@@ -34,9 +34,9 @@ namespace {
 struct SoilOption {
   const char* name;
   const char* help;
-  double scene::Soil::*value;  ///< null for the two that set more than one number or another one
-  double factor = 1;           ///< of what is given, for SI
-  std::optional<double> given = {};
+  double scene::Soil::*value;      ///< null for the two that set more than one number or another one
+  double factor = 1;               ///< of what is given, for SI
+  std::vector<double> given = {};  ///< more than one: an axis of a sweep
 };
 
 constexpr double kDegree = kPi / 180;
@@ -44,15 +44,16 @@ constexpr double kDegree = kPi / 180;
 /// What a person wrote; soil and geometry are worked out only when the command runs, so that a fault of one is not
 /// hidden behind a fault of the other in the parser.
 struct LabOptions {
-  std::string rig, device, json, soil;
-  std::optional<double> cell;
+  std::string rig, device, json, plot, soil;
+  std::vector<double> cell;                     ///< more than one: an axis of a sweep
   std::map<std::string, std::string> geometry;  ///< by Parameter::name, as written
   std::vector<SoilOption> soil_values = {
       {"--phi-deg", "friction angle phi (plane strain) [deg]", &scene::Soil::friction_angle, kDegree},
       {"--repose-deg", "angle of repose t instead of phi: sin phi = tan t [deg]", nullptr, kDegree},
       {"--cohesion-pa", "cohesion c, residual cohesion too unless the soil's is lower [Pa]", nullptr},
       {"--density", "bank density [kg/m3]", &scene::Soil::bank_density},
-      {"--young-pa", "Young's modulus, softened for speed [Pa]", &scene::Soil::young_modulus},
+      {"--young-pa", "Young's modulus, softened for speed; 200 x cohesion where that is more and none is given [Pa]",
+       &scene::Soil::young_modulus},
       {"--poisson", "Poisson's ratio [-]", &scene::Soil::poisson},
       {"--swell", "loose volume / bank volume [-]", &scene::Soil::swell},
       {"--dilatancy-deg", "dilatancy angle psi in bank state [deg]; needs a swell", &scene::Soil::dilatancy_angle,
@@ -64,7 +65,7 @@ struct LabOptions {
       {"--adhesion-pa", "adhesion of soil on tool [Pa]", &scene::Soil::adhesion},
   };
   std::vector<std::string> settings;  ///< NAME=VALUE of scene::soil_values
-  bool quiet = false;
+  bool quiet = false, energy = false;
 };
 
 constexpr std::size_t kWidth = 100;      ///< of the help [characters]
@@ -154,7 +155,7 @@ void set_value(scene::Soil& soil, const std::string& setting) {
 /// The value given for an option in SI units; kNone when it was not given.
 double given(const LabOptions& options, const std::string& name) {
   for (const SoilOption& option : options.soil_values)
-    if (name == option.name && option.given) return *option.given * option.factor;
+    if (name == option.name && !option.given.empty()) return option.given.front() * option.factor;
   return lab::kNone;
 }
 
@@ -162,6 +163,7 @@ double given(const LabOptions& options, const std::string& name) {
 scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   if (!options.soil.empty()) soil = shipped_soil(options.soil);
   // An angle of repose first: a phi given beside it wins.
+  const double cohesion_before = soil.cohesion;
   const double repose = given(options, "--repose-deg"), cohesion = given(options, "--cohesion-pa");
   if (!std::isnan(repose)) soil.friction_angle = lab::friction_from_repose(repose);
   if (!std::isnan(cohesion)) {
@@ -171,115 +173,105 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
       soil.residual_cohesion = cohesion;
   }
   for (const SoilOption& option : options.soil_values)
-    if (option.value != nullptr && option.given) soil.*option.value = *option.given * option.factor;
+    if (option.value != nullptr && !option.given.empty()) soil.*option.value = option.given.front() * option.factor;
   for (const std::string& setting : options.settings) set_value(soil, setting);
+  const bool stiff = std::any_of(options.settings.begin(), options.settings.end(),
+                                 [](const std::string& setting) { return setting.rfind("young_modulus_pa", 0) == 0; });
+  if (!stiff && std::isnan(given(options, "--young-pa"))) scene::follow_cohesion(soil, cohesion_before);
   return soil;
 }
 
-/// "farthest motion", "mm" -> "farthest_motion_mm".
-/// Keys of the JSON name the quantity and its unit, as scene files do:
-std::string key(const std::string& name, const std::string& unit) {
-  std::string out;
-  for (const char c : unit.empty() ? name : name + "_" + unit)
-    out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : c == '%' ? 'p' : '_';
+/// Shortest text that reads back as the same number.
+std::string exact_text(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// Every option that was given as a list, and where its values go.
+struct Lists {
+  std::vector<lab::SweepAxis> axes;
+  std::vector<std::function<void(LabOptions&, double)>> put;
+};
+
+Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
+  Lists out;
+  // In the rig's own order: the first one is what the picture is drawn over.
+  for (const lab::Parameter& parameter : rig.parameters) {
+    const std::string& name = parameter.name;
+    const auto given = options.geometry.find(name);
+    if (given == options.geometry.end()) continue;
+    const std::vector<std::string> parts = lab::listed("lab " + rig.name + " --" + name, given->second);
+    if (parts.size() < 2) continue;
+    lab::SweepAxis axis{name, parameter.unit, {}};
+    for (const std::string& part : parts) {
+      const std::optional<double> value = parameter.read(part);
+      if (!value) throw refused("lab " + rig.name + " --" + name, part, parameter.rule(), "");
+      axis.values.push_back(*value);
+    }
+    out.axes.push_back(axis);
+    out.put.emplace_back([name](LabOptions& one, double value) { one.geometry[name] = exact_text(value); });
+  }
+  if (options.cell.size() > 1) {
+    out.axes.push_back({"cell", "m", options.cell});
+    out.put.emplace_back([](LabOptions& one, double value) { one.cell = {value}; });
+  }
+  for (std::size_t i = 0; i < options.soil_values.size(); ++i) {
+    if (options.soil_values[i].given.size() < 2) continue;
+    out.axes.push_back({std::string(options.soil_values[i].name).substr(2), "", options.soil_values[i].given});
+    out.put.emplace_back([i](LabOptions& one, double value) { one.soil_values[i].given = {value}; });
+  }
   return out;
 }
 
-/// JSON knows no NaN: a quantity that could not be measured is null.
-nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
-
-/// Every number under its name in scene files.
-nlohmann::json soil_json(const scene::Soil& soil) {
-  nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
-  for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
-  return out;
-}
-
-/// Inputs first, so that a file says by itself what it is the result of.
-nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::Report& report) {
-  nlohmann::json out;
-  out["rig"] = rig.name;
-  out["version"] = NAVVY_VERSION;
-  // Results are repeatable bit for bit on one device only, so the device is part of them.
-  out["device"] = setup.device->info().text();
-  nlohmann::json& inputs = out["inputs"];
-  inputs["soil"] = soil_json(setup.soil);
-  inputs["cell_m"] = setup.cell;
-  for (const lab::Parameter& p : rig.parameters) inputs["geometry"][key(p.name, p.unit)] = setup[p.name];
-  for (const lab::Quantity& q : report.results) {
-    const std::string name = key(q.name, q.unit);
-    out["result"][name] = number(q.measured);
-    out["expected"][name] = number(q.expected);
-    // Absent where there is none, so that a reader need not tell a gate of nulls from no gate.
-    if (q.has_gate()) out["gate"][name] = {number(q.low), number(q.high)};
-    if (!q.source.empty()) out["source"][name] = q.source;
-    if (q.missed()) out["missed"].push_back(name);
-    // Of a gate that says nothing here: what it holds for.
-    if (!q.in_range) out["not_judged"][name] = q.range;
-  }
-  for (const lab::Series& s : report.series) {
-    nlohmann::json& values = out["series"][key(s.name, s.unit)] = nlohmann::json::array();
-    for (const double v : s.values) values.push_back(number(v));
-  }
-  out["particles_peak"] = report.particles_peak;
-  out["steps"] = report.steps;
-  out["simulated_time_s"] = report.simulated_time;
-  out["wall_time_s"] = report.wall_time;
-  out["ledger_error_quanta"] = report.ledger_error;
-  out["state_hash"] = report.state_hash;
-  return out;
-}
-
-/// Empty where there is no number.
-std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_text(value); }
-
-/// Results for a person: five digits, misses marked, how the run went in the lines below. A gate that holds for other
-/// setups only is told with what it holds for.
-void print_table(const lab::Report& report) {
-  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "gate", "source");
-  for (const lab::Quantity& q : report.results) {
-    const std::string gate = q.has_gate() ? text_of(q.low) + " .. " + text_of(q.high) : "";
-    std::printf("%-40s %14s %12s %-22s %s\n", (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
-                (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(), text_of(q.expected).c_str(),
-                (gate + (q.missed()   ? "  MISS"
-                         : q.in_range ? ""
-                                      : "  not judged"))
-                    .c_str(),
-                q.source.c_str());
-  }
-  for (const lab::Quantity& q : report.results)
-    if (!q.in_range) std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());
-  std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n", report.particles_peak,
-              static_cast<unsigned long long>(report.steps), report.simulated_time, report.wall_time,
-              static_cast<long long>(report.ledger_error), report.state_hash.c_str());
-}
-
-/// A line on a terminal with the share done; nothing when stderr is a file or pipe.
-std::function<void(double)> progress_line(bool quiet) {
-  if (quiet || isatty(STDERR_FILENO) == 0) return {};
-  // Carriage return and clearing code keep it one line; the last call wipes it.
-  return [watch = Stopwatch()](double share) {
-    std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share, watch.seconds() * (1 - share) / share);
-    if (share >= 1) std::fputs("\r\033[K", stderr);
-  };
-}
-
-/// Runs the experiment. A missed gate is a result like any other, but scripts want to know: it has a status of its own.
-int run_rig(const LabOptions& options) {
-  const lab::Rig& rig = lab::find_rig(options.rig);
-  // Before the run, which may take an hour.
-  if (!options.json.empty()) require_writable(options.json);
-  device::Device device(options.device);
+/// The setup of one run: every option has one value.
+lab::Setup setup_of(const LabOptions& options, const lab::Rig& rig, device::Device& device) {
   lab::Setup setup = lab::default_setup(rig, device);
   setup.soil = chosen_soil(options, setup.soil);
-  if (options.cell) setup.cell = *options.cell;
+  if (!options.cell.empty()) setup.cell = options.cell.front();
   lab::set_written(setup, options.geometry);
+  setup.energy = options.energy;
   setup.progress = progress_line(options.quiet);
-  const lab::Report report = rig.run(setup);
+  return setup;
+}
+
+/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any other, but scripts
+/// want to know: it has a status of its own.
+int run_rig(const LabOptions& options) {
+  const lab::Rig& rig = lab::find_rig(options.rig);
+  // Before the runs, which may take an hour.
+  for (const std::string& file : {options.json, options.plot})
+    if (!file.empty()) require_writable(file);
+  device::Device device(options.device);
+  const Lists lists = lists_of(options, rig);
+  if (!options.plot.empty() && lists.axes.empty())
+    throw refused("lab " + rig.name + " --plot", options.plot, "drawn over a list of values",
+                  "give some option more than one, as --cell 0.1,0.05");
+  std::vector<lab::Setup> setups;
+  for (const std::vector<double>& at : lab::combinations(lists.axes)) {
+    LabOptions one = options;
+    for (std::size_t i = 0; i < at.size(); ++i) lists.put[i](one, at[i]);
+    // All of them are checked before the first one runs.
+    setups.push_back(setup_of(one, rig, device));
+    lab::check(rig, setups.back());
+  }
+  lab::Sweep sweep{lists.axes, {}};
+  const auto places = lab::combinations(lists.axes);
+  nlohmann::json runs = nlohmann::json::array();
+  bool missed = false;
   std::printf("%s: %s\n", rig.name.c_str(), rig.summary.c_str());
-  print_table(report);
-  if (!options.json.empty()) write_file_atomically(options.json, to_json(rig, setup, report).dump(1) + "\n");
-  return report.missed() ? kGateMissed : kOk;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    sweep.runs.push_back({places[i], rig.run(setups[i])});
+    runs.push_back(to_json(rig, setups[i], sweep.runs.back().report));
+    missed = missed || sweep.runs.back().report.missed();
+  }
+  if (lists.axes.empty())
+    print_table(sweep.runs.front().report);
+  else
+    std::fputs(lab::text_of(lab::table_of(rig, sweep)).c_str(), stdout);
+  if (!options.json.empty())
+    write_file_atomically(options.json, (lists.axes.empty() ? runs.front() : runs).dump(1) + "\n");
+  if (!options.plot.empty()) write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
+  return missed ? kGateMissed : kOk;
 }
 
 /// Names an option that the rig does not have, with the nearest that it has.
@@ -343,19 +335,29 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")->group("Soil");
   // All rigs share the options of the soil; only one rig is run.
   for (SoilOption& value : options->soil_values)
-    command->add_option(value.name, value.given, described(value.help))->group("Soil");
+    command->add_option(value.name, value.given, described(value.help))
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->group("Soil");
   command
       ->add_option("--set", options->settings,
                    described("NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02; "
                              "repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(above_zero)
       ->default_str(lab::short_text(rig.default_cell));
   command->add_option("--device", options->device,
                       described("OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE "
                                 "decides"));
   command->add_option("--json", options->json, "write inputs, results and series to this file");
+  command->add_option("--plot", options->plot,
+                      described("draw the first result over the first list to this SVG file; any number takes a list, "
+                                "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
+  command->add_flag("--energy", options->energy,
+                    described("also tell where the soil's energy came from and went; takes two to four times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;

@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "soil/energy.h"
 
 namespace navvy::lab {
 
@@ -44,9 +47,10 @@ struct Report {
   std::vector<Series> series;
   int particles_peak = 0;
   std::uint64_t steps = 0;
-  double simulated_time = 0, wall_time = 0;  ///< [s]
-  std::int64_t ledger_error = 0;             ///< [kMassQuantum]; 0 = mass closed
-  std::string state_hash;                    ///< of the soil at the end, repeatable on one device
+  double simulated_time = 0, wall_time = 0;   ///< [s]
+  std::int64_t ledger_error = 0;              ///< [kMassQuantum]; 0 = mass closed
+  std::optional<soil::EnergyAccount> energy;  ///< of all beds, when the setup asks for it
+  std::string state_hash;                     ///< of the soil at the end, repeatable on one device
 
   /// Adds a result with a gate around the expected value. What it returns is good until the next is added.
   Quantity& add(const std::string& name, double measured, const std::string& unit, double expected, double low,

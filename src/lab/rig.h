@@ -26,6 +26,7 @@ struct Setup {
   scene::Soil soil;
   double cell = 0.1;                           ///< [m]
   std::map<std::string, double> geometry;      ///< by Parameter::name
+  bool energy = false;                         ///< the report shall tell the soil's energy, which takes time
   std::function<void(double share)> progress;  ///< called now and then with 0 .. 1; may be empty
 
   /// A parameter's value. @throws InputError naming the nearest parameter when the rig has none of this name.
@@ -50,8 +51,9 @@ struct Rig {
   std::vector<Example> examples;
   std::vector<Parameter> parameters;
   scene::Soil default_soil;
-  double default_cell = 0.1;                                  ///< [m]
-  Report (*experiment)(const Setup&) = nullptr;               ///< called by `run` after `check`
+  double default_cell = 0.1;                     ///< [m]
+  Report (*experiment)(const Setup&) = nullptr;  ///< called by `run` after `check`
+  std::vector<std::string> headline = {};  ///< results that tables of many runs show (lab/sweep.h), the drawn one first
   const Parameter* find(const std::string& parameter) const;  ///< null when there is none
 
   /// Checks the setup, then blocks until the experiment is over.

@@ -73,13 +73,16 @@ Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, 
     : device_(&device),
       world_(make_world(std::move(soils), cell, options)),
       ground_(make_ground(world_, options)),
-      crowding_(options.crowding) {
+      crowding_(options.crowding),
+      energy_(options.energy) {
   make_solver();
 }
 
 /// The usual way: what the setup holds, and nobody told of progress unless it wants to be.
 Site::Site(const Setup& setup, const SiteOptions& options) : Site(*setup.device, {setup.soil}, setup.cell, options) {
   progress_ = setup.progress;
+  energy_ = energy_ || setup.energy;
+  solver_->keep_energy(energy_);
 }
 
 void Site::make_solver() {
@@ -87,6 +90,7 @@ void Site::make_solver() {
   solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_);
   for (const scene::Shell& shell : shells_) solver_->add_tool(shell);
   solver_->set_crowding(crowding_);
+  solver_->keep_energy(energy_);
 }
 
 soil::Particle Site::particle(const Vec3& p_W, double volume, int soil) const {
@@ -250,10 +254,20 @@ void Site::run(double seconds, const std::function<void()>& each, double dt) {
 void Site::set_gravity(const Vec3& gravity) {
   // A solver keeps the world it was made with; its snapshot holds no gravity.
   const std::vector<char> state = saved(*solver_);
+  // The next account begins with what there is now as its first exchange.
+  energy_before_ = energy();
+  energy_before_.exchanged -= energy_before_.kinetic + energy_before_.elastic;
+  energy_before_.kinetic = energy_before_.elastic = 0;
   world_.gravity = gravity;
   make_solver();
   // Particles, clocks and ledger as they were.
   load_saved(state, *solver_);
+}
+
+soil::EnergyAccount Site::energy() const {
+  soil::EnergyAccount out = energy_before_;
+  if (const soil::EnergyAccount* now = solver_->energy()) out += *now;
+  return out;
 }
 
 // Of the soil alone: tools are prescribed or follow from it.
@@ -268,6 +282,9 @@ void Site::finish(Report& report) const {
   report.wall_time += watch_.seconds();
   report.ledger_error += solver_->ledger().error();
   report.state_hash = digest();
+  if (!energy_) return;
+  if (!report.energy) report.energy.emplace();
+  *report.energy += energy();
 }
 
 }  // namespace navvy::lab

@@ -35,6 +35,7 @@ struct SiteOptions {
   bool exchange = false;                              ///< ground wakes and takes soil back by itself
   bool crowding = true;                               ///< crowded particles are moved apart [docs/soil.md, crowding]
   double courant = 0.5;                               ///< share of cell / sound speed
+  bool energy = false;                                ///< keeps an account of it, for the report
 };
 
 /// The least whole number of cells that holds `length`, as a length [m]; a billionth of a cell is rounding.
@@ -111,6 +112,7 @@ class Site {
   /// How long the whole experiment will take, for the progress report [s simulated].
   void expect(double seconds) { expected_ = seconds; }
   double worst_residual() const { return worst_residual_; }  ///< of action and reaction, share of the scale
+  soil::EnergyAccount energy() const;                        ///< all zero unless one is kept
   std::string digest() const;                                ///< of the soil's state, as `state_hash` of a report
   /// Fills particles, steps, times, ledger and hash.
   void finish(Report& report) const;
@@ -124,7 +126,8 @@ class Site {
   device::Device* device_;
   scene::Scene world_;
   heightfield::Ground ground_;
-  bool crowding_;
+  bool crowding_, energy_;
+  soil::EnergyAccount energy_before_;  ///< of solvers that were replaced
   std::unique_ptr<soil::Solver> solver_;
   std::vector<scene::Shell> shells_;
   std::vector<Tool> tools_;

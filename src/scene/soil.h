@@ -20,7 +20,7 @@ struct Soil {
   double remoulding_strain = 0.5;      ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
   double loosening_strain = 0.3;       ///< plastic shear over which the swell develops [-]
   double opening_strain = 0.05;        ///< eps: volume ratio above closed at which cohesion is gone [-]
-  double young_modulus = 1.0e6;        ///< softened for speed [Pa]
+  double young_modulus = 1.0e6;        ///< softened for speed [Pa]; default_stiffness(cohesion) where none is given
   double poisson = 0.3;
   double dilatancy_angle = 0;       ///< psi in bank state, fades to 0 at the loose density [rad]
   double fast_friction_angle = 0;   ///< that of fast flow in mu(I) [rad]; not above phi: friction knows no rate

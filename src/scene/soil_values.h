@@ -3,6 +3,7 @@
 // solver and the laboratory's files all go by it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/error.h"
@@ -32,6 +33,18 @@ const std::vector<SoilValue>& soil_values();
 inline double heaviest_particle(const Soil& soil, double cell) {
   return soil.bank_density * cell * cell * cell * 0.75 / 0.8 / 4;
 }
+
+/// Young's modulus of a soil for which none is given [Pa]: max(1 MPa, 200 x cohesion). A softer one makes sand no
+/// weaker, but cohesive soil yields by rebound before a tool has felt its strength [docs/soil.md, stiffness].
+double default_stiffness(double cohesion);
+
+/// Whoever changes the cohesion of a soil from `before` [Pa] calls this where no stiffness is given beside it: the
+/// default follows the cohesion, a stiffness of its own stays.
+void follow_cohesion(Soil& soil, double before);
+
+/// A warning for soil softer than 100 x its cohesion: what share of its strength a blade feels, after how much travel,
+/// and what the default would cost. It runs all the same.
+std::optional<Fault> too_soft(const Soil& soil);
 
 /// What a soil's numbers must be to each other; the element of a fault is "soil[name]/" and the number's name.
 std::vector<Fault> check_relations(const Soil& soil);

@@ -94,6 +94,15 @@ int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_too
 
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
+void Solver::keep_energy(bool on) {
+  state_->energy.reset();
+  if (on) state_->open_energy();
+}
+
+void Solver::State::open_energy() { energy.emplace(world.soils, cell, world.gravity); }
+
+const EnergyAccount* Solver::energy() const { return state_->energy ? &state_->energy->account() : nullptr; }
+
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
   return std::min(settings.max_step, settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
@@ -166,6 +175,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     lay_out(motions);
   }
   if (store.count() > 0) {
+    if (energy) energy->begin_step(store, hold);
     queue(dt, hold);
     Transfer::Largest report;
     {
@@ -183,6 +193,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     contact.book(impulses);
     contact.feel(dt, impulses);
     if (!hold) check_masses();
+    if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
   }
   time += dt;
   ++stats.steps;
@@ -318,6 +329,7 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
   if (lists || blocks_changed) {
     const int tiles = store.set_near(contact.near_homes());
     transfer.set_blocks(store, contact.near_slot(), tiles);
+    mass_count.make_room(store.homes().size());
   }
   update_floor();
   blocks_changed = false;

@@ -12,6 +12,7 @@
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "scene/scene.h"
+#include "soil/energy.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 #include "soil/tools/tool_motion.h"
@@ -61,6 +62,12 @@ class Solver {
 
   /// Whether crowded particles are moved apart, as they are unless a rig asks what that changes; not part of the state.
   void set_crowding(bool on);
+
+  /// Opens an account of energy, or closes it. It changes no bit of the soil, costs more than the steps themselves, and
+  /// is not part of the state: with one that is loaded it begins anew, with the next transfer.
+  void keep_energy(bool on);
+  /// Since it was opened; null when none is kept.
+  const EnergyAccount* energy() const;
 
   /// Largest stable step at the given fastest speed of tools [s].
   double step_limit(double tool_speed) const;

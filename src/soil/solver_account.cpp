@@ -29,12 +29,10 @@ Ledger Solver::State::ledger_with(std::vector<std::int64_t> particles) const {
 }
 
 Ledger Solver::State::ledger() const {
-  Ledger out = ledger_with(store.masses(world.soils.size()));
-  if (!unplaced.empty()) {
-    out.particles.assign(world.soils.size(), 0);
-    for (const Particle& p : unplaced) out.particles[p.soil] += p.mass;
-  }
-  return out;
+  if (unplaced.empty()) return ledger_with(store.masses(world.soils.size()));
+  std::vector<std::int64_t> particles(world.soils.size(), 0);
+  for (const Particle& p : unplaced) particles[p.soil] += p.mass;
+  return ledger_with(std::move(particles));
 }
 
 void Solver::State::check_masses() {
@@ -208,6 +206,7 @@ void Solver::visit(Archive& a) {
   a.section("soil", 3, [&] {
     state_->visit(a);
     if (a.loading()) state_->rebuild(a);
+    if (a.loading() && state_->energy) state_->open_energy();
   });
 }
 

@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 
 #include "device/device.h"
+#include "soil/energy_book.h"
 #include "soil/exchange/exchange.h"
 #include "soil/particles/floor.h"
 #include "soil/particles/interval.h"
@@ -34,6 +36,7 @@ struct Solver::State {
   void queue(double dt, bool hold);
   /// Particles go where the transfer that is under way takes them; then blocks, lists and sides may change.
   void end_transfer();
+  void open_energy();
   void add(std::vector<Particle> particles);
   void assign(const std::vector<Particle>& particles);
   /// What there is, on the device or because the device had no room on the host.
@@ -75,12 +78,13 @@ struct Solver::State {
   TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
   bool blocks_changed = true;
-  bool crowding = true;      ///< particles are moved apart where they crowd
-  bool over_budget = false;  ///< said so already
-  double drift = 0;          ///< cells particles may have moved since the last re-bin
-  double time = 0;           ///< simulated, sum over steps; only handed to the exchange [s]
-  double since_check = 0;    ///< [s]
-  double travel = 0;         ///< of the fastest tool since the last check [m]
+  std::optional<EnergyBook> energy;  ///< only when asked for
+  bool crowding = true;              ///< particles are moved apart where they crowd
+  bool over_budget = false;          ///< said so already
+  double drift = 0;                  ///< cells particles may have moved since the last re-bin
+  double time = 0;                   ///< simulated, sum over steps; only handed to the exchange [s]
+  double since_check = 0;            ///< [s]
+  double travel = 0;                 ///< of the fastest tool since the last check [m]
   std::uint32_t steps_since_check = 0;
   bool first_check = true;
   std::uint32_t next_id = 1;

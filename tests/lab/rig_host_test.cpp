@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "lab/sweep.h"
 
 namespace navvy::lab {
 namespace {
@@ -62,8 +63,8 @@ TEST(Rig, ExamplesUseParametersItHasWithinTheirRanges) {
       std::istringstream words(example.arguments);
       for (std::string option, value; words >> option >> value;) {
         ASSERT_EQ(option.rfind("--", 0), 0u) << rig.name << ": " << option;
-        // The rest are options of the soil, which the program reads.
-        if (rig.find(option.substr(2)) != nullptr) written[option.substr(2)] = value;
+        // The rest are options of the soil and of the program. Of a list every value must do: the last is tried here.
+        if (rig.find(option.substr(2)) != nullptr) written[option.substr(2)] = listed(option, value).back();
       }
       EXPECT_NO_THROW(set_written(setup, written)) << rig.name;
       EXPECT_NO_THROW(check(rig, setup)) << rig.name;

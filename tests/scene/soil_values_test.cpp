@@ -45,6 +45,40 @@ TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
       << all;
 }
 
+TEST(SoilValues, StiffnessFollowsTheCohesionWhereNoneIsGiven) {
+  EXPECT_EQ(Soil{}.young_modulus, default_stiffness(Soil{}.cohesion));
+  EXPECT_EQ(default_stiffness(0), 1e6);
+  EXPECT_EQ(default_stiffness(50e3), 10e6);
+  Soil soil;
+  soil.cohesion = 50e3;
+  follow_cohesion(soil, Soil{}.cohesion);
+  EXPECT_EQ(soil.young_modulus, 10e6);
+  soil.young_modulus = 3e6;
+  soil.cohesion = 80e3;
+  follow_cohesion(soil, 50e3);
+  EXPECT_EQ(soil.young_modulus, 3e6) << "its own";
+}
+
+TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) {
+  Soil clay;
+  clay.name = "clay";
+  clay.cohesion = 50e3;
+  clay.young_modulus = 2.5e6;
+  const auto warning = too_soft(clay);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->severity, Fault::Severity::kWarning);
+  const std::string text = warning->text();
+  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 77 %", "0.25 of its depth",
+                           "1e+07", "2.0 times as many steps"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  clay.young_modulus = 0.5e6;
+  EXPECT_NE(too_soft(clay)->text().find("less than 48 %"), std::string::npos) << too_soft(clay)->text();
+  clay.young_modulus = 5e6;
+  EXPECT_FALSE(too_soft(clay));
+  clay.cohesion = 0;
+  EXPECT_FALSE(too_soft(clay)) << "sand";
+}
+
 TEST(SoilValues, ThePageOfScenesSaysTheSame) {
   std::map<std::string, std::string> ranges, defaults;
   std::ifstream page(navvy::source_dir() + "/scenarios/README.md");

@@ -96,12 +96,12 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   }
   report.add("vertical force on the blade, down", -force.z(), "N", wedge.vertical, kNone, kNone, source);
   // One number to compare runs of other soils and depths by.
-  report.note("horizontal over expected", -force.x() / gate.expected, "");
+  report.add("horizontal over expected", -force.x() / gate.expected, "", 1, kNone, kNone, "");
   report.note("scatter of the force", 100 * scatter.x() / std::abs(force.x()), "%",
               "rms about the mean over its window");
   const double peak = smooth_peak(setup, driver.trace(), scale);
   report.note("peak, low-passed at v / (2 cells)", peak, "N");
-  report.note("peak over expected", peak / gate.expected, "");
+  report.add("peak over expected", peak / gate.expected, "", 1, kNone, kNone, "");
 }
 
 /// Height over the lip [m] of what lies at x ahead of it, mean over the middle half of the chute. Beyond the
@@ -283,10 +283,14 @@ Rig blade_rig() {
        "0.033 --ahead 4 --gate-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
       {"The same six times as fast, its pile full grown",
        "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 --density 1460 --depth 0.10 --cell "
-       "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"}};
+       "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
+      {"Three speeds and two steps in one table, with a picture",
+       "--speed 0.05,0.15,0.3 --courant 0.5,0.25 --cell 0.05 --plot blade.svg"}};
   rig.parameters = kBlade;
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
+  rig.headline = {"horizontal over expected", "horizontal force", "peak over expected", "at the end over its wedge",
+                  "scatter of the force"};
   rig.experiment = run_blade;
   return rig;
 }

@@ -119,6 +119,8 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   // Thirty centimetres of particles under the path, then ground.
   options.depth = scoop.depth + 0.3 + 1;
   options.surface = pit(bed);
+  options.courant = setup["courant"];
+  options.energy = setup.energy;
   Site site(*setup.device, {setup.soil}, cell, options);
   auto soil = site.fill(bed);
   site.rest(soil, 0.0);
@@ -336,6 +338,12 @@ Rig bucket_rig() {
       "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and load.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back(yes_no("refine", false, "also at half the cell", "one run"));
+  rig.parameters.push_back(
+      {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)});
+  rig.headline = {"mean horizontal force of the drag", "load", "held force over the load's weight",
+                  "drag over an upright wedge of the depth"};
+  rig.examples = {
+      {"Two cells and two steps in one table, with a picture", "--cell 0.1,0.05 --courant 0.5,0.25 --plot bucket.svg"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run_bucket;
   return rig;

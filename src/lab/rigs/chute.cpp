@@ -127,6 +127,7 @@ std::vector<scene::Soil> chute_soils(const scene::Soil& soil) {
 SiteOptions chute_site(const Setup& setup, const ChuteBed& bed, double gap) {
   const double cell = setup.cell, margin = 2 * cell;
   SiteOptions out;
+  out.energy = setup.energy;
   // Twice a whole number of blocks: a block begins at y = 0.
   const double block = soil::kBlockCells * cell;
   out.size = 2 * block * std::ceil((std::max(bed.back, std::max(bed.ahead, gap)) + 2 * block) / block);

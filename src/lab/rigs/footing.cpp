@@ -75,6 +75,7 @@ SiteOptions strip_site(const Setup& setup, const Strip& strip) {
   const double cell = setup.cell, half = strip.ahead + strip.breadth / 2, q = setup["surcharge-pa"];
   // No wider than the soil needs: the ground around it is at rest and costs nothing.
   SiteOptions out;
+  out.energy = setup.energy;
   out.size = 2 * (half + 6 * cell);
   out.depth = strip.below + 8 * cell;
   out.surface = pit({Vec3(-half, -2 * cell, -strip.below), Vec3(half, strip.gap + 3 * cell, 0)});

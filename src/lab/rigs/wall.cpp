@@ -140,7 +140,7 @@ Rig wall_rig() {
       "over the last fifth of the travel. With tool friction (--delta-deg) the wall is rough over its middle two "
       "thirds and held against the lower bound of Lancellotta and the log spiral of Caquot and Kerisel; planar wedges "
       "are upper bounds and stand beside them.";
-  rig.examples = {{"Active pressure", "--travel -0.03"}};
+  rig.examples = {{"Active pressure", "--travel -0.03"}, {"Passive pressure at two speeds", "--speed 0.05,0.2"}};
   rig.parameters = {{"height", 1, "m", "of the wall", above(0)},
                     {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
                     {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
@@ -153,6 +153,7 @@ Rig wall_rig() {
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
   rig.default_soil.young_modulus = 4e6;  // at 1 MPa a passive wall needs more than a fifth of its height of travel
+  rig.headline = {"passive force", "active force", "coefficient", "force at rest"};
   rig.experiment = run_wall;
   return rig;
 }

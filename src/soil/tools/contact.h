@@ -65,6 +65,9 @@ class Contact {
   const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
   const std::vector<int>& near_slot() const { return near_slot_; }
   NearNodes& nodes() { return nodes_; }
+  /// What the last step did to near nodes, two entries a node; of blocks that are marked as touched.
+  const device::Buffer<ContactRecord>& records() const { return records_; }
+  const device::Buffer<std::int32_t>& touched() const { return touched_; }
 
   /// Queues: signed distances of nodes, sides of particles, particles pushed out of plates (the push and the crossings
   /// go into the transfer's report).

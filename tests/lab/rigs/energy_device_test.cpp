@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The account of the soil's energy [docs/soil.md, energy]: that it closes, and that keeping it changes no bit.
+#include <gtest/gtest.h>
+
+#include "lab/run_rig.h"
+
+namespace navvy::lab {
+namespace {
+
+Report with_energy(const std::string& rig, const std::map<std::string, double>& geometry) {
+  return run_rig(rig, geometry, [](Setup& setup) { setup.energy = true; });
+}
+
+TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
+  const Report report = with_energy("blade", {});
+  ASSERT_TRUE(report.energy);
+  const soil::EnergyAccount& energy = *report.energy;
+  EXPECT_GT(energy.tools, 50);  // 2.5 kN over 0.07 m with their rise: 81 J
+  // All terms are taken by themselves: 0.4 % is left, as stresses and velocities are half a step apart.
+  EXPECT_NEAR(energy.residual(), 0, 0.015 * energy.tools);
+  EXPECT_LE(energy.dissipated(), energy.supplied());
+  for (const double spent : {energy.plastic, energy.viscous, energy.contact, energy.transfer, energy.mixing})
+    EXPECT_GE(spent, 0);
+  EXPECT_LE(energy.transfer, 0.05 * energy.tools);
+  // The blade is smooth and presses its soil up: no gain from crowding beyond a thousandth.
+  EXPECT_NEAR(energy.apart, 0, 0.002 * energy.tools);
+  EXPECT_EQ(report.state_hash, run_rig("blade", {}).state_hash);
+  EXPECT_FALSE(run_rig("blade", {}).energy);
+}
+
+TEST(LabEnergy, OfAFallingBodyIsTakenUpByTheSoilThatItStrikes) {
+  const Report report = with_energy("light-tool", {});
+  ASSERT_TRUE(report.energy);
+  const soil::EnergyAccount& energy = *report.energy;
+  EXPECT_NEAR(energy.residual(), 0, 0.02 * energy.supplied());
+  EXPECT_LT(energy.kinetic, 0.001 * energy.supplied()) << "at rest at the end";
+  EXPECT_GT(energy.tools, 0) << "it gave, and soil gave it nothing back";
+}
+
+}  // namespace
+}  // namespace navvy::lab
