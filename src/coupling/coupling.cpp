@@ -12,10 +12,6 @@ namespace {
 
 // Fastest sinking of a rut [m/s]: a tyre falling at it adds a tenth to its load; at 1 m/s it passes 0.4 m in the time
 // it takes to sink 0.08 m.
-constexpr int kPatchInterval = 16;    // steps between looks at the rigid bodies' ground
-constexpr double kPatchMargin = 6.0;  // [m] of ground kept around every machine
-constexpr int kPatchNodes = 256;      // most nodes along one side of the patch
-constexpr int kFarthest = 1 << 29;    // column of a loaded patch: sides and their sums stay numbers
 constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
 
 }  // namespace
@@ -45,7 +41,6 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
     }
   }
   engine.set_rock(ground.datum());
-  update_ground_patch();
 }
 
 double Coupling::payload(const ToolLoad& tool) const {
@@ -73,10 +68,6 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
 }
 
 void Coupling::step(double dt) {
-  if (steps_ % kPatchInterval == 0) {
-    const Lap lap(time_share_.ground);
-    update_ground_patch();
-  }
   // Soil acts over the interval that starts at these poses.
   std::vector<Pose> before;
   before.reserve(tools_.size());
@@ -134,55 +125,6 @@ void Coupling::press_ruts(double dt) {
   ruts_.press(tyres, kSinkSpeed * kRutInterval * dt);
 }
 
-void Coupling::update_ground_patch() {
-  if (dynamic_.machine_count() == 0) return;
-  heightfield::CellRect need;
-  const double cell = ground_.cell();
-  for (const PlacedMachine& machine : placed_) {
-    if (machine.engine != &dynamic_) continue;
-    const Vec3 p = machine.engine->link(machine.index, 0).X_WL.translation();
-    const Vec2i low = ground_.column_at(p.x() - kPatchMargin, p.y() - kPatchMargin);
-    const Vec2i high = ground_.column_at(p.x() + kPatchMargin, p.y() + kPatchMargin);
-    need.include({low.x(), low.y(), high.x() + 1, high.y() + 1});
-  }
-  // Asked at every look, so that the next answer is about the time since this one.
-  const std::vector<heightfield::CellRect> changed = patch_changes_.take(ground_.view());
-  const bool inside = need.x0 >= patch_.x0 && need.y0 >= patch_.y0 && need.x1 <= patch_.x1 && need.y1 <= patch_.y1;
-  if (inside) {
-    if (std::none_of(changed.begin(), changed.end(), [&](const auto& rect) { return rect.meets(patch_); })) return;
-  } else {
-    const int margin = static_cast<int>(std::lround(0.5 * kPatchMargin / cell));
-    patch_ = {need.x0 - margin, need.y0 - margin, need.x1 + margin, need.y1 + margin};
-  }
-  const int stride = patch_stride();
-  const Vec2i nodes = patch_nodes();
-  patch_height_.clear();
-  patch_height_.reserve(static_cast<std::size_t>(nodes.x()) * static_cast<std::size_t>(nodes.y()));
-  for (int j = 0; j < nodes.y(); ++j)
-    for (int i = 0; i < nodes.x(); ++i)
-      patch_height_.push_back(
-          static_cast<float>(ground_.height(std::clamp(patch_.x0 + i * stride, 0, ground_.nx() - 1),
-                                            std::clamp(patch_.y0 + j * stride, 0, ground_.ny() - 1))));
-  upload_ground_patch();
-}
-
-int Coupling::patch_stride() const {
-  // A wide patch (machines far apart) is sampled more coarsely; wheels never use it.
-  const int span = std::max(patch_.x1 - patch_.x0, patch_.y1 - patch_.y0);
-  return std::max(1, (span + kPatchNodes - 1) / kPatchNodes);
-}
-
-Vec2i Coupling::patch_nodes() const {
-  const int stride = patch_stride();
-  return {(patch_.x1 - patch_.x0) / stride + 1, (patch_.y1 - patch_.y0) / stride + 1};
-}
-
-void Coupling::upload_ground_patch() {
-  const Vec2i nodes = patch_nodes();
-  const Vec2 corner = ground_.origin() + ground_.cell() * Vec2(patch_.x0 + 0.5, patch_.y0 + 0.5);
-  dynamic_.set_ground_patch(nodes.x(), nodes.y(), patch_stride() * ground_.cell(), corner, patch_height_);
-}
-
 void ToolLoad::visit(Archive& a) {
   // Which shell it is, the scene says. All of the last step is what outputs show until the next one.
   a("force_W", force_W);
@@ -200,31 +142,9 @@ void ToolLoad::visit(Archive& a) {
   a("scale_moment", impulse.scale_moment);
 }
 
-void Coupling::visit_patch(Archive& a) {
-  a.ranged("patch_x0", patch_.x0, -kFarthest, kFarthest);
-  a.ranged("patch_y0", patch_.y0, -kFarthest, kFarthest);
-  a.ranged("patch_x1", patch_.x1, patch_.x0, kFarthest);
-  a.ranged("patch_y1", patch_.y1, patch_.y0, kFarthest);
-  a("patch_height", patch_height_);
-  if (!a.loading()) return;
-  // The patch as it was saved, which may be older than the ground; the next look renews it from whatever that is then.
-  patch_changes_.forget();
-  if (dynamic_.machine_count() == 0) {
-    a.require(patch_height_.empty(), "patch_height", "there is ground for rigid bodies, and none in the scene");
-    return;
-  }
-  const Vec2i nodes = patch_nodes();
-  const auto expected = static_cast<std::size_t>(nodes.x()) * static_cast<std::size_t>(nodes.y());
-  a.require(nodes.minCoeff() >= 2 && patch_height_.size() == expected, "patch_height", "does not fill the patch");
-  a.require(std::all_of(patch_height_.begin(), patch_height_.end(), [](float z) { return std::isfinite(z); }),
-            "patch_height", "must be finite");
-  upload_ground_patch();
-}
-
 void Coupling::visit(Archive& a) {
-  a.section("coupling", 4, [&] {
+  a.section("coupling", 5, [&] {
     a("steps", steps_);
-    visit_patch(a);
     a.fixed("tools", tools_);
     a("ruts", ruts_);
   });

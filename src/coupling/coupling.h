@@ -9,7 +9,6 @@
 #include "core/archive.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
-#include "heightfield/change_follower.h"
 #include "heightfield/ground.h"
 #include "scene/scene.h"
 #include "soil/solver.h"
@@ -20,7 +19,7 @@ namespace navvy::coupling {
 /// What soil does to one shell of one machine.
 struct ToolLoad {
   int machine = -1, shell = -1, link = -1, tool = -1;
-  Vec3 force_W = Vec3::Zero();   ///< mean of the last step [N]
+  Vec3 force_W = Vec3::Zero();   ///< mean of the last transfer that ended [N]
   Vec3 moment_W = Vec3::Zero();  ///< about the link's origin [N m]
   Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
   Vec3 rock_W = Vec3::Zero();    ///< force of the rock on it, low-passed likewise [N]
@@ -59,7 +58,7 @@ class Coupling {
   int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
   /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
-  /// @throws InputError for another scene's tools or a ground patch that cannot be.
+  /// @throws InputError for another scene's tools.
   void visit(Archive& a);
 
  private:
@@ -68,12 +67,6 @@ class Coupling {
     vehicle::Engine* engine = nullptr;  ///< one of the two given
     int index = 0;                      ///< of the machine in that engine
   };
-  void update_ground_patch();
-  void upload_ground_patch();
-  int patch_stride() const;
-  /// Nodes of the patch along x and y.
-  Vec2i patch_nodes() const;
-  void visit_patch(Archive& a);
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
@@ -87,10 +80,6 @@ class Coupling {
   std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;
-  // Patch of ground that rigid bodies collide with: its columns, every how many of them, their heights.
-  heightfield::CellRect patch_;
-  heightfield::ChangeFollower patch_changes_;
-  std::vector<float> patch_height_;
   TimeShare time_share_;
 };
 

@@ -24,6 +24,9 @@ class GroundView final : public terramechanics::GroundQuery {
       : terrain_(terrain), soils_(soils) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
   Vec3 normal(double x, double y) const override { return terrain_.normal(x, y); }
+  terramechanics::GroundLattice lattice() const override {
+    return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};
+  }
   terramechanics::SoilState soil(double x, double y) const override {
     const Vec2i c = terrain_.column_at(x, y);
     const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1), iy = std::clamp(c.y(), 0, terrain_.ny() - 1);

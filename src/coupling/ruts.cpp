@@ -47,7 +47,8 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
   // The soil under the wheel's middle decides the size of the patch; each column then sinks by its own.
   const terramechanics::SoilState under =
       GroundView(ground_, ground_.setup().soils).soil(X.translation().x(), X.translation().y());
-  const terramechanics::TyrePatch patch = terramechanics::tyre_patch(tyre, *under.soil, wheel.force_W.z());
+  const terramechanics::TyrePatch patch =
+      terramechanics::tyre_patch(tyre, *under.soil, wheel.force_W.z() - wheel.body_W.z());
   if (!(patch.half_length > 0)) return;
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0})

@@ -35,9 +35,10 @@ class Ruts {
   /// The ground must outlive it.
   explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
 
-  /// Presses the contact patches of all wheels of the world, each of which carries its `wheel.force_W`; tyres of a twin
-  /// pair each carry half. Their columns are held until the next call. No column sinks by more than `most` [m] at a
-  /// time: ground that gives way at once lets the wheel fall, and what it hits with presses deeper than its load would.
+  /// Presses the contact patches of all wheels of the world, each of which carries what of its `force_W` the ground
+  /// gave; tyres of a twin pair each carry half. Their columns are held until the next call. No column sinks by more
+  /// than `most` [m] at a time: ground that gives way at once lets the wheel fall, and what it hits with presses deeper
+  /// than its load would.
   void press(const std::vector<LoadedTyre>& tyres, double most = std::numeric_limits<double>::infinity());
 
   void visit(Archive& a);

@@ -11,44 +11,19 @@
 #include "vehicle/stability.h"
 
 namespace navvy::coupling {
-namespace {
-
-constexpr double kPatchMargin = 6.0;  // [m] of ground for rigid bodies round every machine
-constexpr int kPatchNodes = 256;      // most along a side
-
-/// One patch under all machines: for a second nobody leaves it.
-void lay_patch(vehicle::Engine& engine, const heightfield::Ground& ground, const std::vector<Vec2>& places) {
-  Vec2 low = places.front(), high = low;
-  for (const Vec2& p : places) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  low -= Vec2::Constant(kPatchMargin);
-  high += Vec2::Constant(kPatchMargin);
-  const double spacing = std::max(ground.cell(), (high - low).maxCoeff() / kPatchNodes);
-  const int nx = static_cast<int>(std::ceil((high.x() - low.x()) / spacing)) + 1;
-  const int ny = static_cast<int>(std::ceil((high.y() - low.y()) / spacing)) + 1;
-  std::vector<float> height;
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-      height.push_back(static_cast<float>(ground.sample(low.x() + i * spacing, low.y() + j * spacing)));
-  engine.set_ground_patch(nx, ny, spacing, low, height);
-}
-
-}  // namespace
 
 std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
   std::vector<vehicle::Stability> out(scene.machines.size());
   const auto engine = vehicle::make_bullet_engine(scene.gravity);
   std::vector<std::size_t> of;  // machine of the scene, by index in the engine
-  std::vector<Vec2> places;
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];
     if (placed.machine.kinematic) continue;
     engine->add_machine(placed.machine, place(placed, ground));
     of.push_back(m);
-    places.emplace_back(engine->link(static_cast<int>(of.size()) - 1, 0).X_WL.translation().head<2>());
   }
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
-  lay_patch(*engine, ground, places);
   const GroundView view(ground, ground.setup().soils);
   Ruts ruts(ground);
   const double dt = scene.solver.max_step;

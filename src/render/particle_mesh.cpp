@@ -39,6 +39,9 @@ Body icosahedron() {
   return b;
 }
 
+/// Farthest corner of a lump in units of its radius: dents go both ways, and a body of eight faces is drawn larger.
+constexpr float kFarthestCorner = 1.26f * 1.25f;
+
 /// Eight dented and turned copies of a body, so that no two neighbours look alike. Lumps are dented by up to a quarter
 /// of their radius.
 std::vector<Body> variants(const Body& base, std::uint32_t seed) {
@@ -160,7 +163,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   const std::size_t n = particles.position.size() / 3;
   // Arrays come from outside; one that is too short would be read beyond its end.
   if (particles.position.size() % 3 != 0 || (!particles.soil.empty() && particles.soil.size() != n) ||
-      (!particles.id.empty() && particles.id.size() != n))
+      (!particles.id.empty() && particles.id.size() != n) || (!particles.room.empty() && particles.room.size() != n))
     throw Error("the frame's particle arrays do not fit each other");
   mesh_.vertices.clear();
   mesh_.indices.clear();
@@ -187,6 +190,8 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     // By its id, so that a lump keeps its looks when the list is sorted anew.
     lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
     lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];
+    // What lies on a plate stays a crumb that can be seen.
+    lump.most = particles.room.empty() ? 2 * radius : std::max(particles.room[i] / kFarthestCorner, 0.2f * radius);
     lumps_.push_back(lump);
   }
 
@@ -208,7 +213,8 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     // Low over the ground the ground's own shadow counts as well.
     if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) && lump.center.z() < height + 0.25f)
       sun *= 0.35f + 0.65f * ground_sun;
-    add_lump(lump, radius * (0.80f + 0.50f * unit * unit), pixels > 7 && !many ? 1 : 0, albedo, lighting, sun);
+    add_lump(lump, std::min(lump.most, radius * (0.80f + 0.50f * unit * unit)), pixels > 7 && !many ? 1 : 0, albedo,
+             lighting, sun);
   }
   drawn_ = static_cast<int>(lumps_.size());
   return mesh_;

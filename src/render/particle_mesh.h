@@ -33,6 +33,8 @@ class ParticleMesh {
     Vec3f center, outward;
     // Share of the sky, 0 to 1, and the distance from the eye [m].
     float open, distance;
+    // Largest radius that does not reach through a plate [m].
+    float most;
     std::uint32_t seed;
     // Number of the soil, for its colour.
     std::uint8_t soil;

@@ -75,23 +75,46 @@ Body cylinder(float radius, float length, const Look& look, int sides = 28) {
   return b;
 }
 
-Body sphere(float radius, const Look& look) {
-  constexpr int kSides = 24, kRings = 12;
+/// Cone along z, its foot at -length / 2.
+Body cone(float radius, float length, const Look& look, int sides = 28) {
   Body b;
   b.parts.push_back({look, {}});
-  for (int r = 0; r <= kRings; ++r)
+  for (int i = 0; i < sides; ++i) {
+    const float a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / static_cast<float>(sides);
+    b.points.emplace_back(radius * std::cos(a), radius * std::sin(a), -0.5f * length);
+  }
+  b.points.emplace_back(0, 0, -0.5f * length);
+  b.points.emplace_back(0, 0, 0.5f * length);
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    add_face(b, {sides, next, i});
+    add_face(b, {i, next, sides + 1});
+  }
+  return b;
+}
+
+/// Sphere, or with a `length` a capsule along z: the two halves of a sphere that far apart.
+Body sphere(float radius, const Look& look, float length = 0) {
+  constexpr int kSides = 24, kHalf = 6;
+  // A capsule has its widest ring twice, below and above.
+  const int rings = 2 * kHalf + (length > 0 ? 1 : 0);
+  Body b;
+  b.parts.push_back({look, {}});
+  for (int r = 0; r <= rings; ++r)
     for (int i = 0; i < kSides; ++i) {
       // Rings of the poles have all corners in one place; their empty triangles are left out below.
-      const double up = kPi * (static_cast<double>(r) / kRings - 0.5), a = 2 * kPi * i / kSides;
+      const int of_sphere = r <= kHalf ? r : r - (rings - 2 * kHalf);
+      const double up = kPi * (static_cast<double>(of_sphere) / (2 * kHalf) - 0.5), a = 2 * kPi * i / kSides;
       b.points.push_back(
           Vec3(radius * std::cos(up) * std::cos(a), radius * std::cos(up) * std::sin(a), radius * std::sin(up))
               .cast<float>());
+      b.points.back().z() += (r <= kHalf ? -0.5f : 0.5f) * length;
     }
-  for (int r = 0; r < kRings; ++r)
+  for (int r = 0; r < rings; ++r)
     for (int i = 0; i < kSides; ++i) {
       const int a = r * kSides + i, c = r * kSides + (i + 1) % kSides;
       if (r > 0) add_face(b, {a, c, c + kSides});
-      if (r + 1 < kRings) add_face(b, {a, c + kSides, a + kSides});
+      if (r + 1 < rings) add_face(b, {a, c + kSides, a + kSides});
     }
   return b;
 }
@@ -134,6 +157,10 @@ Body make_body(const scene::Visual& visual) {
       return cylinder(static_cast<float>(g.radius), static_cast<float>(g.length), look);
     case scene::Geometry::Kind::kSphere:
       return sphere(static_cast<float>(g.radius), look);
+    case scene::Geometry::Kind::kCone:
+      return cone(static_cast<float>(g.radius), static_cast<float>(g.length), look);
+    case scene::Geometry::Kind::kCapsule:
+      return sphere(static_cast<float>(g.radius), look, static_cast<float>(g.length));
     // Drawn as a thin plate of its size.
     case scene::Geometry::Kind::kPlane:
       return box(Vec3(g.size.x(), g.size.y(), 0.002).cast<float>(), look);

@@ -38,6 +38,16 @@ void check_inertia(const Element& inertial, Faults& faults) {
                "a disc has iyy = ixx + izz at most; mind the rounding");
 }
 
+/// Of the link as a whole, or of one of its shapes.
+bool has_density(const Element& link) {
+  constexpr const char* kName = "navvy:density_kg_per_m3";
+  if (link.FirstChildElement(kName)) return true;
+  for (const char* kind : {"visual", "collision"})
+    for (const Element* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
+      if (e->FirstChildElement(kName)) return true;
+  return false;
+}
+
 }  // namespace
 
 void check_joints(const Element& model, const Names& names, Faults& faults) {
@@ -82,8 +92,9 @@ void check_links(const Element& model, bool needs_mass, Faults& faults) {
   if (!model.FirstChildElement("link")) faults.error(model, "", "a machine needs at least one <link>");
   for (const Element* link = model.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
     const Element* inertial = link->FirstChildElement("inertial");
-    if (needs_mass && (!inertial || !inertial->FirstChildElement("mass")))
-      faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>");
+    if (needs_mass && !has_density(*link) && (!inertial || !inertial->FirstChildElement("mass")))
+      faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>",
+                   "or <navvy:density_kg_per_m3>, by which they follow from its shapes");
     if (inertial) check_inertia(*inertial, faults);
     for (const char* kind : {"visual", "collision"})
       for (const Element* e = link->FirstChildElement(kind); e; e = e->NextSiblingElement(kind))

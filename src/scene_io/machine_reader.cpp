@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/machine_reader.h"
 
+#include "scene_io/derived_parts.h"
 #include "scene_io/drive_reader.h"
 #include "scene_io/fields.h"
 #include "scene_io/hydraulics_reader.h"
@@ -83,6 +84,20 @@ void read_arm(Element& element, const Names& names, scene::Machine& machine, Fau
     require_name(element, role, "joint", names.joints, faults);
 }
 
+/// A plane carries what stands on it, for ever and everywhere: only the ground's rock can be one.
+void check_planes(const Element& model, const scene::Machine& machine, Faults& faults) {
+  for (std::size_t l = 0; l < machine.links.size(); ++l)
+    for (const scene::Collision& collision : machine.links[l].collisions) {
+      if (collision.geometry.kind != scene::Geometry::Kind::kPlane) continue;
+      const Element* link = model.FirstChildElement("link");
+      while (link && attribute(*link, "name") != machine.links[l].name) link = link->NextSiblingElement("link");
+      const Element& at = link ? *link : model;
+      if (l > 0 || !machine.fixed_base)
+        faults.error(at, collision.name, "a plane cannot move: it is the rock under the ground",
+                     "use a <box>, or make the model <static>true</static>");
+    }
+}
+
 }  // namespace
 
 void read_initial_position(Element& element, scene::Machine& machine, Faults& faults) {
@@ -135,7 +150,20 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
   machine.kinematic = kinematic;
   read_extensions(model, names, machine, faults);
+  // Last, as wheels and shells decide which links touch by something else.
+  derive_parts(model, machine, faults);
+  check_planes(model, machine, faults);
   return machine;
+}
+
+void read_traversability(Element& element, scene::Traversability& limits, Faults& faults) {
+  limits.given = true;
+  Fields(element, faults)
+      .number("slope_deg", limits.slope, {1, 89}, kDegree)
+      .number("step_m", limits.step_height, {0.001, 100})
+      .number("roughness_m", limits.roughness, {0.001, 100})
+      .number("window_m", limits.window, {0.01, 10})
+      .finish();
 }
 
 void read_extensions(Element& model, const Names& names, scene::Machine& machine, Faults& faults) {
@@ -154,6 +182,7 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
       beds.push_back(e);
     }
     if (kind == "navvy:arm") read_arm(*e, names, machine, faults);
+    if (kind == "navvy:traversability") read_traversability(*e, machine.traversability, faults);
     if (kind == "navvy:joint" && has_joints) read_initial_position(*e, machine, faults);
     if (kind == "navvy:pump") {
       machine.has_pump = true;

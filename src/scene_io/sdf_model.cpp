@@ -38,7 +38,9 @@ void copy_used(const Element& from, Element& to) {
   bool has_elements = false;
   for (const Element* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) {
     has_elements = true;
-    if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(child->Name()));
+    // libsdformat 12 knows no cone; a cylinder has the same values and stands in for it.
+    const char* name = std::strcmp(child->Name(), "cone") == 0 ? "cylinder" : child->Name();
+    if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(name));
   }
   // Only elements without children carry values; blanks between the others are left out.
   if (!has_elements) to.SetText(text_of(from).c_str());
@@ -81,9 +83,13 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
     to.kind = Kind::kBox;
     to.size = to_vec3(box->Size());
   } else if (const auto* cylinder = from.CylinderShape()) {
-    to.kind = Kind::kCylinder;
+    to.kind = xml.FirstChildElement("cone") ? Kind::kCone : Kind::kCylinder;
     to.radius = cylinder->Radius();
     to.length = cylinder->Length();
+  } else if (const auto* capsule = from.CapsuleShape()) {
+    to.kind = Kind::kCapsule;
+    to.radius = capsule->Radius();
+    to.length = capsule->Length();
   } else if (const auto* sphere = from.SphereShape()) {
     to.kind = Kind::kSphere;
     to.radius = sphere->Radius();
@@ -99,13 +105,13 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
     const Element* uri = xml.FirstChildElement("mesh")->FirstChildElement("uri");
     return uri && resolve_mesh(*uri, to.mesh_file, faults) && check_mesh(*uri, to.mesh_file, solid, faults);
   } else {
-    faults.error(xml, "", "needs one of box, cylinder, sphere, plane, mesh");
+    faults.error(xml, "", "needs one of box, cylinder, cone, capsule, sphere, plane, mesh");
     return false;
   }
   return true;
 }
 
-void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Faults& faults) {
+void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::Link& to, Faults& faults) {
   for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
     const sdf::Visual& visual = *from.VisualByIndex(i);
     // The same element in the file: for line numbers, and for what libsdformat does not hand on.
@@ -137,12 +143,13 @@ void read_shapes(const sdf::Link& from, const Element& xml, scene::Link& to, Fau
     // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one leaves the default.
     for (const char* name : {"surface", "friction", "ode", "mu"}) step = step ? step->FirstChildElement(name) : nullptr;
     if (step) to_number(text_of(*step), out.friction);
-    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), true, out.geometry, faults))
+    // What moves collides by the hull of a mesh, what stands by its triangles.
+    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), moves, out.geometry, faults))
       to.collisions.push_back(out);
   }
 }
 
-scene::Link read_link(const sdf::Link& from, const Element& xml, Faults& faults) {
+scene::Link read_link(const sdf::Link& from, const Element& xml, bool moves, Faults& faults) {
   scene::Link link;
   link.name = from.Name();
   ignition::math::Pose3d pose;
@@ -156,7 +163,7 @@ scene::Link read_link(const sdf::Link& from, const Element& xml, Faults& faults)
   const auto moi = inertial.Moi();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) link.inertia(r, c) = moi(r, c);
-  read_shapes(from, xml, link, faults);
+  read_shapes(from, xml, moves, link, faults);
   return link;
 }
 
@@ -287,7 +294,8 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
     std::vector<scene::Link> links;
     for (std::uint64_t i = 0; i < from.LinkCount(); ++i) {
       const sdf::Link& link = *from.LinkByIndex(i);
-      if (const Element* xml = named_child(model, "link", link.Name())) links.push_back(read_link(link, *xml, faults));
+      if (const Element* xml = named_child(model, "link", link.Name()))
+        links.push_back(read_link(link, *xml, !from.Static(), faults));
     }
     std::vector<NamedJoint> joints;
     for (std::uint64_t i = 0; i < from.JointCount(); ++i) {

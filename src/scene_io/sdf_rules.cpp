@@ -159,13 +159,15 @@ const Rule kRules[] = {
     {"collision", "max_contacts", kWarn, Type::kNumber, kAnyRange, "the engine chooses"},
     {"surface", "friction"},
     {"surface", "contact", kWarn, Type::kAny, kAnyRange, "the engine chooses contact stiffness"},
-    {"surface", "bounce", kError, Type::kAny, kAnyRange, "bouncing bodies are not supported"},
+    {"surface", "bounce"},
     {"surface", "soft_contact", kError, Type::kAny, kAnyRange, "soft bodies are not supported"},
     {"friction", "ode"},
     {"friction", "bullet", kError, Type::kAny, kAnyRange, "give the coefficient as friction/ode/mu"},
     {"friction", "torsional", kError, Type::kAny, kAnyRange, "torsional friction is not supported"},
-    {"ode", "mu", kUsed, Type::kNumber, {0, 10}},
-    {"ode", "mu2", kError, Type::kNumber, {0, 10}, "friction is the same in all directions"},
+    {"bounce", "restitution_coefficient", kError, Type::kNumber, kAnyRange, "bodies do not rebound"},
+    {"bounce", "threshold", kWarn, Type::kNumber, kAnyRange, "the engine chooses"},
+    {"ode", "mu", kUsed, Type::kNumber, {0, 1000}},  // Gazebo's ground_plane has 100
+    {"ode", "mu2", kWarn, Type::kNumber, {0, 1000}, "friction is the same in all directions, that of mu"},
     {"ode", "fdir1", kError, Type::kAny, kAnyRange, "friction is the same in all directions"},
     {"ode", "slip1", kError, Type::kAny, kAnyRange, "not supported"},
     {"ode", "slip2", kError, Type::kAny, kAnyRange, "not supported"},
@@ -176,16 +178,21 @@ const Rule kRules[] = {
     {"geometry", "sphere"},
     {"geometry", "mesh"},
     {"geometry", "plane"},
-    {"geometry", "capsule", kError, Type::kAny, kAnyRange, "use box, cylinder, sphere, plane or mesh"},
-    {"geometry", "ellipsoid", kError, Type::kAny, kAnyRange, "use box, cylinder, sphere, plane or mesh"},
+    {"geometry", "capsule"},
+    {"geometry", "cone"},
+    {"geometry", "ellipsoid", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
     {"geometry", "heightmap", kError, Type::kAny, kAnyRange, "the ground of a world is navvy:ground/file"},
-    {"geometry", "image", kError, Type::kAny, kAnyRange, "use box, cylinder, sphere, plane or mesh"},
-    {"geometry", "polyline", kError, Type::kAny, kAnyRange, "use box, cylinder, sphere, plane or mesh"},
+    {"geometry", "image", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
+    {"geometry", "polyline", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
     {"geometry", "empty", kError, Type::kAny, kAnyRange, "remove the visual or collision"},
     {"box", "size", kUsed, Type::kNumbers3, {1e-4, 1e5}},
     {"cylinder", "radius", kUsed, Type::kNumber, {1e-4, 1e5}},
     {"cylinder", "length", kUsed, Type::kNumber, {1e-4, 1e5}},
     {"sphere", "radius", kUsed, Type::kNumber, {1e-4, 1e5}},
+    {"capsule", "radius", kUsed, Type::kNumber, {1e-4, 1e5}},
+    {"capsule", "length", kUsed, Type::kNumber, {1e-4, 1e5}},
+    {"cone", "radius", kUsed, Type::kNumber, {1e-4, 1e5}},
+    {"cone", "length", kUsed, Type::kNumber, {1e-4, 1e5}},
     {"mesh", "uri", kUsed, Type::kText},
     {"mesh", "scale", kUsed, Type::kNumbers3, {1e-6, 1e6}},
     {"mesh", "submesh", kError, Type::kAny, kAnyRange, "write the part into a file of its own"},
@@ -225,15 +232,38 @@ struct Extension {
 };
 // Where each extension element belongs; its own table is in its reader.
 const Extension kExtensions[] = {
-    {"sdf", "navvy:soil"},          {"world", "navvy:soil"},      {"world", "navvy:ground"},
-    {"world", "navvy:solver"},      {"world", "navvy:recording"}, {"world", "navvy:camera"},
-    {"world", "navvy:seed"},        {"include", "navvy:program"}, {"world", "navvy:resolved"},
-    {"include", "navvy:on_ground"}, {"include", "navvy:load"},    {"include", "navvy:joint"},
-    {"model", "navvy:program"},     {"model", "navvy:on_ground"}, {"model", "navvy:joint"},
-    {"model", "navvy:engine"},      {"model", "navvy:arm"},       {"model", "navvy:cylinder"},
-    {"model", "navvy:wheel"},       {"model", "navvy:drive"},     {"model", "navvy:shell"},
-    {"model", "navvy:bucket"},      {"model", "navvy:bed"},       {"model", "navvy:load"},
+    {"sdf", "navvy:soil"},
+    {"world", "navvy:soil"},
+    {"world", "navvy:ground"},
+    {"world", "navvy:solver"},
+    {"world", "navvy:recording"},
+    {"world", "navvy:camera"},
+    {"world", "navvy:seed"},
+    {"include", "navvy:program"},
+    {"world", "navvy:resolved"},
+    {"include", "navvy:on_ground"},
+    {"include", "navvy:load"},
+    {"include", "navvy:joint"},
+    {"model", "navvy:program"},
+    {"model", "navvy:on_ground"},
+    {"model", "navvy:joint"},
+    {"model", "navvy:engine"},
+    {"model", "navvy:arm"},
+    {"model", "navvy:cylinder"},
+    {"model", "navvy:wheel"},
+    {"model", "navvy:drive"},
+    {"model", "navvy:shell"},
+    {"model", "navvy:bucket"},
+    {"model", "navvy:bed"},
+    {"model", "navvy:load"},
     {"model", "navvy:pump"},
+    {"world", "navvy:design"},
+    {"model", "navvy:traversability"},
+    {"world", "navvy:record"},
+    {"model", "navvy:derive_collisions"},
+    {"link", "navvy:density_kg_per_m3"},
+    {"visual", "navvy:density_kg_per_m3"},
+    {"collision", "navvy:density_kg_per_m3"},
 };
 
 const Rule* find_rule(const char* parent, const char* name) {
@@ -314,9 +344,9 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
 bool may_repeat(const char* name) {
   // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
   // first and drop the others.
-  for (const char* repeatable :
-       {"model", "include", "light", "link", "joint", "frame", "visual", "collision", "plugin", "sensor", "physics",
-        "navvy:soil", "navvy:camera", "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket"})
+  for (const char* repeatable : {"model", "include", "light", "link", "joint", "frame", "visual", "collision", "plugin",
+                                 "sensor", "physics", "navvy:soil", "navvy:camera", "navvy:record", "navvy:joint",
+                                 "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket"})
     if (std::strcmp(name, repeatable) == 0) return true;
   return false;
 }
@@ -406,7 +436,11 @@ bool check_root(const Element& root, Faults& faults) {
     return false;
   }
   const std::string version = attribute(root, "version");
-  // libsdformat reads a model by the version that its file names.
+  // libsdformat reads a model by the version that its file names. Before 1.7 joints had their axes in other frames;
+  // what stands still, such as Gazebo's ground plane, reads alike.
+  const auto* model = root.FirstChildElement("model");
+  const bool old = version == "1.3" || version == "1.4" || version == "1.5" || version == "1.6";
+  if (old && model != nullptr && !model->FirstChildElement("joint")) return true;
   if (version != "1.7" && version != "1.8" && version != "1.9") {
     faults.error(root, version, "the attribute version must be 1.9 (1.7 and 1.8 are understood)");
     return false;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/plate_room.h"
 #include "sim/terrain_view.h"
 #include "sim/world_parts.h"
 #include "vehicle/kinematics.h"
@@ -39,7 +40,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const World& world) : world_(world) {
+FrameBuilder::FrameBuilder(const World& world) : world_(world), plates_(std::make_unique<PlateRoom>(world)) {
   // What does not change with time is filled in once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
@@ -47,6 +48,8 @@ FrameBuilder::FrameBuilder(const World& world) : world_(world) {
   if (frame_.lights.empty()) frame_.lights.push_back({});
   frame_.ground.cell = world.ground().cell();
 }
+
+FrameBuilder::~FrameBuilder() = default;
 
 const scene::Frame& FrameBuilder::build() {
   // Vectors are cleared, not freed: frames of one world are about as large as each other.
@@ -168,6 +171,7 @@ void FrameBuilder::add_particles() {
   out.position.clear();
   out.soil.clear();
   out.id.clear();
+  out.room.clear();
   out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
   if (particles.empty()) return;
   // Relative to the block of one of them: a float is fine to 0.01 mm over a site of 100 m.
@@ -182,6 +186,8 @@ void FrameBuilder::add_particles() {
     out.soil.push_back(static_cast<std::uint8_t>(p.soil));
     out.id.push_back(p.id);
   }
+  // Lumps differ in size by chance: twice the radius holds the largest.
+  out.room = plates_->of(particles, 2 * out.radius);
 }
 
 scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {

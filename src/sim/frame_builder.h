@@ -2,11 +2,15 @@
 // Turns the state of a world into a Frame to draw, and scene cameras into poses.
 #pragma once
 
+#include <memory>
+
 #include "heightfield/change_follower.h"
 #include "scene/frame.h"
 #include "sim/world.h"
 
 namespace navvy::sim {
+
+class PlateRoom;
 
 /// Fills frames of one world; keeps the dense ground between calls and rewrites only what changed.
 ///
@@ -15,6 +19,7 @@ namespace navvy::sim {
 class FrameBuilder {
  public:
   explicit FrameBuilder(const World& world);
+  ~FrameBuilder();
   /// The frame of this instant; valid until the next call.
   const scene::Frame& build();
   /// Pose of a scene camera now; a chasing camera follows heading only.
@@ -36,6 +41,7 @@ class FrameBuilder {
   // Columns of the site that are drawn, and what changed among them.
   heightfield::CellRect window_;
   heightfield::ChangeFollower changes_;
+  std::unique_ptr<PlateRoom> plates_;
 };
 
 }  // namespace navvy::sim

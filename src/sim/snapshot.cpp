@@ -16,9 +16,14 @@ namespace {
 
 /// A name is a weak key, yet it catches the slip that happens: the wrong file.
 void require_scene(Archive& a, const std::string& scene) {
-  a.constant("scene", scene,
-             "the snapshot belongs to another scene than '" + scene +
-                 "'; load it into its own scene with the same solver settings");
+  std::string found = scene;
+  // Runs of one scene cannot differ in it, so it would tell a hash nothing.
+  a.unhashed("", [&] { a("scene", found); });
+  if (a.loading() && found != scene)
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "scene", found,
+                           "it was taken of this scene, and the one to go on in is '" + scene + "'",
+                           "go on in the scene it was taken of; --resume-anyway lets parameters of one scene differ, "
+                           "and no more"});
 }
 
 }  // namespace

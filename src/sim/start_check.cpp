@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "coupling/settling.h"
 #include "geometry/obj/read_obj.h"
@@ -41,7 +42,11 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
       box.half = 0.5 * g.size;
       return box;
     case scene::Geometry::Kind::kCylinder:
+    case scene::Geometry::Kind::kCone:
       box.half = Vec3(g.radius, g.radius, 0.5 * g.length);
+      return box;
+    case scene::Geometry::Kind::kCapsule:
+      box.half = Vec3(g.radius, g.radius, 0.5 * g.length + g.radius);
       return box;
     case scene::Geometry::Kind::kSphere:
       box.half = Vec3::Constant(g.radius);
@@ -109,11 +114,51 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   return faults;
 }
 
+std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
+                                const heightfield::Terrain& ground) {
+  std::vector<Fault> faults;
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    const scene::MachineInWorld& placed = scene.machines[m];
+    if (placed.machine.kinematic) continue;
+    // What is put on the ground by its middle is not below it for the rounding of a height.
+    double deepest = kTouching;
+    std::string what;
+    const auto look = [&](const Vec3& p, const std::string& name) {
+      const double depth = ground.sample(p.x(), p.y()) - p.z();
+      if (depth > deepest) deepest = depth, what = name;
+    };
+    for (const LinkBox& one : boxes_of(placed, X_WB.at(m)))
+      // What stands may have its foot in the ground.
+      if (!placed.machine.fixed_base || one.link != &placed.machine.links[0])
+        look(one.box.X_WO.translation(), "link '" + one.link->name + "'");
+    std::vector<double> q;
+    for (const scene::Joint& joint : placed.machine.joints) q.push_back(joint.initial);
+    const std::vector<Pose> X_WL = vehicle::forward_kinematics(placed.machine, X_WB.at(m), q);
+    for (const scene::Wheel& wheel : placed.machine.wheels) {
+      const int joint = placed.machine.joint_index(wheel.joint);
+      if (joint < 0) continue;
+      const scene::Joint& spin = placed.machine.joints[static_cast<std::size_t>(joint)];
+      look(X_WL[static_cast<std::size_t>(spin.child)] * Vec3(spin.X_LcJ.translation()), "wheel '" + wheel.joint + "'");
+    }
+    if (what.empty()) continue;
+    faults.push_back(error(scene, placed.name, text("%.2f m", deepest),
+                           "its " + what + " starts with its middle that far below the ground",
+                           "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
+  }
+  return faults;
+}
+
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
-    out.faults = check_overlaps(scene, starting_poses(scene, ground));
+    const std::vector<Pose> X_WB = starting_poses(scene, ground);
+    out.faults = check_overlaps(scene, X_WB);
+    std::vector<Fault> buried = check_buried(scene, X_WB, ground);
+    const bool falls = !buried.empty();
+    for (Fault& fault : buried) out.faults.push_back(std::move(fault));
+    // What falls is named, and need not fall through the ground to be told of again: nothing stands then.
+    if (falls) return out;
     out.standing = coupling::settle(scene, ground, kSettling);
     for (std::size_t m = 0; m < out.standing.size(); ++m) {
       const vehicle::Stability& stands = out.standing[m];

@@ -17,10 +17,15 @@ namespace navvy::sim {
 /// than 2 cm where they start; names both links and tells by how much. `X_WB` holds their base links' poses.
 std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB);
 
+/// Errors for every machine with masses of which a wheel's centre, or the middle of a moving link's collision shape,
+/// lies more than 2 cm below the surface of `ground` where it starts: it would fall for ever, or be thrown out.
+std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
+                                const heightfield::Terrain& ground);
+
 /// How each machine stands.
 struct StartCheck {
-  std::vector<vehicle::Stability> standing;  ///< one a machine of the scene
-  std::vector<Fault> faults;                 ///< overlaps, then machines that tip
+  std::vector<vehicle::Stability> standing;  ///< one a machine of the scene; none where one starts in the ground
+  std::vector<Fault> faults;                 ///< overlaps, what starts in the ground, machines that tip
 };
 
 /// Lays the ground, puts the machines on it and lets them settle for a second (soil at rest, joints held). A ground

@@ -178,6 +178,18 @@ SoilCounts World::soil_counts() const {
   return out;
 }
 
+void World::keep_soil_energy() {
+  if (parts_->soil.energy() == nullptr) parts_->soil.keep_energy(true);
+}
+
+std::optional<SoilEnergy> World::soil_energy() const {
+  const soil::EnergyAccount* account = parts_->soil.energy();
+  if (account == nullptr) return std::nullopt;
+  return SoilEnergy{account->tools,    account->gravity, account->exchanged, account->kinetic,
+                    account->elastic,  account->plastic, account->viscous,   account->contact,
+                    account->transfer, account->mixing,  account->apart,     account->residual()};
+}
+
 /// Recounted from columns and particles at each call: it proves, it does not remember.
 MassLedger World::mass_ledger() const {
   // The error is summed before the parts are moved out.

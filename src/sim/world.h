@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +93,10 @@ class World {
   /// What world_figures.h explains.
   SoilCounts soil_counts() const;
   MassLedger mass_ledger() const;
+  /// Opens the account of the soil's energy, if none is open: it changes no bit and takes longer than the soil itself.
+  void keep_soil_energy();
+  /// Since it was opened, or since a snapshot was loaded; none when it was not.
+  std::optional<SoilEnergy> soil_energy() const;
   /// Awake soil, one entry a particle, in a repeatable order.
   std::vector<LooseSoil> loose_soil() const;
   WallTimes wall_times() const;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/log.h"
 #include "sim/world.h"
@@ -15,21 +16,25 @@ namespace {
 using scene::Joint;
 using vehicle::JointMode;
 
-/// The function of a joint's position input. A target beyond the joint's limits is told, once a joint: servos and
-/// kinematic joints stop at the limit.
-std::function<void(double)> position_input(World& world, const JointHandle& handle, const Joint& joint,
-                                           const std::string& name, const std::string& unit) {
+/// What a joint's input takes: all beyond these bounds goes to the nearer one.
+struct Bounds {
+  double lower, upper;
+};
+
+/// The function of a joint's input. A target beyond the joint's limits is told, once an input: servos and kinematic
+/// joints stop at the limit.
+std::function<void(double)> joint_input(World& world, const JointHandle& handle, JointMode mode, const Bounds& bounds,
+                                        const std::string& name, const std::string& unit) {
   // Rounding of degrees is let pass, as in programs.
   constexpr double kSlack = 1e-6;
-  return [&world, handle, name, unit, limited = joint.has_limits, lower = joint.lower, upper = joint.upper,
-          told = false](double target) mutable {
-    world.command(handle, {JointMode::kPosition, target});
-    if (told || !limited || (target >= lower - kSlack && target <= upper + kSlack)) return;
+  return [&world, handle, mode, bounds, name, unit, told = false](double target) mutable {
+    world.command(handle, {mode, target});
+    if (told || (target >= bounds.lower - kSlack && target <= bounds.upper + kSlack)) return;
     told = true;
     std::array<char, 128> text{};
     std::snprintf(text.data(), text.size(), ": %.6g %s is beyond the joint's limits, %.6g to %.6g %s", target,
-                  unit.c_str(), lower, upper, unit.c_str());
-    log_warning("input " + name + text.data() + ": it goes to the limit (said once a joint)");
+                  unit.c_str(), bounds.lower, bounds.upper, unit.c_str());
+    log_warning("input " + name + text.data() + ": it goes to the limit (said once an input)");
   };
 }
 
@@ -49,19 +54,19 @@ void add_joints(World& world, const MachineHandle& machine, const std::string& p
     const JointHandle handle = machine.joint(static_cast<int>(i));
     const std::string base = prefix + joint.name + "/";
     // The units follow the joint's type. A closure holds a handle: no name is looked up while stepping.
-    inputs.add({base + "position", linear ? "m" : "rad", "target; choosing it selects this mode", machine.index()},
-               position_input(world, handle, joint, base + "position", linear ? "m" : "rad"));
+    constexpr double kFar = std::numeric_limits<double>::infinity();
     const struct {
       const char* name;
       const char* unit;
       JointMode mode;
-    } modes[] = {{"velocity", linear ? "m/s" : "rad/s", JointMode::kVelocity},
-                 {"effort", linear ? "N" : "N m", JointMode::kEffort}};
+      Bounds bounds;
+    } modes[] = {{"position", linear ? "m" : "rad", JointMode::kPosition,
+                  joint.has_limits ? Bounds{joint.lower, joint.upper} : Bounds{-kFar, kFar}},
+                 {"velocity", linear ? "m/s" : "rad/s", JointMode::kVelocity, {-joint.velocity, joint.velocity}},
+                 {"effort", linear ? "N" : "N m", JointMode::kEffort, {-joint.effort, joint.effort}}};
     for (const auto& mode : modes)
       inputs.add({base + mode.name, mode.unit, "target; choosing it selects this mode", machine.index()},
-                 [&world, handle, kind = mode.mode](double v) {
-                   world.command(handle, {kind, v});
-                 });
+                 joint_input(world, handle, mode.mode, mode.bounds, base + mode.name, mode.unit));
     // A joint's inputs and outputs have the same names: one is the target, the other what it came to.
     outputs.add({base + "position", linear ? "m" : "rad", "joint position"}, [handle] { return handle.position(); });
     outputs.add({base + "velocity", linear ? "m/s" : "rad/s", "joint velocity"},
@@ -147,10 +152,11 @@ void add_tool(const World& world, const ToolHandle& tool, Outputs& outputs) {
   const std::string base = machine.name() + "/" + tool.name() + "/";
   const char* axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
-    outputs.add({base + "force_" + axes[i], "N", "soil on the tool, mean of the last step, world axes"},
+    outputs.add({base + "force_" + axes[i], "N", "soil on the tool, mean of the last transfer that ended, world axes"},
                 [tool, i] { return tool.force()[i]; });
-    outputs.add({base + "moment_" + axes[i], "N m", "soil on the tool about the link's origin, world axes"},
-                [tool, i] { return tool.moment()[i]; });
+    outputs.add(
+        {base + "moment_" + axes[i], "N m", "soil on the tool about the link's origin, mean likewise, world axes"},
+        [tool, i] { return tool.moment()[i]; });
     outputs.add({base + "smooth_force_" + axes[i], "N", "the force, low-passed at 3 Hz"},
                 [tool, i] { return tool.smooth_force()[i]; });
     // Rock pushes back on machines with masses only.

@@ -20,6 +20,14 @@ struct SoilCounts {
   std::uint64_t shell_crossings = 0;      ///< particles found on the wrong side of a shell
 };
 
+/// Where the energy of awake soil came from and went [J]: soil::EnergyAccount for readers that know no solver.
+struct SoilEnergy {
+  double tools = 0, gravity = 0, exchanged = 0;                                       ///< supplied
+  double kinetic = 0, elastic = 0;                                                    ///< kept
+  double plastic = 0, viscous = 0, contact = 0, transfer = 0, mixing = 0, apart = 0;  ///< spent; `apart` is beside it
+  double residual = 0;                                                                ///< supplied - kept - spent
+};
+
 /// Where the soil's mass is, one entry per soil of the scene, in units of kMassQuantum. Recounted when asked.
 struct MassLedger {
   std::vector<std::int64_t> columns;    ///< change of the ground against its start

@@ -27,6 +27,12 @@ struct GroundState {
   SoilState soil;
 };
 
+/// Nodes between which a ground is told exactly: those at `node` plus whole multiples of `spacing` [m].
+struct GroundLattice {
+  Vec2 node = Vec2::Zero();
+  double spacing = 0.1;
+};
+
 /// The question itself. Places are W's x and y [m]; outside its extent a ground answers with its nearest place.
 ///
 /// Height and normal are asked some hundred times a wheel and step, the soil a few times, so each has a call of its
@@ -44,6 +50,9 @@ class GroundQuery {
     (void)x, (void)y;
     return {};
   }
+
+  /// Where its heights are given; between them rigid bodies meet flat triangles.
+  virtual GroundLattice lattice() const { return {}; }
 
   /// All three.
   GroundState at(double x, double y) const { return {height(x, y), normal(x, y), soil(x, y)}; }

@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terramechanics/tyre_track.h"
+
 namespace navvy::terramechanics {
 namespace {
 
 constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
 constexpr double kArcStep = radians(15);  // so that 0.1 m cells are not stepped over near the ground
-constexpr double kReboundSpeed = 0.25;    // [m/s] tuned: BulletDrive.DropsIntoATrenchWithoutBeingLaunched
-constexpr double kMaxDeflection = 0.25;   // of the radius: tread on the rim
-constexpr double kBristleShare = 0.8;     // tangential over radial stiffness of a bias truck tyre, 0.5 to 1 (U)
-constexpr double kRelaxation = 0.6;  // of the radius [Pacejka 2012, 7.2: about the contact's half length to radius]
 
 struct Track {
   Vec3 normal = Vec3::UnitZ();
@@ -69,29 +67,6 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
   return track;
 }
 
-/// Spring and damper of the carcass [N], never pulling, bounded where the tread meets the rim.
-double radial_force(const scene::Wheel& tyre, double share, double deflection, double closing) {
-  const double force = share * (tyre.stiffness * deflection + tyre.damping * closing);
-  // Leaving the ground, the spring gives back less and less, nothing at the rebound speed.
-  const double taper = closing < 0 ? std::max(0.0, 1 + closing / kReboundSpeed) : 1.0;
-  return std::clamp(force * taper, 0.0, 2 * share * tyre.stiffness * kMaxDeflection * tyre.radius);
-}
-
-/// Stretches the bristle by the slip of this step and returns the force on the tyre (forward, left).
-Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, double limit,
-                   double rim_mass, double dt, Vec2& bristle) {
-  // An explicit step stays stable while k dt^2 and c dt are well below the rim's mass.
-  const double k = std::min(kBristleShare * share * tyre.stiffness, 0.2 * share * rim_mass / (dt * dt));
-  const double c = std::min(share * tyre.damping, 0.3 * share * rim_mass / dt);
-  // Fresh, unstretched bristles roll in at the rolling speed.
-  bristle = (bristle + dt * slip) / (1 + dt * std::abs(rolling) / (kRelaxation * tyre.radius));
-  const double stretched = k * bristle.norm();
-  if (stretched > limit) bristle *= limit / stretched;
-  Vec2 force = -k * bristle - c * slip;
-  if (force.norm() > limit) force *= limit / force.norm();
-  return force;
-}
-
 /// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
   const Vec3 p = X.translation(), left = X.linear().col(1);
@@ -115,8 +90,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
                      TyreState& state) {
   TyreForce out;
   const Vec3 center = motion.X_WWheel.translation(), axis = motion.X_WWheel.linear().col(1);
-  // The tyres of a pair, or the middles of the two halves of a single tyre, which then resists leaning.
-  const double offset = tyre.twin_spacing > 0 ? 0.5 * tyre.twin_spacing : 0.25 * tyre.width;
+  const double offset = track_offset(tyre);
   const double rim_mass = motion.spin_inertia / (tyre.radius * tyre.radius);
   double rim_speed = 0, ground_speed = 0, load = 0;
   for (int t = 0; t < 2; ++t) {

@@ -41,14 +41,10 @@ class Engine {
   /// Force [N] at p_W during the next step only.
   virtual void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) = 0;
 
-  /// Advances by dt [s]: joints, hydraulics, tyre forces from `ground`, contacts of collision shapes with ground and
-  /// with each other.
+  /// Advances by dt [s]: joints, hydraulics, tyre forces from `ground` and from bodies, contacts of collision shapes
+  /// with the ground (at full resolution, wherever they are) and with each other.
+  /// @throws SimulationError for a machine that is nowhere, or deep below the ground.
   virtual void step(double dt, const GroundQuery& ground) = 0;
-  /// Heights for contacts of rigid bodies (not wheels): a dense patch, x fastest, node (0,0) at `corner` [m]. Called
-  /// again whenever ground changed or the machine nears the patch's edge.
-  virtual void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner,
-                                const std::vector<float>& height) = 0;
-
   /// Height [m] of the level rock that no shell of a machine with masses goes into; far below until told.
   virtual void set_rock(double height) { (void)height; }
 
@@ -79,7 +75,7 @@ class Engine {
   }
 
   /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have been added alike,
-  /// and whoever owns the ground tells patch and rock again: they are not the engine's.
+  /// and whoever owns the ground tells the rock again: it is not the engine's.
   /// @throws InputError for another number or make of machines, or one whose place is not finite.
   virtual void visit(Archive& a) = 0;
 };

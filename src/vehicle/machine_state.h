@@ -58,7 +58,8 @@ struct WheelState {
   Vec3 v_W = Vec3::Zero();           ///< of the centre [m/s]
   double spin = 0;                   ///< [rad/s], positive rolls forward (+x)
   double steer = 0;                  ///< [rad]
-  Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step [N]
+  Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step, ground and bodies together [N]
+  Vec3 body_W = Vec3::Zero();        ///< what bodies gave of it: it presses no rut [N]
   double slip = 0;                   ///< longitudinal [-]
   double sinkage = 0;                ///< [m]
 };

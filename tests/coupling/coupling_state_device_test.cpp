@@ -68,24 +68,5 @@ TEST_F(CouplingState, IsLoadedAsItWasSaved) {
   }
 }
 
-TEST_F(CouplingState, RefusesAPatchThatCannotBe) {
-  ByteMap map;
-  const std::vector<char> bytes = saved(coupling(), &map);
-  const auto overwritten = [&](const std::string& path, bool last, auto value) {
-    std::vector<char> out = bytes;
-    for (const ByteMap::Field& field : map.fields)
-      if (field.path == path && (!last || field.size > sizeof(std::uint64_t)))
-        std::memcpy(out.data() + field.offset, &value, sizeof value);
-    return fault_of(out);
-  };
-  const auto says = [](const std::string& fault, const std::string& text) {
-    EXPECT_NE(fault.find(text), std::string::npos) << fault;
-  };
-  says(overwritten("coupling/patch_x1", false, 1 << 30), "patch_x1: is out of its range");
-  says(overwritten("coupling/patch_y1", false, -(1 << 28)), "patch_y1: is out of its range");
-  says(overwritten("coupling/patch_y1", false, 1 << 28), "does not fill the patch");
-  says(overwritten("coupling/patch_height", true, std::numeric_limits<float>::infinity()), "must be finite");
-}
-
 }  // namespace
 }  // namespace navvy::coupling

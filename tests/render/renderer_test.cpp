@@ -170,6 +170,21 @@ TEST_F(RendererTest, TheContentOfABucketChangesPixels) {
   EXPECT_GT(changed_pixels(empty, full), 800);
 }
 
+TEST_F(RendererTest, NoLumpReachesThroughAPlate) {
+  scene::Visual plate = red_visual(scene::Geometry::Kind::kBox);
+  plate.geometry.size = Vec3(0.02, 2, 2);
+  frame_.shapes.push_back({&plate, make_pose(0, 0, 1.5)});
+  const scene::FrameCamera from_behind = small_camera({-4, 0, 1.5}, {0, 0, 1.5});
+  Renderer renderer;
+  const Image bare = renderer.render(frame_, from_behind);
+  // Soil that lies against the plate's other face.
+  add_soil(frame_.particles, {0.03, -0.6, 1.0}, {0.3, 0.6, 2.0}, 0.1);
+  EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20) << "lumps of full size would show";
+  for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
+    frame_.particles.room.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
+  EXPECT_EQ(changed_pixels(bare, renderer.render(frame_, from_behind)), 0);
+}
+
 TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
   Renderer renderer;
   for (const auto kind :
@@ -194,6 +209,30 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
       EXPECT_NEAR(sum_y / n, expected.y(), 3);
     }
   }
+}
+
+TEST_F(RendererTest, CapsulesAndConesHaveTheirOutline) {
+  // From the side and from far off, so that perspective takes less than a pixel; widths of the picture's rows in
+  // metres.
+  const Vec3 at(0, 0, 3);
+  const scene::FrameCamera side = small_camera({0, -6, 3}, at);
+  Renderer renderer;
+  const auto width = [&](scene::Geometry::Kind kind, double z) {
+    const scene::Visual visual = red_visual(kind);
+    frame_.shapes = {{&visual, make_pose(at.x(), at.y(), at.z())}};
+    const Image image = renderer.render(frame_, side);
+    const Vec2 row = project(side, at + Vec3(0, 0, z));
+    int n = 0;
+    for (int x = 0; x < kWidth; ++x) n += is_red(image.pixel(x, static_cast<int>(row.y()))) ? 1 : 0;
+    return n / (project(side, at + Vec3(1, 0, z)).x() - row.x());
+  };
+  using Kind = scene::Geometry::Kind;
+  constexpr double kPixels = 0.06;  // [m] two, and the corners of the polygons
+  for (const double z : {-0.37, 0.0, 0.37}) EXPECT_NEAR(width(Kind::kCapsule, z), 0.8, kPixels) << z;
+  for (const double z : {-0.7, 0.7}) EXPECT_NEAR(width(Kind::kCapsule, z), 2 * std::sqrt(0.16 - 0.09), kPixels) << z;
+  for (const double z : {-0.35, 0.0, 0.3}) EXPECT_NEAR(width(Kind::kCone, z), 0.4 - z, kPixels) << z;
+  for (const double z : {-0.85, 0.85}) EXPECT_EQ(width(Kind::kCapsule, z), 0) << z;
+  for (const double z : {-0.45, 0.45}) EXPECT_EQ(width(Kind::kCone, z), 0) << z;
 }
 
 TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {

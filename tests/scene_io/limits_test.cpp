@@ -160,25 +160,33 @@ TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
 
 TEST(Limits, MeshesOfShapesAreReadOnceAndRefusedForWhatWouldEndARun) {
   const test::Folder folder;
-  const auto model = [](const std::string& shape, const std::string& mesh) {
-    return "<model name=\"m\"><static>1</static><link name=\"l\"><" + shape + " name=\"a\"><geometry><mesh><uri>" +
-           mesh + "</uri></mesh></geometry></" + shape + "><" + shape + " name=\"b\"><geometry><mesh><uri>" + mesh +
+  const std::string stands = "<static>1</static><link name=\"l\">";
+  const std::string moves =
+      "<link name=\"l\"><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>";
+  const auto model = [](const std::string& kind, const std::string& shape, const std::string& mesh) {
+    return "<model name=\"m\">" + kind + "<" + shape + " name=\"a\"><geometry><mesh><uri>" + mesh +
+           "</uri></mesh></geometry></" + shape + "><" + shape + " name=\"b\"><geometry><mesh><uri>" + mesh +
            "</uri></mesh></geometry></" + shape + "></link></model>";
   };
   const std::string flat = folder / "flat.obj", bad = folder / "bad.obj", empty = folder / "empty.obj";
   write_file_atomically(flat, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   write_file_atomically(bad, std::string("v 0 0 x\n"));
   write_file_atomically(empty, std::string("\n"));
-  const Faults drawn = read(world_text(model("visual", flat)));
+  const Faults drawn = read(world_text(model(stands, "visual", flat)));
   EXPECT_FALSE(drawn.has_errors()) << messages(drawn);
   EXPECT_EQ(drawn.work.meshes.size(), 1u);
-  EXPECT_TRUE(refused(world_text(model("collision", flat)), "the mesh needs at least 4"));
-  EXPECT_TRUE(refused(world_text(model("visual", empty)), "the mesh needs at least 1"));
-  EXPECT_TRUE(refused(world_text(model("visual", bad)), "bad.obj:1: error"));
+  // What moves collides by a hull, what stands by its triangles: one is enough.
+  EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "the mesh needs at least 4"));
+  const Faults standing = read(world_text(model(stands, "collision", flat)));
+  EXPECT_FALSE(standing.has_errors()) << messages(standing);
+  EXPECT_TRUE(refused(world_text(model(stands, "visual", empty)), "the mesh needs at least 1"));
+  EXPECT_TRUE(refused(world_text(model(stands, "visual", bad)), "bad.obj:1: error"));
   std::string many;
   for (std::size_t i = 0; i <= limits::kHullVertices; ++i) many += "v 0 0 " + std::to_string(i) + "\n";
   write_file_atomically(flat, many);
-  EXPECT_TRUE(refused(world_text(model("collision", flat)), "may have at most 50000"));
+  EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "may have at most 50000"));
+  // Visuals collide where no collision is given.
+  EXPECT_TRUE(refused(world_text(model(moves, "visual", flat)), "or give the model a <collision>"));
 }
 
 TEST(Limits, ACellWhoseParticlesAreTooHeavyIsRefused) {
@@ -219,7 +227,7 @@ TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
   EXPECT_TRUE(refused(world_text("<model name=\"m\"><static>1</static><link name=\"l\"><visual name=\"v\"><geometry>"
                                  "<mesh><uri>" +
                                  mesh + "</uri></mesh></geometry></visual></link></model>"),
-                      "no such mesh file"));
+                      "pipe.obj': it is a pipe, a plain file is needed"));
   EXPECT_TRUE(refused(world_text("<navvy:soil ref=\"" + pipe + "\"/>"), "no such soil"));
   // A list of files that a run has left, changed by hand.
   Faults listed;

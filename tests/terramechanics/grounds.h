@@ -10,10 +10,12 @@
 
 namespace navvy::terramechanics {
 
-/// A surface over x and y [m]; the normal by differences over 0.1 m. A firm floor until told its soil.
+/// A surface over x and y [m]; the normal by differences over 0.1 m. A firm floor until told its soil. Bodies meet it
+/// by triangles between nodes `spacing` [m] apart.
 class FunctionGround final : public GroundQuery {
  public:
-  explicit FunctionGround(std::function<double(double, double)> height) : height_(std::move(height)) {}
+  explicit FunctionGround(std::function<double(double, double)> height, double spacing = 0.2)
+      : height_(std::move(height)), spacing_(spacing) {}
   void set_soil(std::function<SoilState(double, double)> soil) { soil_ = std::move(soil); }
 
   double height(double x, double y) const override { return height_(x, y); }
@@ -23,10 +25,12 @@ class FunctionGround final : public GroundQuery {
     const double dy = (height_(x, y + kHalf) - height_(x, y - kHalf)) / (2 * kHalf);
     return Vec3(-dx, -dy, 1).normalized();
   }
+  GroundLattice lattice() const override { return {Vec2::Zero(), spacing_}; }
   SoilState soil(double x, double y) const override { return soil_ ? soil_(x, y) : SoilState{}; }
 
  private:
   std::function<double(double, double)> height_;
+  double spacing_;
   std::function<SoilState(double, double)> soil_;
 };
 

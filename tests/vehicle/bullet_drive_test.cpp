@@ -144,10 +144,6 @@ TEST(BulletDrive, DropsIntoATrenchWithoutBeingLaunched) {
   auto engine = make_bullet_engine(kDown);
   const scene::Machine m = ew180();
   engine->add_machine(m, Pose::Identity());
-  std::vector<float> heights;
-  for (int j = 0; j < 25; ++j)
-    for (int i = 0; i < 81; ++i) heights.push_back(static_cast<float>(ground.height(-5 + 0.25 * i, 0)));
-  engine->set_ground_patch(81, 25, 0.25, Vec2(-5, -3), heights);
   engine->set_drive(0, {0.8, 0, false});
   double lowest = 1, fastest = 0;
   run(*engine, ground, 8, kStep, [&](double) {

@@ -163,18 +163,11 @@ TEST(BulletEngine, InverseMassPredictsTheVelocityChangeOfAnImpulse) {
 
 TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
   const auto ground = testing::FunctionGround([](double x, double) { return 0.1 * std::sin(x); });
-  const auto patch = [&](Engine& engine) {
-    std::vector<float> heights;
-    for (int j = 0; j < 101; ++j)
-      for (int i = 0; i < 101; ++i) heights.push_back(static_cast<float>(ground.height(-10 + 0.2 * i, 0)));
-    engine.set_ground_patch(101, 101, 0.2, Vec2(-10, -10), heights);
-  };
   const auto build = [&] {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(ew180(), Pose::Identity());
     engine->add_machine(ew180(), make_pose(0, 6, 0.3));
     engine->add_machine(testing::box(), make_pose(5, 0, 2, 0.3, 0.2, 0.1));
-    patch(*engine);
     return engine;
   };
   const auto drive = [&](Engine& engine, double from, double to) {
@@ -217,7 +210,6 @@ TEST(BulletEngine, FailsClearlyOnBadInput) {
   EXPECT_THROW(engine->add_machine(m, Pose::Identity()), InputError);
   engine->add_machine(arm(), Pose::Identity());
   EXPECT_THROW(engine->step(0, flat()), SimulationError);
-  EXPECT_THROW(engine->set_ground_patch(3, 3, 0.1, Vec2::Zero(), {0, 0}), SimulationError);
 }
 
 }  // namespace

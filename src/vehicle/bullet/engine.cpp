@@ -3,7 +3,6 @@
 //
 // The step is put together here instead of in btMultiBodyDynamicsWorld: nothing sleeps, no islands are split, and no
 // contact outlives its step, so a step depends on the saved state alone.
-#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -12,19 +11,24 @@
 #include <string>
 
 #include "core/error.h"
+#include "vehicle/bullet/broad_phase.h"
 #include "vehicle/bullet/convert.h"
+#include "vehicle/bullet/ground_shape.h"
 #include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/refuse.h"
+#include "vehicle/bullet/tyre_bodies.h"
 
 namespace navvy::vehicle {
 namespace {
 
-// Machines meet the ground and each other; the ground meets nobody else.
-constexpr int kGroundGroup = 1, kMachineGroup = 2;
+// What moves meets the ground, what stands, and each other; what stands meets nothing else.
+constexpr int kGroundGroup = 1, kMachineGroup = 2, kStandingGroup = 4;
 constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyticOne
 constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
-// The broad phase is a plain list of this size: a few dozen shapes are never worth a tree.
-constexpr int kMostShapes = 4096;
-constexpr std::uint32_t kVersion = 3;
+constexpr int kMostShapes = 16384;  // links with shapes of all machines together; 130 bytes each
+// A machine this far below the surface has fallen through it: no ground is as thick as that over a body [m].
+constexpr double kLost = 10;
+constexpr std::uint32_t kVersion = 4;
 
 class BulletEngine final : public Engine {
  public:
@@ -33,13 +37,12 @@ class BulletEngine final : public Engine {
         dispatcher_(&configuration_),
         broadphase_(kMostShapes),
         world_(&dispatcher_, &broadphase_, &configuration_) {
-    // Until a patch is given, the ground for bodies is empty space far below.
-    patch_ = GroundPatch(2, 2, 1.0, Vec2(-0.5, -0.5), std::vector<float>(4, -1e6f));
+    ground_.setCollisionShape(&ground_shape_);
+    ground_.setWorldTransform(btTransform::getIdentity());
     ground_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
     // Bullet multiplies friction of both bodies: the machine's counts alone.
     ground_.setFriction(1);
     ground_.setRestitution(0);
-    place_ground();
     world_.addCollisionObject(&ground_, kGroundGroup, kMachineGroup);
     info_.m_numIterations = kIterations;
     info_.m_leastSquaresResidualThreshold = kResidual;
@@ -57,9 +60,17 @@ class BulletEngine final : public Engine {
   }
 
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
+    if (world_.getNumCollisionObjects() + static_cast<int>(machine.links.size()) > kMostShapes)
+      refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
+             "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
-    for (const auto& collider : machines_.back()->colliders())
-      if (collider) world_.addCollisionObject(collider.get(), kMachineGroup, kGroundGroup | kMachineGroup);
+    const auto& colliders = machines_.back()->colliders();
+    for (std::size_t l = 0; l < colliders.size(); ++l) {
+      if (!colliders[l]) continue;
+      const bool stands = l == 0 && machines_.back()->tree().fixed_base();
+      world_.addCollisionObject(colliders[l].get(), stands ? kStandingGroup : kMachineGroup,
+                                stands ? kMachineGroup : kGroundGroup | kMachineGroup | kStandingGroup);
+    }
     // The order in which rows are given to the solver is part of the result: joints, then rock, machine by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
@@ -84,8 +95,13 @@ class BulletEngine final : public Engine {
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all, then positions.
-    for (auto& machine : machines_) machine->begin_step(gravity_, ground, dt);
+    for (auto& machine : machines_) machine->begin_step(ground, dt);
+    tyre_bodies_.push(machines_, world_, dt);
+    for (auto& machine : machines_) machine->accelerate(gravity_, dt);
+    ground_shape_.set_ground(&ground);
     world_.performDiscreteCollisionDetection();
+    turn_ground_contacts();
+    ground_shape_.set_ground(nullptr);
     solve(dt);
     for (auto& machine : machines_) {
       machine->end_step(contact_impulse(*machine), dt);
@@ -93,19 +109,12 @@ class BulletEngine final : public Engine {
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
         throw SimulationError("vehicle: machine '" + machine->scene().name + "' has no finite place any more");
+      if (!machine->tree().fixed_base() && p.z() < ground.height(p.x(), p.y()) - kLost)
+        throw SimulationError("vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
+                              std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
+                              " m; it needs wheels or collision shapes that hold it, above the ground at the start");
     }
     forget_contacts();
-  }
-
-  void set_ground_patch(int nx, int ny, double spacing, const Vec2& corner, const std::vector<float>& height) override {
-    if (nx < 2 || ny < 2 || !(spacing > 0) ||
-        height.size() != static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny))
-      throw SimulationError(
-          "vehicle: the ground patch needs nx * ny heights, nx and ny at least 2, spacing above zero");
-    // A new shape each time: Bullet's heightfield keeps bounds that it never shrinks.
-    patch_ = GroundPatch(nx, ny, spacing, corner, height);
-    place_ground();
-    world_.updateSingleAabb(&ground_);
   }
 
   void set_rock(double height) override {
@@ -129,17 +138,13 @@ class BulletEngine final : public Engine {
     a.section("bullet", kVersion, [&] {
       a.constant("machines", machines_.size(), "the snapshot holds another number of machines than the scene");
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
+      tyre_bodies_.visit(a, machines_);
     });
   }
 
  private:
   BulletMachine& at(int machine) { return *machines_.at(static_cast<std::size_t>(machine)); }
   const BulletMachine& at(int machine) const { return *machines_.at(static_cast<std::size_t>(machine)); }
-
-  void place_ground() {
-    ground_.setCollisionShape(patch_.shape.get());
-    ground_.setWorldTransform(btTransform(btQuaternion::getIdentity(), to_bt(patch_.center)));
-  }
 
   void solve(double dt) {
     // One group for the whole world: no islands, so nobody's result depends on who is near.
@@ -152,7 +157,24 @@ class BulletEngine final : public Engine {
         nullptr, 0, constraints_.data(), static_cast<int>(constraints_.size()), info_, nullptr, &dispatcher_);
   }
 
-  /// Impulse of the ground's patch on a machine in this step [N s].
+  /// Gives each contact with the ground a normal that the ground has there.
+  void turn_ground_contacts() {
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
+      const bool second = manifold->getBody1() == &ground_;
+      if (!second && manifold->getBody0() != &ground_) continue;
+      for (int p = 0; p < manifold->getNumContacts(); ++p) {
+        btManifoldPoint& point = manifold->getContactPoint(p);
+        // Bullet's normal leads from its body 1 to its body 0.
+        const double sign = second ? 1 : -1;
+        const Vec3 p_W = to_eigen(second ? point.getPositionWorldOnB() : point.getPositionWorldOnA());
+        point.m_normalWorldOnB =
+            to_bt(Vec3(sign * ground_shape_.outward(p_W, sign * to_eigen(point.m_normalWorldOnB))));
+      }
+    }
+  }
+
+  /// Impulse of the ground on a machine's shapes in this step [N s].
   Vec3 contact_impulse(BulletMachine& machine) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
@@ -187,12 +209,13 @@ class BulletEngine final : public Engine {
   // In the order in which each needs the one before it.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
-  btSimpleBroadphase broadphase_;
+  SweepBroadphase broadphase_;
   btCollisionWorld world_;
   btMultiBodyConstraintSolver solver_;
   btContactSolverInfo info_;
-  GroundPatch patch_;
+  GroundShape ground_shape_;
   btCollisionObject ground_;
+  TyreBodies tyre_bodies_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
   std::vector<btMultiBodyConstraint*> constraints_;
   double rock_height_ = -1e6;  // far below, until told

@@ -29,7 +29,7 @@ void BulletMachine::add_colliders() {
   colliders_.resize(machine_.links.size());
   for (std::size_t i = 0; i < machine_.links.size(); ++i) {
     const int link = static_cast<int>(i), k = tree_.bullet_of_link(link);
-    shapes_[i] = make_link_shape(machine_.links[i], tree_.inertial_frame(link).inverse());
+    shapes_[i] = make_link_shape(machine_.links[i], tree_.inertial_frame(link).inverse(), i == 0 && tree_.fixed_base());
     if (!shapes_[i].compound) continue;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(&tree_.multibody(), k);
     collider->setCollisionShape(shapes_[i].compound.get());
@@ -71,7 +71,7 @@ void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, co
   external_impulse_ += J_W;
 }
 
-void BulletMachine::begin_step(const Vec3& gravity, const GroundQuery& ground, double dt) {
+void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
   joints_.note_speeds();
   // The drive commands joints, so it comes before them; forces are summed by the tree and may come in any order.
   drive_.begin_step(dt);
@@ -82,7 +82,6 @@ void BulletMachine::begin_step(const Vec3& gravity, const GroundQuery& ground, d
     external_impulse_ += dt * push.f_W;
   }
   pushes_.clear();
-  tree_.step_velocities(gravity, dt);
 }
 
 void BulletMachine::end_step(const Vec3& contact, double dt) {

@@ -33,7 +33,8 @@ class BulletMachine {
   /// Rows and bodies that the engine gives to the solver; some entries are null.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
   std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }  ///< by link
+  MachineWheels& wheels() { return wheels_; }
 
   /// Takes the joint from the drive until the drive's next command.
   void set_joint(int joint, const JointInput& input);
@@ -43,8 +44,9 @@ class BulletMachine {
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
   void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W);
 
-  /// Before the solver: servo demands, drive, tyres, gravity.
-  void begin_step(const Vec3& gravity, const GroundQuery& ground, double dt);
+  /// Before the solver: servo demands, drive, tyres on the ground; then gravity and all forces change the velocities.
+  void begin_step(const GroundQuery& ground, double dt);
+  void accelerate(const Vec3& gravity, double dt) { tree_.step_velocities(gravity, dt); }
   /// After it: positions, efforts, work. `contact`: impulse of the rigid contacts with the ground [N s].
   void end_step(const Vec3& contact, double dt);
 

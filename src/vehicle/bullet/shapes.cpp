@@ -2,9 +2,13 @@
 #include "vehicle/bullet/shapes.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 
 #include <algorithm>
 #include <string>
@@ -36,7 +40,24 @@ std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   return hull;
 }
 
-std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision) {
+/// The triangles of a mesh that never moves, from both sides. The shape reads them from `keep`.
+std::unique_ptr<btCollisionShape> make_triangles(const scene::Collision& collision,
+                                                 std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
+  const scene::Geometry& g = collision.geometry;
+  const geometry::TriangleMesh mesh = geometry::read_obj(g.mesh_file);
+  auto triangles = std::make_unique<btTriangleMesh>(true, false);
+  const auto corner = [&](std::size_t t, std::size_t i) {
+    return to_bt(Vec3(g.scale.cwiseProduct(mesh.corner(t, i))));
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    triangles->addTriangle(corner(t, 0), corner(t, 1), corner(t, 2));
+  if (mesh.triangles.empty()) refuse(collision, g.mesh_file, "the mesh has no triangle");
+  keep.push_back(std::move(triangles));
+  return std::make_unique<btBvhTriangleMeshShape>(keep.back().get(), true);
+}
+
+std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, bool stands,
+                                             std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   using Kind = scene::Geometry::Kind;
   const scene::Geometry& g = collision.geometry;
   switch (g.kind) {
@@ -46,40 +67,32 @@ std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision) 
       return std::make_unique<btCylinderShapeZ>(btVector3(g.radius, g.radius, 0.5 * g.length));
     case Kind::kSphere:
       return std::make_unique<btSphereShape>(g.radius);
+    case Kind::kCone:
+      return std::make_unique<btConeShapeZ>(g.radius, g.length);
+    case Kind::kCapsule:
+      return std::make_unique<btCapsuleShapeZ>(g.radius, g.length);
     case Kind::kMesh:
-      return make_hull(collision);
+      return stands ? make_triangles(collision, keep) : make_hull(collision);
     case Kind::kPlane:
       break;
   }
-  refuse(collision, "plane", "a moving link cannot collide as a plane");
+  refuse(collision, "plane", "no body collides as a plane: in a scene it is the rock under the ground");
 }
 
 }  // namespace
 
-LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL) {
+LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands) {
   LinkShape out;
   if (link.collisions.empty()) return out;
   out.compound = std::make_unique<btCompoundShape>();
   out.friction = 0;
   for (const scene::Collision& collision : link.collisions) {
-    out.parts.push_back(make_shape(collision));
+    out.parts.push_back(make_shape(collision, stands, out.meshes));
     out.parts.back()->setMargin(std::min(0.02, out.parts.back()->getMargin()));
     out.compound->addChildShape(to_bt(Pose(X_IL * collision.X_LC)), out.parts.back().get());
     out.friction = std::max(out.friction, collision.friction);
   }
   return out;
-}
-
-GroundPatch::GroundPatch(int nx, int ny, double spacing, const Vec2& corner, const std::vector<float>& heights) {
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-  const double middle = 0.5 * (static_cast<double>(*low) + static_cast<double>(*high));
-  height.reserve(heights.size());
-  for (const float h : heights) height.push_back(static_cast<double>(h) - middle);
-  const double range = 0.5 * (static_cast<double>(*high) - static_cast<double>(*low)) + 0.05;
-  shape = std::make_unique<btHeightfieldTerrainShape>(nx, ny, height.data(), -range, range, 2, false);
-  shape->setLocalScaling(btVector3(spacing, spacing, 1));
-  // Bullet puts the origin into the middle of the grid.
-  center = Vec3(corner.x() + 0.5 * spacing * (nx - 1), corner.y() + 0.5 * spacing * (ny - 1), middle);
 }
 
 }  // namespace navvy::vehicle

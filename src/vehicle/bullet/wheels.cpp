@@ -85,7 +85,8 @@ WheelState MachineWheels::state(int i) const {
   state.v_W = now.v_W;
   state.spin = now.spin;
   state.steer = wheel.steer_joint >= 0 ? tree_.position(wheel.steer_joint) : 0;
-  state.force_W = wheel.force.force_W;
+  state.force_W = wheel.force.force_W + wheel.body_W;
+  state.body_W = wheel.body_W;
   state.slip = wheel.force.slip;
   state.sinkage = wheel.force.sinkage;
   return state;

@@ -2,6 +2,7 @@
 // The wheels of a machine in the Bullet engine: where they are and what the ground does to their tyres.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "terramechanics/tyre.h"
@@ -20,6 +21,9 @@ struct MachineWheel {
   terramechanics::TyreForce force;  // of the last step
   double held_spin = 0;             // angle at which the brake holds [rad]
   bool braked = false;
+  Vec3 body_W = Vec3::Zero();  // force of bodies in the last step [N]; TyreBodies saves it
+                               // Grip on bodies: stretch of the two tracks [m].
+  std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
 
   void visit(Archive& a);
 };
@@ -41,13 +45,14 @@ class MachineWheels {
   /// Adds the tyres' forces [N] to the tree for this step; returns their impulse [N s].
   Vec3 push(const terramechanics::GroundQuery& ground, double dt);
 
+  /// Pose (not spinning) and motion of a wheel's centre.
+  terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
+  const scene::Wheel& about(std::size_t i) const { return machine_.wheels[i]; }
+
   /// For outputs and ruts: where it is now, what acted on it in the last step.
   WheelState state(int wheel) const;
 
  private:
-  /// Pose (not spinning) and motion of a wheel's centre.
-  terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
-
   // Tyre data stay in the machine; a wheel here knows its place in the tree.
   const scene::Machine& machine_;
   TreeBody& tree_;

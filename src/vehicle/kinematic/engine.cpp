@@ -74,7 +74,6 @@ class KinematicEngine final : public Engine {
       update_links(body);
     }
   }
-  void set_ground_patch(int, int, double, const Vec2&, const std::vector<float>&) override {}
 
   JointState joint(int machine, int joint) const override {
     const Body& body = at(machine);

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/derived_parts.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "geometry/obj/read_obj.h"
+#include "geometry/primitive_solids.h"
+#include "scene_io/fields.h"
+#include "scene_io/mesh_path.h"
+
+namespace navvy::scene_io {
+
+namespace {
+
+using Kind = scene::Geometry::Kind;
+
+constexpr const char* kDensity = "navvy:density_kg_per_m3";
+
+const Element* named(const Element& parent, const char* kind, const std::string& name) {
+  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
+    if (attribute(*child, "name") == name) return child;
+  return nullptr;
+}
+
+const char* word_for(Kind kind) {
+  switch (kind) {
+    case Kind::kBox:
+      return "box";
+    case Kind::kCylinder:
+      return "cylinder";
+    case Kind::kSphere:
+      return "sphere";
+    case Kind::kMesh:
+      return "mesh";
+    case Kind::kPlane:
+      return "plane";
+    case Kind::kCone:
+      return "cone";
+    case Kind::kCapsule:
+      return "capsule";
+  }
+  return "shape";
+}
+
+/// Links that touch by something better than their visual.
+bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
+  const std::string& name = machine.links[link].name;
+  const auto spins_it = [&](const scene::Wheel& wheel) {
+    const int joint = machine.joint_index(wheel.joint);
+    return joint >= 0 && machine.joints[static_cast<std::size_t>(joint)].child == static_cast<int>(link);
+  };
+  return std::any_of(machine.wheels.begin(), machine.wheels.end(), spins_it) ||
+         std::any_of(machine.shells.begin(), machine.shells.end(),
+                     [&](const scene::Shell& shell) { return shell.link == name; });
+}
+
+/// A mesh must be fit to collide: moving ones by their hull, whose points are bounded.
+bool may_collide(const Element& visual, const scene::Geometry& shape, bool moves, Faults& faults) {
+  if (shape.kind == Kind::kPlane) return false;
+  if (shape.kind != Kind::kMesh) return true;
+  const Element* mesh = visual.FirstChildElement("geometry")->FirstChildElement("mesh");
+  const Element* uri = mesh != nullptr ? mesh->FirstChildElement("uri") : nullptr;
+  return uri != nullptr && check_mesh(*uri, shape.mesh_file, moves, faults);
+}
+
+void derive_collisions(const Element& model, scene::Machine& machine, Faults& faults) {
+  for (std::size_t l = 0; l < machine.links.size(); ++l) {
+    scene::Link& link = machine.links[l];
+    const Element* element = named(model, "link", link.name);
+    if (element == nullptr || touches_otherwise(machine, l)) continue;
+    const bool moves = l > 0 || !machine.fixed_base;
+    std::string told;
+    for (const scene::Visual& visual : link.visuals) {
+      const Element* from = named(*element, "visual", visual.name);
+      if (from == nullptr || !may_collide(*from, visual.geometry, moves, faults)) continue;
+      scene::Collision shape;
+      shape.name = visual.name;
+      shape.geometry = visual.geometry;
+      shape.X_LC = visual.X_LV;
+      shape.derived = true;
+      link.collisions.push_back(shape);
+      const bool hull = moves && visual.geometry.kind == Kind::kMesh;
+      told += (told.empty() ? "" : ", ") + std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) +
+              " '" + visual.name + "'";
+    }
+    if (!told.empty()) machine.derived.push_back("link '" + link.name + "' collides as its visuals: " + told);
+  }
+}
+
+/// Of one shape in its link's frame, at 1 kg/m3; false after a fault.
+bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS, geometry::SolidProperties& out,
+              Faults& faults) {
+  switch (shape.kind) {
+    case Kind::kBox:
+      out = geometry::solid_box(shape.size);
+      break;
+    case Kind::kCylinder:
+      out = geometry::solid_cylinder(shape.radius, shape.length);
+      break;
+    case Kind::kSphere:
+      out = geometry::solid_sphere(shape.radius);
+      break;
+    case Kind::kCone:
+      out = geometry::solid_cone(shape.radius, shape.length);
+      break;
+    case Kind::kCapsule:
+      out = geometry::solid_capsule(shape.radius, shape.length);
+      break;
+    case Kind::kPlane:
+      faults.error(at, "plane", "a plane has no volume", "give the link <inertial>, or another shape");
+      return false;
+    case Kind::kMesh:
+      try {
+        geometry::TriangleMesh mesh = geometry::read_obj(shape.mesh_file);
+        for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.scale);
+        out = geometry::solid_properties(mesh, shape.mesh_file);
+      } catch (const Error& error) {
+        faults.error(at, shape.mesh_file, error.what(), "only a closed mesh has a mass: close it, or give <inertial>");
+        return false;
+      }
+  }
+  out = geometry::placed(out, X_LS);
+  return true;
+}
+
+/// The number of an element's density; false when it has none or a faulty one.
+bool read_density(const Element& element, double& density, Faults& faults) {
+  const Element* e = element.FirstChildElement(kDensity);
+  std::vector<double> number;
+  // Foam to gold.
+  if (e == nullptr || !read_numbers(*e, 1, {1, 25000}, number, faults)) return false;
+  density = number[0];
+  return true;
+}
+
+void weigh(const Element& element, scene::Link& link, scene::Machine& machine, Faults& faults) {
+  double whole = 0;
+  bool any = read_density(element, whole, faults);
+  geometry::SolidProperties sum;
+  // Collisions are what a link is made of; visuals are often thinner than the thing or hollow.
+  const auto add = [&](const char* kind, const std::string& name, const scene::Geometry& shape, const Pose& X_LS) {
+    const Element* of = named(element, kind, name);
+    double density = whole;
+    if (of != nullptr && read_density(*of, density, faults)) any = true;
+    geometry::SolidProperties solid;
+    if (density > 0 && solid_of(of != nullptr ? *of : element, shape, X_LS, solid, faults))
+      sum = geometry::joined(sum, geometry::weighed(solid, density));
+  };
+  const std::size_t before = faults.error_count();
+  if (link.collisions.empty())
+    for (const scene::Visual& visual : link.visuals) add("visual", visual.name, visual.geometry, visual.X_LV);
+  for (const scene::Collision& one : link.collisions)
+    add(one.derived ? "visual" : "collision", one.name, one.geometry, one.X_LC);
+  if (!any || faults.error_count() > before) return;
+  if (element.FirstChildElement("inertial")) {
+    faults.error(element, "", std::string("has both <inertial> and <") + kDensity + ">", "remove one of them");
+    return;
+  }
+  if (!(sum.volume > 0)) {
+    faults.error(element, "", "a density needs shapes with a volume",
+                 "give the link a <collision> or a <visual>, or <inertial>");
+    return;
+  }
+  link.mass = sum.volume;
+  link.p_LCom = sum.p_BCom;
+  link.inertia = sum.inertia;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.4g kg", link.mass);
+  machine.derived.push_back("link '" + link.name + "' weighs " + text.data() + " by its density");
+}
+
+}  // namespace
+
+void derive_parts(const Element& model, scene::Machine& machine, Faults& faults) {
+  bool wanted = true;
+  if (const Element* e = model.FirstChildElement("navvy:derive_collisions")) read_flag(*e, wanted, faults);
+  const bool given = std::any_of(machine.links.begin(), machine.links.end(),
+                                 [](const scene::Link& link) { return !link.collisions.empty(); });
+  if (wanted && !given && !machine.kinematic) derive_collisions(model, machine, faults);
+  for (scene::Link& link : machine.links)
+    if (const Element* element = named(model, "link", link.name)) weigh(*element, link, machine, faults);
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines that start in the ground are named; what may have its foot in it is not.
+#include "sim/start_check.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "heightfield/site.h"
+#include "sim/placing.h"
+#include "sim/scenes.h"
+
+namespace navvy::sim {
+namespace {
+
+/// What is wrong with how these machines start on flat loam, its surface at 0.
+std::vector<Fault> faults_of(const std::string& machines) {
+  return check_start(scene_io::load_scene_from_string(
+                         "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
+                         "<navvy:ground><size_m>24 20</size_m></navvy:ground>" +
+                             machines + "</world></sdf>",
+                         "w.sdf", control::step_kinds()))
+      .faults;
+}
+
+std::string stone(const std::string& height, const std::string& about) {
+  return "<model name=\"stone\"><pose>1 2 " + height + " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground>" + about +
+         "<link name=\"rock\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><collision name=\"c\"><geometry>"
+         "<box><size>0.6 0.6 0.4</size></box></geometry></collision></link></model>";
+}
+
+std::string digger(const std::string& height) {
+  return "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 " + height +
+         " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground></include>";
+}
+
+void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>& parts) {
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].severity, Fault::Severity::kError);
+  for (const std::string& part : parts)
+    EXPECT_NE(faults[0].text().find(part), std::string::npos) << "'" << part << "' is not in: " << faults[0].text();
+}
+
+TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
+  expect_one(faults_of(stone("-0.35", "")),
+             {"w.sdf", "include[stone]", "0.35 m", "link 'rock' starts with its middle that far below the ground",
+              "raise it by its <pose>"});
+}
+
+TEST(StartCheck, NamesAWheelThatStartsBelowTheGround) {
+  // The wheels' centres are 0.525 m up; the chassis stays above.
+  expect_one(faults_of(digger("-0.8")), {"w.sdf", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
+}
+
+TEST(StartCheck, LetsABodyLieInTheGroundToItsMiddleAndAMachineSink) {
+  EXPECT_TRUE(faults_of(stone("-0.01", "")).empty());
+  EXPECT_TRUE(faults_of(digger("-0.1")).empty());
+}
+
+TEST(StartCheck, LetsWhatStandsAndWhatIsMovedByItsScriptBeInTheGround) {
+  EXPECT_TRUE(faults_of(stone("-0.35", "<static>true</static>")).empty());
+  EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:engine>kinematic</navvy:engine>")).empty());
+}
+
+TEST(StartCheck, FindsNothingInTheGroundInWhatIsShipped) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios")) {
+    if (entry.path().extension() != ".sdf") continue;
+    const scene::Scene scene = testing::load(entry.path().filename().string());
+    const heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
+    for (const Fault& fault : check_buried(scene, starting_poses(scene, ground), ground)) ADD_FAILURE() << fault.text();
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 7);
+}
+
+}  // namespace
+}  // namespace navvy::sim
