@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -17,13 +18,14 @@
 namespace navvy::heightfield {
 namespace {
 
-std::string lower(std::string word) {
+std::string lower(std::string_view text) {
+  std::string word(text);
   for (char& c : word)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return word;
 }
 
-bool is_key(const std::string& word) {
+bool is_key(std::string_view word) {
   static const char* const keys[] = {"ncols",     "nrows",     "xllcorner", "yllcorner", "xllcenter",
                                      "yllcenter", "cellsize",  "dx",        "dy",        "nodata_value",
                                      "nodata",    "byteorder", "xllcentre", "yllcentre"};
@@ -34,14 +36,29 @@ bool is_key(const std::string& word) {
 /// As the system's library and Windows write them.
 bool is_not_finite(std::string_view word) {
   if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.remove_prefix(1);
-  const std::string low = lower(std::string(word));
+  const std::string low = lower(word);
   for (const char* name : {"nan", "inf", "infinity", "1.#qnan", "1.#snan", "1.#ind", "1.#inf"})
     if (low == name) return true;
   return false;
 }
 
-bool is_number(const std::string& word) {
-  std::string text = word;
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// [+-]digits[.digits], as nearly every height is written: to know that costs a fifth of reading it.
+bool is_plain_number(std::string_view word) {
+  std::size_t at = !word.empty() && (word.front() == '-' || word.front() == '+') ? 1 : 0, digits = 0;
+  const auto count = [&] {
+    for (; at < word.size() && word[at] >= '0' && word[at] <= '9'; ++at) ++digits;
+  };
+  count();
+  if (at < word.size() && word[at] == '.') ++at;
+  count();
+  return digits > 0 && at == word.size();
+}
+
+bool is_number(std::string_view word) {
+  if (is_plain_number(word)) return true;
+  std::string text(word);
   std::replace(text.begin(), text.end(), ',', '.');
   const char* first = text.data();
   if (!text.empty() && text.front() == '+') ++first;
@@ -58,30 +75,42 @@ class Words {
   explicit Words(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
     if (!file_) throw FileError("cannot read '" + path + "': " + std::strerror(errno));
   }
-  /// False at the end. Of a word that is no number for its length alone the rest is left out.
-  bool next(std::string& word, std::int64_t& line) {
-    word.clear();
-    int c = get();
-    for (; c == ' ' || (c >= '\t' && c <= '\r'); c = get())
-      if (c == '\n') ++line_;
+  /// False at the end. Of a word that is no number for its length alone the rest is left out. It lies in the buffer,
+  /// and is good until the next call.
+  bool next(std::string_view& word, std::int64_t& line) {
+    word = {};
+    do {
+      for (; at_ < held_ && is_space(buffer_[at_]); ++at_)
+        if (buffer_[at_] == '\n') ++line_;
+    } while (at_ == held_ && refill());
     line = line_;
-    for (; c >= 0 && c != ' ' && !(c >= '\t' && c <= '\r'); c = get())
-      if (word.size() <= limits::kMapWordBytes) word += static_cast<char>(c);
-    if (c == '\n') ++line_;
-    return !word.empty();
+    word = rest_of_word();
+    if (at_ < held_ || word.empty()) return !word.empty();
+    // It goes on in the next piece of the file.
+    long_.clear();
+    do {
+      long_ += word.substr(0, limits::kMapWordBytes + 1 - std::min(long_.size(), limits::kMapWordBytes + 1));
+      if (at_ < held_ || !refill()) break;
+      word = rest_of_word();
+    } while (!word.empty());
+    word = long_;
+    return true;
   }
 
  private:
-  int get() {
-    if (at_ == held_) {
-      held_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
-      at_ = 0;
-      if (held_ == 0) {
-        if (std::ferror(file_.get()) != 0) throw FileError("cannot read '" + path_ + "': " + std::strerror(errno));
-        return -1;
-      }
-    }
-    return static_cast<unsigned char>(buffer_[at_++]);
+  /// What there is of it in the buffer.
+  std::string_view rest_of_word() {
+    const std::size_t from = at_;
+    while (at_ < held_ && !is_space(buffer_[at_])) ++at_;
+    return {buffer_.data() + from, at_ - from};
+  }
+  /// Replaces the buffer, which has been read to its end. False at the end of the file.
+  bool refill() {
+    held_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
+    at_ = 0;
+    if (held_ == 0 && std::ferror(file_.get()) != 0)
+      throw FileError("cannot read '" + path_ + "': " + std::strerror(errno));
+    return held_ > 0;
   }
 
   std::string path_;
@@ -89,17 +118,19 @@ class Words {
   std::vector<char> buffer_ = std::vector<char>(1 << 16);
   std::size_t at_ = 0, held_ = 0;
   std::int64_t line_ = 1;
+  std::string long_;  ///< a word that lies across two pieces
 };
 
-[[noreturn]] void refuse(const std::string& path, std::int64_t line, const std::string& word) {
-  throw InputError(Fault{Fault::Severity::kError, path, static_cast<int>(line), "terrain", word,
+[[noreturn]] void refuse(const std::string& path, std::int64_t line, std::string_view word) {
+  throw InputError(Fault{Fault::Severity::kError, path, static_cast<int>(line), "terrain",
+                         std::string(word.substr(0, limits::kMapWordBytes + 1)),
                          "is neither a key of an ESRI ASCII header nor a number",
                          "correct the map: what is not known is the NODATA_value"});
 }
 
 void look_through(const std::string& path, std::int64_t numbers) {
   Words words(path);
-  std::string word;
+  std::string_view word;
   std::int64_t line = 0, seen = 0;
   // The header: keys with their values, until a number stands where a key would.
   while (words.next(word, line) && is_key(word)) {

@@ -51,6 +51,8 @@ double HeightRaster::mean(double x, double y, double edge) const {
 
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
+  result.gaps = std::count_if(raster.z.begin(), raster.z.end(), [](float z) { return std::isnan(z); });
+  if (result.gaps == 0) return result;  // as most maps are
   // From the known cells inwards, ring by ring, each cell queued once.
   std::vector<std::int64_t> ring, next;
   std::vector<char> queued(raster.z.size(), 0);
@@ -66,10 +68,7 @@ GapFill fill_gaps(HeightRaster& raster) {
       }
   };
   for (std::size_t i = 0; i < raster.z.size(); ++i)
-    if (std::isnan(raster.z[i]))
-      ++result.gaps;
-    else
-      queue_gaps_around(static_cast<std::int64_t>(i), ring);
+    if (!std::isnan(raster.z[i])) queue_gaps_around(static_cast<std::int64_t>(i), ring);
   // Each ring sees only the ring before it, so the result does not depend on the order of the cells.
   std::vector<float> values;
   while (!ring.empty()) {

@@ -19,6 +19,7 @@ namespace {
 
 // Settled slopes end a little under the friction angle, so that the running simulation leaves them alone.
 constexpr double kSettleMargin = radians(1.0);
+constexpr double kThinnest = 0.01;  // [m] of soil over a rock that the scene gives
 
 [[noreturn]] void fail(const scene::Scene& world, const std::string& element, const std::string& value,
                        const std::string& rule, const std::string& remedy) {
@@ -75,14 +76,24 @@ void make_procedural(const scene::Scene& world, Ground::Setup& setup) {
   };
   // The datum holds for all columns, so it is bounded over the whole site, centre to centre.
   const Vec2 half = Vec2::Constant(cell / 2);
-  setup.datum =
-      surface.lower_bound(origin + half, origin + cell * Vec2(setup.nx, setup.ny) - half) - world.ground.depth;
+  const double lowest = surface.lower_bound(origin + half, origin + cell * Vec2(setup.nx, setup.ny) - half);
+  setup.datum = bedrock(world, lowest);
   // No file coordinates: exports are in W.
   setup.easting = origin.x();
   setup.northing = origin.y();
 }
 
 }  // namespace
+
+double bedrock(const scene::Scene& world, double lowest) {
+  if (!world.ground.has_rock) return lowest - world.ground.depth;
+  if (world.ground.rock > lowest - kThinnest)
+    fail(world, "terrain/rock", std::to_string(world.ground.rock),
+         "the plane that is the rock must lie below all of the surface, whose lowest is " + std::to_string(lowest) +
+             " m",
+         "lower the plane by its <pose>, or remove it and give depth_m");
+  return world.ground.rock;
+}
 
 int site_columns(double length, double cell) {
   // A length that is a whole number of cells but for rounding is not given one more.
@@ -109,6 +120,7 @@ Ground make_ground(const scene::Scene& world, std::string* report) {
   } else {
 #ifdef NAVVY_WITH_GDAL
     const TerrainReport found = import_terrain(world, setup);
+    if (const std::string warning = found.warning(); !warning.empty()) log_warning(warning);
     if (report != nullptr) *report = found.text();
 #else
     fail(world, "terrain/file", ground.file, "this build reads no terrain files",

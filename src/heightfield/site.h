@@ -20,6 +20,10 @@ namespace navvy::heightfield {
 /// readable by this build.
 Ground make_ground(const scene::Scene& world, std::string* report = nullptr);
 
+/// Height of the rock in W [m]: the plane that the scene gives, else `depth` below the `lowest` of the surface.
+/// @throws InputError when that plane has less than a centimetre of soil above it somewhere.
+double bedrock(const scene::Scene& world, double lowest);
+
 inline constexpr int kMostSettledColumns = 4000000;
 
 /// Columns along a side of `length` [m]: rounded up to a multiple of 4 (soil blocks).

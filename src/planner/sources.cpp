@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/sources.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "core/error.h"
+#include "heightfield/design.h"
 #include "heightfield/site.h"
 
 namespace navvy::planner {
@@ -45,13 +47,34 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
 
 }  // namespace
 
-TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& options) {
-  MapMaker maker(options);
-  maker.update(heightfield::make_ground(scene).view());
+TraversabilityLimits limits_for(const scene::Scene& scene) {
+  TraversabilityLimits out;
+  for (const scene::MachineInWorld& placed : scene.machines) {
+    const scene::Traversability& own = placed.machine.traversability;
+    if (own.given) return {own.slope, own.step_height, own.roughness, own.window};
+  }
+  return out;
+}
+
+void take_design(const scene::Scene& scene, const heightfield::Terrain& site, MapOptions& options) {
+  const auto wants = [&](Layer layer) {
+    return std::find(options.layers.begin(), options.layers.end(), layer) != options.layers.end();
+  };
+  // A float a column: only where somebody looks at it.
+  if (!options.target.empty() || !(wants(Layer::kTarget) || wants(Layer::kCutFill))) return;
+  if (const auto design = heightfield::make_design(scene, site)) options.target = design->over(site.nx(), site.ny());
+}
+
+TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& wanted) {
+  const Ground ground = heightfield::make_ground(scene);
+  MapOptions options = wanted;
+  take_design(scene, ground, options);
+  MapMaker maker(std::move(options));
+  maker.update(ground.view());
   return maker.map();
 }
 
-TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end, const MapOptions& options) {
+TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end, const MapOptions& wanted) {
   if (!std::filesystem::is_regular_file(terrain_end))
     throw FileError("cannot read '" + terrain_end +
                     "': no such file; a run writes it at its end, until then there are snapshots (--snapshot)");
@@ -68,8 +91,10 @@ TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end,
     const double rounding = static_cast<double>(std::nextafter(std::abs(as_written), INFINITY) - std::abs(as_written));
     return std::abs(now - z) <= rounding * unit + kQuanta ? z : now;
   };
+  MapOptions options = wanted;
+  take_design(scene, start, options);
   // Of a ground that was never another: only its heights are looked at.
-  MapMaker maker(options);
+  MapMaker maker(std::move(options));
   maker.update(Ground(setup).view(std::nan("")));
   TerrainMap out = maker.map();
   const std::vector<float> unknown(static_cast<std::size_t>(out.rect().area()), kUnknown);

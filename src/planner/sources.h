@@ -9,7 +9,16 @@
 
 namespace navvy::planner {
 
-/// The untouched site of a scene. Needs no OpenCL device. @throws InputError as heightfield::make_ground.
+/// Limits of the first machine of the scene that gives some (navvy:traversability), else the defaults.
+TraversabilityLimits limits_for(const scene::Scene& scene);
+
+/// Gives `options` the scene's design surface on the columns of `site`, where a layer asks for one and there is none
+/// yet. @throws InputError as heightfield::make_design.
+void take_design(const scene::Scene& scene, const heightfield::Terrain& site, MapOptions& options);
+
+// Both with the scene's design; limits are those of `options`.
+/// The untouched site of a scene. Needs no OpenCL device.
+/// @throws InputError as heightfield::make_ground and make_design.
 TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& options);
 
 /// The ground at the end of a run of `scene`, from the heights that the run wrote (`terrain_end.tif`): elevation and

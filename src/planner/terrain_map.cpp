@@ -28,6 +28,17 @@ void LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   tile->values[place(ix, iy)] = value;
 }
 
+LayerTiles::View LayerTiles::view(int tx, int ty) const {
+  // All tiles that nobody wrote to look at this one.
+  static const std::array<float, static_cast<std::size_t>(kSide)* kSide> unknown = [] {
+    std::array<float, static_cast<std::size_t>(kSide) * kSide> out{};
+    out.fill(kUnknown);
+    return out;
+  }();
+  const Tile* tile = tiles_[tile_of(tx * kSide, ty * kSide)].get();
+  return View(tile != nullptr ? tile->values.data() : unknown.data());
+}
+
 TerrainMap::TerrainMap(const heightfield::GroundSetup& setup, double time, std::uint64_t sequence)
     : time_(time), sequence_(sequence) {
   heightfield::GroundSetup kept = setup;

@@ -43,6 +43,11 @@ class LayerTiles {
     const Tile* tile = tiles_[tile_of(ix, iy)].get();
     return tile != nullptr ? tile->values.data() + place(ix, iy) : nullptr;
   }
+  /// A tile as it lies in memory, rows along y, columns along x.
+  using View = Eigen::Map<const Eigen::Array<float, kSide, kSide, Eigen::RowMajor>>;
+  /// Tile (tx, ty), columns 64 tx to 64 tx + 63: no copy, valid as long as a map that has it. Beyond the site's edge,
+  /// and where nothing was written, unknown.
+  View view(int tx, int ty) const;
   /// Writes one column; costs a copy of its tile where a map of an earlier edition may hold that.
   void set(int ix, int iy, float value, std::uint64_t edition);
 

@@ -3,14 +3,17 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "record/hash_log.h"
 #include "record/last_words.h"
+#include "record/map_recorder.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
@@ -31,6 +34,7 @@ struct Recorder::State {
         frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
+    design = heightfield::make_design(s.world().description(), s.world().ground());
   }
 
   // Telemetry is written at checkpoints, pictures and hashes at once.
@@ -40,8 +44,10 @@ struct Recorder::State {
   LastWords last_words;
   Telemetry telemetry;
   sim::FrameBuilder frames;
-  std::unique_ptr<render::Renderer> renderer;
+  std::unique_ptr<render::Renderer> renderer, drawer;  // of frames; without those, of pictures that somebody asks for
   std::unique_ptr<HashLog> hashes;
+  std::unique_ptr<MapRecorder> maps;
+  std::optional<heightfield::DesignSurface> design;
   RunStatus status;
   Stopwatch total, since_checkpoint;
   bool finished = false;
@@ -52,8 +58,12 @@ struct Recorder::State {
   void sample_when_due();
   void draw_when_due();
   void hash_when_due();
+  void map_when_due();
   void checkpoint(bool force);
   void write_summary(bool with_hash);
+  std::string summary(bool with_hash) const {
+    return summary_json(session, status, with_hash, design ? &*design : nullptr);
+  }
   void write_start();
 };
 
@@ -87,6 +97,8 @@ void Recorder::State::write_start() {
   if (options.render) renderer = std::make_unique<render::Renderer>();
   draw_when_due();
   if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
+  if (!scene.records.empty()) maps = std::make_unique<MapRecorder>(session, *folder);
+  map_when_due();
   checkpoint(true);
 }
 
@@ -133,6 +145,12 @@ void Recorder::State::hash_when_due() {
   hashes->observe();
 }
 
+void Recorder::State::map_when_due() {
+  if (!maps) return;
+  const Lap lap(status.record_time);
+  maps->observe();
+}
+
 void Recorder::State::checkpoint(bool force) {
   // Wall time of the simulation alone.
   status.wall_time = total.seconds() - status.render_time - status.record_time;
@@ -148,7 +166,7 @@ void Recorder::State::checkpoint(bool force) {
 
 /// Kept ready as well, for whoever has to leave it in a hurry.
 void Recorder::State::write_summary(bool with_hash) {
-  const std::string text = summary_json(session, status, with_hash);
+  const std::string text = summary(with_hash);
   last_words.keep(text);
   write_file_atomically(path("summary.json"), text);
 }
@@ -158,6 +176,7 @@ void Recorder::observe() {
   state_->sample_when_due();
   state_->draw_when_due();
   state_->hash_when_due();
+  state_->map_when_due();
   state_->checkpoint(false);
 }
 
@@ -189,6 +208,9 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   attempt([&] {
     if (s.hashes) s.hashes->finish();
   });
+  attempt([&] {
+    if (s.maps) s.maps->finish();
+  });
   // The end of the ground, also of a run that failed: it shows where.
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
@@ -196,14 +218,14 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   bool written = false;
   attempt([&] {
     s.status.wall_time = s.total.seconds() - s.status.render_time - s.status.record_time;
-    text = summary_json(s.session, s.status, true);
+    text = s.summary(true);
     write_file_atomically(s.path("summary.json"), text);
     written = true;
   });
   // The disk takes no new file: the room that was taken at the start serves.
   if (!written) {
     try {
-      text = summary_json(s.session, s.status, true);
+      text = s.summary(true);
     } catch (const std::exception&) {
       text.clear();
     }
@@ -211,6 +233,18 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   }
   // A failed run has told its cause already.
   if (first && status != "failed") std::rethrow_exception(first);
+}
+
+render::Image Recorder::draw(const std::string& camera) {
+  State& s = *state_;
+  // One renderer a process: that of the frames serves, or is made for this.
+  if (!s.renderer && !s.drawer) s.drawer = std::make_unique<render::Renderer>();
+  for (const scene::Camera& each : s.session.world().description().cameras)
+    if (each.name == camera) {
+      const Lap lap(s.status.render_time);
+      return (s.renderer ? *s.renderer : *s.drawer).render(s.frames.build(), s.frames.camera(each));
+    }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera, "no camera of this name in the scene", ""});
 }
 
 RunProgress Recorder::progress() const {

@@ -10,6 +10,7 @@
 
 #include "record/run_folder.h"
 #include "record/summary.h"
+#include "render/image.h"
 #include "session/session.h"
 
 namespace navvy::record {
@@ -36,8 +37,8 @@ struct RunProgress {
 };
 
 /// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and at the end only),
-/// telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png and, after a
-/// failure, failed.snapshot. Not thread-safe; draws on the calling thread.
+/// telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png, what the scene
+/// records (map_recorder.h) and, after a failure, failed.snapshot. Not thread-safe; draws on the calling thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start; a `folder` that was taken before is used in its place.
@@ -55,6 +56,9 @@ class Recorder {
   /// @throws FileError for that file, unless the run had failed before.
   void finish(const std::string& status, const std::string& message = "");
   RunProgress progress() const;
+  /// What a camera of the scene sees now, for whoever asks; counts as no frame. @throws Error when nothing can be
+  /// drawn, InputError for a name that is no camera's.
+  render::Image draw(const std::string& camera);
 
  private:
   struct State;

@@ -33,6 +33,20 @@ json time_shares(const session::Session& session, const RunStatus& status) {
   return out;
 }
 
+/// What `now` has over `before` (null: nothing), term by term.
+json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
+  static const std::pair<const char*, double sim::SoilEnergy::*> terms[] = {
+      {"tools", &sim::SoilEnergy::tools},         {"gravity", &sim::SoilEnergy::gravity},
+      {"exchanged", &sim::SoilEnergy::exchanged}, {"kinetic", &sim::SoilEnergy::kinetic},
+      {"elastic", &sim::SoilEnergy::elastic},     {"plastic", &sim::SoilEnergy::plastic},
+      {"viscous", &sim::SoilEnergy::viscous},     {"contact", &sim::SoilEnergy::contact},
+      {"transfer", &sim::SoilEnergy::transfer},   {"mixing", &sim::SoilEnergy::mixing},
+      {"apart", &sim::SoilEnergy::apart},         {"residual", &sim::SoilEnergy::residual}};
+  json out;
+  for (const auto& [name, term] : terms) out[name] = now.*term - (before != nullptr ? before->*term : 0);
+  return out;
+}
+
 /// One entry a cycle of any machine, in the order in which they ended.
 json cycle_list(const session::Session& session) {
   json cycles = json::array();
@@ -45,6 +59,10 @@ json cycle_list(const session::Session& session) {
                       {"payload_at_lift_out_kg", cycle.payload_lift_out},
                       {"payload_at_dump_kg", cycle.payload_dump},
                       {"force_peak_n", cycle.force_peak}});
+  // From the end of the cycle before, or from the start: together they are the run's up to the last one's end.
+  const auto& ends = session.energy_at_ends();
+  for (std::size_t i = 0; i < std::min(ends.size(), cycles.size()); ++i)
+    if (ends[i]) cycles[i]["soil_energy_j"] = soil_energy(*ends[i], i > 0 && ends[i - 1] ? &*ends[i - 1] : nullptr);
   return cycles;
 }
 
@@ -87,10 +105,27 @@ json ledger(const session::Session& session, const sim::AwakePlaces& awake) {
   return {{"error_units", sums.error}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
+/// The ground against its design; awake soil counts where it lies.
+json design_figures(const sim::World& world, const sim::AwakePlaces& awake, const heightfield::DesignSurface& design) {
+  const heightfield::DesignFigures f = heightfield::against_design(
+      world.ground().view(world.time()).with(awake.lying, heightfield::SurfaceKind::kMapped), design);
+  return {{"area_m2", f.area},
+          {"design_cut_m3", f.design_cut},
+          {"design_fill_m3", f.design_fill},
+          {"cut_m3", f.cut},
+          {"fill_m3", f.fill},
+          {"over_dig_m3", f.over_dig},
+          {"under_dig_m3", f.under_dig},
+          {"mean_error_m", f.mean_error},
+          {"mean_error_size_m", f.mean_size},
+          {"largest_error_m", f.largest_error}};
+}
+
 }  // namespace
 
 /// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
-std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
+std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash,
+                         const heightfield::DesignSurface* design) {
   const sim::World& world = session.world();
   const sim::AwakePlaces awake = sim::awake_places(world);
   const Earthwork earth = measure_earthwork(world, awake.lying);
@@ -127,8 +162,11 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
     out["earthwork"].push_back({{"soil", world.description().soils[i].name},
                                 {"dug_kg", earth.soils[i].dug},
                                 {"spoil_kg", earth.soils[i].spoil}});
+  if (design != nullptr) out["design"] = design_figures(world, awake, *design);
   // Of all machines together.
   out["energy_j"] = session.energy();
+  // Of the awake soil, when its account is kept.
+  if (const auto energy = world.soil_energy()) out["soil_energy_j"] = soil_energy(*energy, nullptr);
   // Forces over all steps, not over telemetry's rows.
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_force_mean_n"] = session.force().mean();

@@ -56,6 +56,7 @@ struct FrameParticles {
   std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
   std::vector<std::uint32_t> id;   ///< unique for life, so that a lump keeps its looks; empty: the place in the list
   double radius = 0.04;            ///< [m]
+  std::vector<float> room;  ///< to the closest plate [m], so that no lump sticks out through it; empty: no plates
 };
 
 /// All that a renderer needs of one instant. Filled anew for each picture; filling and drawing need not happen in one

@@ -56,9 +56,21 @@ struct AwakeSoil {
 /// them down when the map is loaded.
 enum class SteepGround { kHold, kSettle };
 
+/// What a raster file without units and places of its own (NPY, PNG) leaves open.
+struct RasterScale {
+  double cell = 0;             ///< edge of a cell [m]; 0: the file's own (a PNG's world file)
+  bool has_heights = false;    ///< `low` and `high` were given
+  double low = 0, high = 0;    ///< heights that a PNG's least and greatest possible value stand for [m]
+  bool has_corner = false;     ///< `corner` was given
+  Vec2 corner = Vec2::Zero();  ///< of the lower-left cell, in the coordinates that the site counts in
+  bool north_first = false;    ///< an NPY's first row is its northern one; a PNG's always is
+  bool any() const { return cell > 0 || has_heights || has_corner || north_first; }
+};
+
 /// The site's ground before anything has moved: what heightfield::Ground is built from.
 struct StartGround {
-  std::string file;          ///< GeoTIFF or ESRI ASCII; empty: procedural
+  std::string file;          ///< GeoTIFF, ESRI ASCII, PNG or NPY; empty: procedural
+  RasterScale scale;         ///< of `file`
   bool has_at = false;       ///< centre of the crop was given
   bool at_is_local = false;  ///< `at` counts from the file's lower-left corner, not in its own coordinates
   Vec2 at = Vec2::Zero();    ///< [m]
@@ -67,6 +79,8 @@ struct StartGround {
   bool has_origin = false;       ///< false: origin = -size / 2
   double surface = 0;            ///< height of the flat ground of a procedural site [m]
   double depth = 4;              ///< soil below the lowest point of the surface; bedrock under it [m]
+  bool has_rock = false;         ///< a level plane in the scene is the rock, and `depth` says nothing
+  double rock = 0;               ///< its height in W [m]
   SteepGround steep = SteepGround::kHold;
   std::vector<GroundFeature> features;
   std::vector<GroundLayer> layers;  ///< at least one

@@ -20,11 +20,11 @@ struct Color {
 
 /// A shape about its own origin. Members that its kind does not use are ignored; lengths in metres.
 struct Geometry {
-  enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane };
+  enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane, kCone, kCapsule };
   Kind kind = Kind::kBox;
   Vec3 size = Vec3::Ones();  ///< box edges [m]; plane: x, y
-  double radius = 0.5;       ///< cylinder (axis z), sphere [m]
-  double length = 1.0;       ///< cylinder [m]
+  double radius = 0.5;       ///< cylinder, capsule (axis z), sphere, a cone's foot [m]
+  double length = 1.0;       ///< cylinder, cone (tip at +z); capsule: between the middles of its caps [m]
   std::string mesh_file;     ///< absolute path of an OBJ file
   // For meshes: factors along the file's axes.
   Vec3 scale = Vec3::Ones();
@@ -45,6 +45,7 @@ struct Collision {
   Pose X_LC = Pose::Identity();
   // Coulomb coefficient of this surface [-]; how two that touch combine is the engine's rule.
   double friction = 0.8;
+  bool derived = false;  ///< from a visual, as the machine's file gave no collision
 };
 
 /// A rigid body of a machine. `p_LCom` is a point of L; the inertia is about that point, in L's axes.
@@ -158,6 +159,14 @@ struct Arm {
   std::string bucket;  ///< bucket about the stick
 };
 
+/// What a machine can drive on; maps for planners grade the ground by it.
+struct Traversability {
+  bool given = false;                           ///< by the machine's file
+  double slope = radians(30);                   ///< [rad] (U)
+  double step_height = 0.30, roughness = 0.10;  ///< [m] (U)
+  double window = 0.20;                         ///< half the side of the square that both look at [m]
+};
+
 /// A machine as data, as one SDF file describes it; where it stands and what it does is in MachineInWorld. Indices
 /// refer to the lists here and hold as long as nothing is inserted.
 struct Machine {
@@ -178,6 +187,9 @@ struct Machine {
   std::vector<Bucket> buckets;
   std::vector<Bed> beds;
   Arm arm;
+  Traversability traversability;
+  // What the file leaves to be derived, in words: collision shapes from visuals, masses from densities.
+  std::vector<std::string> derived;
 
   /// Index by name, -1 when there is none. The search is linear: names are resolved once, at the start.
   int link_index(const std::string& name_of_link) const;

@@ -114,8 +114,8 @@ void put(const Writer& w, const std::vector<GroundLayer>& layers) {
 }
 
 void put(const Writer& w, const StartGround& ground) {
-  const auto& [file, has_at, at_is_local, at, size, origin, has_origin, surface, depth, steep, features, layers,
-               patches, awake] = ground;
+  const auto& [file, scale, has_at, at_is_local, at, size, origin, has_origin, surface, depth, has_rock, rock, steep,
+               features, layers, patches, awake] = ground;
   // A map counts by its heights, which the ground itself answers for.
   w("is_map", !file.empty());
   w("has_at", has_at);
@@ -125,7 +125,8 @@ void put(const Writer& w, const StartGround& ground) {
   w("has_origin", has_origin);
   if (has_origin) w("origin", origin);
   w("surface", surface);
-  w("depth", depth);
+  if (has_rock) w("rock", rock);
+  if (!has_rock) w("depth", depth);
   w("steep", static_cast<int>(steep));
   for (std::size_t i = 0; i < features.size(); ++i) put(w.at("feature", i), features[i]);
   put(w, layers);
@@ -163,7 +164,8 @@ void put(const Writer& w, const Link& link) {
   w("centre_of_mass", p_LCom);
   w("inertia", inertia);
   for (std::size_t i = 0; i < collisions.size(); ++i) {
-    const auto& [collision_name, geometry, X_LC, friction] = collisions[i];
+    // Where a shape came from changes nothing.
+    const auto& [collision_name, geometry, X_LC, friction, derived] = collisions[i];
     const Writer one = w.at("collision", i);
     put(one, geometry);
     one("pose", X_LC);
@@ -257,7 +259,7 @@ void put(const Writer& w, const Shell& shell) {
 
 void put(const Writer& w, const Machine& machine) {
   const auto& [name, file, kinematic, fixed_base, links, joints, cylinders, has_pump, pump, wheels, has_drive, drive,
-               shells, buckets, beds, arm] = machine;
+               shells, buckets, beds, arm, traversability, derived] = machine;
   w("kinematic", kinematic);
   w("fixed_base", fixed_base);
   for (const Link& link : links) put(w.at("link", link.name), link);
@@ -315,7 +317,8 @@ void put(const Writer& w, const MachineInWorld& placed) {
 Parameters parameters(const Scene& scene) {
   Parameters out;
   const Writer w(out);
-  const auto& [name, file, gravity, seed, solver, soils, ground, machines, cameras, lights, recording] = scene;
+  const auto& [name, file, gravity, seed, solver, soils, ground, design, machines, cameras, lights, recording,
+               records] = scene;
   w("gravity", gravity);
   w("seed", seed);
   put(w.at("solver"), solver);

@@ -13,8 +13,8 @@ namespace navvy::scene {
 using Parameters = std::map<std::string, std::string>;
 
 /// Of soils, ground, solver, machines, where they stand and what they shall do. Left out is what a run only shows or
-/// records (cameras, lights, colours, pictures of links, names of files, how long it lasts). Steps of a program that
-/// no file described count by their kind alone. Costs a few milliseconds.
+/// records (cameras, lights, colours, pictures of links, names of files, how long it lasts, design and maps). Steps of
+/// a program that no file described count by their kind alone. Costs a few milliseconds.
 Parameters parameters(const Scene& scene);
 
 /// What differs, "path: 'before', here 'now'", separated by "; "; the first `most` of them and how many more there are.

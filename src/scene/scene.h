@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "scene/design.h"
 #include "scene/ground.h"
 #include "scene/machine.h"
 #include "scene/program.h"
@@ -67,6 +68,15 @@ struct Recording {
   bool render = true;
 };
 
+/// Maps or messages written while a scene runs, at a rate.
+struct MapRecord {
+  int line = 0;                     ///< of the scene's file, for messages
+  std::string name;                 ///< of the files in the run's folder
+  std::string format;               ///< as the planner's formats are called, or "mcap", "bag"
+  std::vector<std::string> layers;  ///< by name; empty: what the format is made for
+  double rate = 1;                  ///< [1/s]
+};
+
 /// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds give equal runs on
 /// one device.
 struct Scene {
@@ -79,10 +89,12 @@ struct Scene {
   SolverSettings solver;
   std::vector<Soil> soils;
   StartGround ground;
+  Design design;
   std::vector<MachineInWorld> machines;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   Recording recording;
+  std::vector<MapRecord> records;
 
   /// Index by name, -1 when there is none. The search is linear: names are resolved once.
   int soil_index(const std::string& name_of_soil) const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/ground_reader.h"
 
-#include <filesystem>
 #include <functional>
 
 #include "scene_io/fields.h"
+#include "scene_io/raster_reader.h"
 
 namespace navvy::scene_io {
 
@@ -109,18 +109,8 @@ void read_file(Fields& fields, scene::StartGround& ground, Faults& faults) {
   if (ground.at_is_local) ground.at = local;
   if (fields.has("at_m") && fields.has("at_local_m"))
     faults.error(*fields.child("at_local_m"), "", "give either at_m or at_local_m", "remove one");
-  Element* file = fields.child("file");
-  if (!file || ground.file.empty()) return;
-  // A file named on the command line counts from the working directory, one in a scene from the scene.
-  const bool from_scene = file->GetLineNum() > 0;
-  std::filesystem::path path = ground.file;
-  if (from_scene && path.is_relative()) path = std::filesystem::path(Document::of(*file).directory()) / path;
-  std::error_code failed;
-  ground.file = path.string();
-  if (!std::filesystem::is_regular_file(path, failed))
-    faults.error(
-        *file, text_of(*file), "no such file",
-        from_scene ? "paths count from the scene file" : "on the command line paths count from this directory");
+  read_raster_scale(fields, ground.scale);
+  if (fields.has("file")) resolve_raster(*fields.child("file"), ground.file, faults);
 }
 
 }  // namespace
@@ -156,6 +146,9 @@ scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>&
   if (!ground.file.empty() && !ground.features.empty())
     faults.error(element, ground.file, "shapes such as slope or hills need a procedural ground, not a file",
                  "remove <file> or the shapes");
+  if (ground.file.empty() && ground.scale.any())
+    faults.error(element, "", "map_cell_m, map_heights_m, map_corner_m and map_rows need a <file>",
+                 "remove them, or name a PNG or NPY");
   if (ground.file.empty() && ground.has_at)
     faults.error(element, "", "at_m and at_local_m need a <file>", "for a procedural ground use origin_m");
   if (ground.layers.empty() && soils.size() == 1) ground.layers.push_back({soils[0].name, ground.depth});

@@ -75,9 +75,10 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
 }
 
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::Scene>* world,
-                         const Overrides& overrides) {
+                         const Overrides& overrides, std::optional<scene::Machine>* machine) {
   Faults faults;
   if (world != nullptr) world->reset();
+  if (machine != nullptr) machine->reset();
   const auto document = Document::open(file, faults);
   if (!document) return faults.list();
   const Element& root = *document->root();
@@ -86,7 +87,8 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
     read_soil_file(file, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
-    read_machine_file(file, faults);
+    scene::Machine read = read_machine_file(file, faults);
+    if (machine != nullptr && faults.error_count() == 0) *machine = std::move(read);
   } else {
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);

@@ -53,9 +53,10 @@ std::vector<scene::Soil> load_soils(const std::string& directory);
 
 /// All faults of a world, machine or soil file; empty when it is in order. `world` receives the scene when the file is
 /// one without errors, else it is left empty. Throws nothing but std::bad_alloc.
-/// `overrides` change a scene's values before they are read.
+/// `overrides` change a scene's values before they are read; `machine` receives the machine of a machine file.
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
-                         std::optional<scene::Scene>* world = nullptr, const Overrides& overrides = {});
+                         std::optional<scene::Scene>* world = nullptr, const Overrides& overrides = {},
+                         std::optional<scene::Machine>* machine = nullptr);
 
 /// Where shipped data (vehicles/, terrain/, scenarios/) is looked for, first match wins: $NAVVY_DATA_DIR, the
 /// installation, the source tree.

@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "core/edit_distance.h"
+#include "core/error.h"
+#include "core/file.h"
 #include "core/limits.h"
 #include "geometry/obj/read_obj.h"
 #include "scene_io/loader.h"
@@ -66,12 +68,22 @@ std::string absolute(const std::string& path) {
 
 }  // namespace
 
+std::string why_no_file(const std::string& path) {
+  try {
+    require_regular(path);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "no such file";
+}
+
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
   const std::string text = text_of(uri);
   std::error_code ignored;
   const std::string found = locate(uri, text);
   if (found.empty() || !fs::is_regular_file(found, ignored)) {
-    faults.error(uri, text, "no such mesh file", "paths count from the file that names them");
+    faults.error(uri, text, found.empty() ? "no such mesh file" : why_no_file(found),
+                 "paths count from the file that names them");
     return false;
   }
   // Only the ending is looked at here; whether it is an OBJ file shows when it is read.
@@ -112,7 +124,7 @@ bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults&
   } else if (solid && mesh.vertices > limits::kHullVertices) {
     faults.error(uri, std::to_string(mesh.vertices) + " vertices",
                  "a mesh that collides may have at most " + std::to_string(limits::kHullVertices),
-                 "its hull is what collides: name a coarser mesh here");
+                 "its hull is what collides: name a coarser mesh here, or give the model a <collision>");
   } else {
     return true;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where files named in a scene lie, and triangle meshes of shells.
+// Where files named in a scene lie, why one is none, and triangle meshes of shells.
 #pragma once
 
 #include <string>
@@ -8,6 +8,9 @@
 #include "scene_io/xml.h"
 
 namespace navvy::scene_io {
+
+/// Why there is no plain file at `path`, for a message: a pipe, device or folder is told as what it is.
+std::string why_no_file(const std::string& path);
 
 /// Absolute path of the OBJ file named by `uri`: relative to the file that holds it, absolute, or model://NAME/...
 /// below a vehicles/ directory. Reports a fault and answers false when there is none. The path leads there from any

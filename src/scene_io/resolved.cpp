@@ -135,6 +135,9 @@ void Resolver::ground(const scene::Scene& world) {
   Element* file = ground != nullptr ? ground->FirstChildElement("file") : nullptr;
   // The reader has worked out whether the name counted from the scene or from the working directory.
   if (file != nullptr && !world.ground.file.empty()) keep(*file, absolute(world.ground.file));
+  Element* design = world_.FirstChildElement("navvy:design");
+  file = design != nullptr ? design->FirstChildElement("file") : nullptr;
+  if (file != nullptr && !world.design.file.empty()) keep(*file, absolute(world.design.file));
 }
 
 void Resolver::meshes(Element& model) {

@@ -101,7 +101,11 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one line only.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
     soil.residual_cohesion = std::min(residual, soil.cohesion);
+  const Element* stiffness = element.FirstChildElement("young_modulus_pa");
+  if (stiffness == nullptr) scene::follow_cohesion(soil, cohesion);
   check_values(element, soil, faults);
+  if (const auto soft = scene::too_soft(soil))
+    faults.warning(stiffness != nullptr ? *stiffness : element, soft->value, soft->rule, soft->remedy);
   return soil;
 }
 

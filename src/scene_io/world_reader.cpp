@@ -10,6 +10,7 @@
 #include "core/limits.h"
 #include "geometry/pieces.h"
 #include "scene/soil_values.h"
+#include "scene_io/design_reader.h"
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/machine_reader.h"
@@ -50,12 +51,32 @@ void read_recording(Element& element, scene::Recording& recording, Faults& fault
       .finish();
 }
 
-/// Names of scenes and cameras become names of files.
+/// Names of scenes, cameras and maps become names of files.
 void require_file_name(const Element& element, const std::string& name, Faults& faults) {
   const bool plain = name != "." && name != ".." && name.find('/') == std::string::npos &&
                      std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
   if (!plain)
     faults.error(element, name, "results are named after it: no '/', no '..'", "use letters, digits, _ and -");
+}
+
+/// Formats and layers are known to whoever writes them: they are checked there, with the line that is kept here.
+scene::MapRecord read_record(Element& element, Faults& faults) {
+  scene::MapRecord record;
+  record.line = element.GetLineNum();
+  record.name = attribute(element, "name");
+  std::string layers;
+  Fields(element, faults)
+      .attribute("name")
+      .text("format", record.format)
+      .required("format")
+      .text("layers", layers)
+      .number("rate_hz", record.rate, {0.001, 1000})
+      .finish();
+  record.layers = words_of(layers);
+  if (record.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the files");
+  require_file_name(element, record.name, faults);
+  check_name(element, record.name, faults);
+  return record;
 }
 
 scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& faults) {
@@ -277,6 +298,48 @@ void check_cell(const Element& world_element, const scene::Scene& world, Faults&
     }
 }
 
+void read_seed(const Element& element, std::uint64_t& seed, Faults& faults) {
+  const std::string text = text_of(element);
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
+    faults.error(element, text, "must be a whole number from 0 to 18446744073709551615");
+}
+
+/// Takes the planes of what stands still out of its shapes: a level one is the rock under the ground.
+void take_planes(const Element& world_element, const Element& at, scene::MachineInWorld& instance, scene::Scene& world,
+                 Faults& faults) {
+  if (instance.machine.links.empty()) return;
+  scene::Link& link = instance.machine.links[0];
+  const auto is_plane = [](const scene::Collision& c) { return c.geometry.kind == scene::Geometry::Kind::kPlane; };
+  const auto plane = std::find_if(link.collisions.begin(), link.collisions.end(), is_plane);
+  if (plane == link.collisions.end()) return;
+  // It lies where its file says: on the ground it would be the ground.
+  if (!at.FirstChildElement("navvy:on_ground")) instance.on_ground = false;
+  const Pose X = instance.X_WM * link.X_ML * plane->X_LC;
+  const double height = X.translation().z();
+  const Element* ground = world_element.FirstChildElement("navvy:ground");
+  if (X.linear().col(2).z() < 1 - 1e-12) {
+    faults.error(at, plane->name, "a plane is the rock under the ground, and that is level",
+                 "for sloping ground write <navvy:ground> with <slope>, for a ramp a <box> with a <pose>");
+  } else if (instance.on_ground) {
+    faults.error(at, plane->name, "a plane is the rock under the ground and cannot stand on it",
+                 "set <navvy:on_ground>false</navvy:on_ground>");
+  } else if (ground != nullptr && ground->FirstChildElement("depth_m")) {
+    faults.error(at, plane->name, "the rock's height is given twice: by this plane and by depth_m of the ground",
+                 "remove depth_m from <navvy:ground>, or the plane");
+  } else if (world.ground.has_rock && world.ground.rock != height) {
+    faults.error(at, plane->name, "another plane is the rock already", "remove one of them");
+  } else if (ground != nullptr && world.ground.file.empty() && height > world.ground.surface - 0.01) {
+    // Of a file or of shapes the ground itself tells when it is laid.
+    faults.error(at, plane->name, "the plane would be the ground's rock, and there is no soil above it",
+                 "set surface_m of <navvy:ground> above it, or remove the plane: the ground carries by itself");
+  }
+  world.ground.has_rock = true;
+  world.ground.rock = height;
+  instance.machine.derived.push_back("its plane is the rock under the ground");
+  std::erase_if(link.collisions, is_plane);
+}
+
 void read_machines(Element& world_element, scene::Scene& world, const Known& known, Faults& faults) {
   // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
@@ -290,6 +353,7 @@ void read_machines(Element& world_element, scene::Scene& world, const Known& kno
       instance.name = instance.machine.name;
       read_instance(*e, instance, world, known, faults);
     }
+    take_planes(world_element, *e, instance, world, faults);
     if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
       faults.error(*e, instance.name, "there is already a machine of this name", "give this one a <name>");
     world.machines.push_back(std::move(instance));
@@ -339,12 +403,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   Faults seen;  // check_sdf has reported these
   if (Element* e = element->FirstChildElement("gravity"); e && read_numbers(*e, 3, {-100, 100}, v, seen))
     world.gravity = Vec3(v[0], v[1], v[2]);
-  if (Element* e = element->FirstChildElement("navvy:seed")) {
-    const std::string text = text_of(*e);
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), world.seed);
-    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
-      faults.error(*e, text, "must be a whole number from 0 to 18446744073709551615");
-  }
+  if (Element* e = element->FirstChildElement("navvy:seed")) read_seed(*e, world.seed, faults);
   read_soils(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:solver")) read_solver(*e, world.solver, faults);
   // Faults in the ground make every place on it doubtful, so machines are then read without it.
@@ -357,6 +416,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
     faults.error(*element, "", "a world needs <navvy:ground>",
                  "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
   }
+  if (Element* e = element->FirstChildElement("navvy:design")) world.design = read_design(*e, faults);
   const bool ground_known = ground && faults.error_count() == before_ground;
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
@@ -364,6 +424,13 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);
+  for (Element* e = element->FirstChildElement("navvy:record"); e; e = e->NextSiblingElement("navvy:record")) {
+    scene::MapRecord record = read_record(*e, faults);
+    for (const scene::MapRecord& other : world.records)
+      if (!record.name.empty() && other.name == record.name)
+        faults.error(*e, record.name, "there is already a record of this name", "rename one of them");
+    world.records.push_back(std::move(record));
+  }
   for (Element* e = element->FirstChildElement("navvy:camera"); e; e = e->NextSiblingElement("navvy:camera")) {
     scene::Camera camera = read_camera(*e, world, faults);
     for (const scene::Camera& other : world.cameras)

@@ -52,7 +52,11 @@ void Faults::warning(const Element& at, const std::string& value, const std::str
 }
 
 std::string Faults::nearest(const std::string& word, const std::vector<std::string>& candidates) const {
-  return errors_.all < limits::kFaultsShown ? suggestion(word, candidates) : "";
+  if (errors_.all >= limits::kFaultsShown) return "";
+  std::string out = suggestion(word, candidates);
+  // A list of all that is known is read once.
+  if (out.rfind("known here", 0) == 0 && !listed_.insert(out).second) return "not one of those listed above";
+  return out;
 }
 
 void Faults::add(Fault fault) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ class Faults {
   /// `at` gives file, line and path; `value` is what was found, `rule` what is allowed, `remedy` what to do.
   void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
   void warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
-  /// `suggestion` of core/edit_distance.h, or nothing when the fault would not be told: it is dear.
+  /// `suggestion` of core/edit_distance.h, a list of all that is known only the first time; or nothing when the fault
+  /// would not be told: it is dear.
   std::string nearest(const std::string& word, const std::vector<std::string>& candidates) const;
   void add(Fault fault);
   bool has_errors() const { return error_count() > 0; }
@@ -64,6 +66,7 @@ class Faults {
               const std::string& remedy);
   std::vector<Fault> list_;
   Told errors_, warnings_;
+  mutable std::set<std::string> listed_;
 };
 
 /// One XML file. Its elements live as long as it does. It is made on the heap and stays where it is, as its elements

@@ -10,6 +10,7 @@
 
 #include "control/reach.h"
 #include "control/step.h"
+#include "heightfield/design.h"
 #include "heightfield/site.h"
 #include "sim/placing.h"
 
@@ -108,6 +109,7 @@ std::vector<Fault> check_programs(const scene::Scene& world) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
     sim::check_awake(world, ground);
+    heightfield::make_design(world, ground);
     return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground));
   } catch (const InputError& error) {
     // A ground that cannot be laid is itself the answer.

@@ -14,6 +14,7 @@
 #include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "heightfield/design.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
@@ -46,7 +47,8 @@ struct Session::State {
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
-  OperatedMachine::Programs programs;  ///< as the operators see them: at the start of the step
+  std::vector<std::optional<sim::SoilEnergy>> energy_at_ends;  ///< of cycles, for people only
+  OperatedMachine::Programs programs;                          ///< as the operators see them: at the start of the step
   ForceStatistics force;
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
@@ -118,10 +120,14 @@ Session::Session(scene::Scene description, device::Device& device)
       s.operated.emplace_back(s.world, m, s.surface, s.programs);
     X_WB.push_back(s.world.machine(m).link(0).pose());
   }
+  // A design that cannot be laid on this site is told now and not by the first who looks at it.
+  heightfield::make_design(s.world.description(), s.world.ground());
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
   // Bodies within each other would be thrown apart in the first step.
   for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB)) faults.push_back(std::move(fault));
+  for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
+    faults.push_back(std::move(fault));
   const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
@@ -143,11 +149,17 @@ void Session::step() {
       one.step(s.cycles, s.tips);
     }
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
+    if (s.energy_at_ends.size() < s.cycles.size()) s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
   }
   // The world steps with all commands of this instant; forces are of the step just taken.
   s.world.step();
   s.note_forces();
+}
+
+void Session::keep_soil_energy() {
+  state_->world.keep_soil_energy();
+  state_->energy_at_ends.assign(state_->cycles.size(), std::nullopt);
 }
 
 void Session::set(int input, double value) {
@@ -226,6 +238,7 @@ std::vector<ProgramReport> Session::programs() const {
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
 const std::vector<BedTip>& Session::tips() const { return state_->tips; }
+const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() const { return state_->energy_at_ends; }
 const ForceStatistics& Session::force() const { return state_->force; }
 double Session::control_time() const { return state_->control_time; }
 

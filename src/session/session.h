@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,10 @@ class Session {
   const std::vector<Cycle>& cycles() const;
   const std::vector<BedTip>& tips() const;
   const ForceStatistics& force() const;
+  /// Keeps the soil's energy from now on: the world's, and that of each cycle. Not part of the state.
+  void keep_soil_energy();
+  /// The soil's account when each cycle ended, in the order of cycles(); none for cycles before it was opened.
+  const std::vector<std::optional<sim::SoilEnergy>>& energy_at_ends() const;
   double energy() const;        ///< work of all machines' drives and cylinders [J]
   double control_time() const;  ///< wall time [s]
 

@@ -63,7 +63,8 @@ NAVVY_FUZZ_TARGET(control) {
   fuzz::hold(::ftruncate(STDIN_FILENO, 0) == 0);
   fuzz::hold(::pwrite(STDIN_FILENO, data, size, 0) == static_cast<ssize_t>(size));
   fuzz::hold(::lseek(STDIN_FILENO, 0, SEEK_SET) == 0);
-  cli::ControlStdio controller(driven.session, 1, [] { return false; });
+  cli::ControlStdio controller(
+      driven.session, 1, [] { return false; }, cli::ControlDesk{{}, false});
   while (controller.exchange()) {
   }
   // Only a line that names inputs changes something; the others cost no step.

@@ -15,6 +15,8 @@ NAVVY_FUZZ_TARGET(machine);
 NAVVY_FUZZ_TARGET(set);
 NAVVY_FUZZ_TARGET(obj);
 NAVVY_FUZZ_TARGET(terrain);
+NAVVY_FUZZ_TARGET(npy);
+NAVVY_FUZZ_TARGET(landxml);
 
 namespace navvy {
 namespace {
@@ -35,6 +37,8 @@ TEST(FuzzCorpus, OfMachineGoesThrough) { replay("machine_fuzz", fuzz_machine); }
 TEST(FuzzCorpus, OfSetGoesThrough) { replay("set_fuzz", fuzz_set); }
 TEST(FuzzCorpus, OfObjGoesThrough) { replay("obj_fuzz", fuzz_obj); }
 TEST(FuzzCorpus, OfTerrainGoesThrough) { replay("terrain_fuzz", fuzz_terrain); }
+TEST(FuzzCorpus, OfNpyGoesThrough) { replay("npy_fuzz", fuzz_npy); }
+TEST(FuzzCorpus, OfLandXmlGoesThrough) { replay("landxml_fuzz", fuzz_landxml); }
 
 }  // namespace
 }  // namespace navvy

@@ -305,17 +305,42 @@ TEST(Import, RefusesWordsAmongTheNumbersOfAnAsciiGrid) {
     return ascii_grid(13, 7, header, [&](int c, int r) { return c == 6 && r == 3 ? word : std::string("5.5"); });
   };
   // Row 3 of the heights is line 9: five lines of header before it.
-  for (const char* word : {"abc", "12abc", "--3", "1.2.3", "0x10", "#", "5;5"}) {
+  for (const char* word : {"abc", "12abc", "--3", "1.2.3", "0x10", "#", "5;5", "+", "-.", "+-5x"}) {
     const std::string file = write_text(folder() + "words.asc", grid(word));
     const std::string message = message_of(map_world(file, 0.5, Vec2(4, 4)));
     EXPECT_TRUE(contains(message, file + ":9: error: terrain: '" + std::string(word) + "'")) << message;
   }
-  for (const char* number : {"7", "-1.5e-1", "+3", "4,25", "nan", "-9999", "1.#QNAN"}) {
+  for (const char* number : {"7", "-1.5e-1", "+3", "5.", ".5", "4,25", "nan", "-9999", "1.#QNAN"}) {
     const std::string file = write_text(folder() + "numbers.asc", grid(number));
     EXPECT_EQ(message_of(map_world(file, 0.5, Vec2(4, 4))), "") << number;
   }
   const std::string key = write_text(folder() + "key.asc", ascii_grid(13, 7, header + "colour 3\n", asymmetric_text));
   EXPECT_TRUE(contains(message_of(map_world(key, 0.5, Vec2(4, 4))), "'colour'"));
+}
+
+TEST(Import, FindsAWordWhereverItLiesAcrossThePiecesAFileIsReadIn) {
+  // Seven bytes a height, 1400 a row: the first piece of 64 KiB ends in row 46, wherever the blanks push it.
+  constexpr int kRow = 46, kColumns = 200, kPiece = 1 << 16;
+  const std::string dir = folder();
+  for (int blanks = 0; blanks < 8; ++blanks) {
+    const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1" + std::string(blanks, ' ') + "\n";
+    const auto grid = [&](int bad) {
+      return ascii_grid(kColumns, 50, header,
+                        [&](int c, int r) { return std::string(c == bad && r == kRow ? "12e.25" : "123.25"); });
+    };
+    const std::string good = grid(-1);
+    const std::size_t begin = good.find("123.25") + 7ul * kColumns * kRow;
+    ASSERT_LT(begin, kPiece);
+    ASSERT_GT(begin + 7ul * kColumns, kPiece);
+    const int last = static_cast<int>((kPiece - 1 - begin) / 7);
+    EXPECT_EQ(message_of(map_world(write_text(dir + "good.asc", good), 0.5, Vec2(4, 4))), "");
+    for (const int bad : {last - 1, last, last + 1}) {
+      const std::string file = write_text(dir + "bad.asc", grid(bad)),
+                        message = message_of(map_world(file, 0.5, Vec2(4, 48)));
+      EXPECT_TRUE(contains(message, file + ":" + std::to_string(kRow + 6) + ": error: terrain: '12e.25'"))
+          << "[" << message << "] " << bad << " " << last;
+    }
+  }
 }
 
 TEST(Import, RefusesPipesAndDevicesAsMapsAndBesideThem) {

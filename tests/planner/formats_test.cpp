@@ -351,6 +351,8 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
   const test::Folder folder;
   const TerrainMap map = example();
   for (const Format& format : formats()) {
+    // A folder's files are written one by one, Terra's by the same function; SQLite keeps its own whole.
+    if (format.extension.empty()) continue;
     const std::string path = folder / format.name + format.extension;
     write_text(path, "old");
     rlimit before;

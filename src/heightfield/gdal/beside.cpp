@@ -24,7 +24,7 @@ std::string lower(std::string text) {
 std::vector<std::string> files_beside(const std::string& file) {
   const fs::path path = file;
   std::vector<std::string> known = {lower(path.filename().string() + ".aux.xml")};
-  for (const char* ending : {".prj", ".tfw", ".tifw", ".tiffw", ".wld", ".aux.xml"})
+  for (const char* ending : {".prj", ".tfw", ".tifw", ".tiffw", ".pgw", ".pngw", ".wld", ".aux.xml"})
     known.push_back(lower(path.stem().string() + ending));
   std::vector<std::string> names = {path.filename().string()};
   std::error_code failed;

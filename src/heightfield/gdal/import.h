@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain maps (GeoTIFF, ESRI ASCII) as the surface of a site. Exists only in builds with NAVVY_WITH_GDAL.
+// Terrain maps (GeoTIFF, ESRI ASCII, PNG, NPY) as the surface of a site. Exists only in builds with NAVVY_WITH_GDAL.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,14 @@ struct TerrainReport {
   double repose = 0;               ///< [rad]
   double soil_cell = 0;            ///< [m]
   std::vector<std::string> notes;  ///< traps found in the file
+  std::int64_t unmarked = 0;       ///< cells with a number that is no ground's height and not declared as nodata
+  double unmarked_value = 0;       ///< of the first of them, as the file has it
 
   /// Some lines for a person.
   std::string text() const;
+  /// What was made up and may not have been meant: heights that are none and not declared, gaps that are many or wide.
+  /// Empty where a reader need not stop.
+  std::string warning() const;
 };
 
 /// Reads the part of `world.ground.file` that the site covers and fills in the surface, datum and georeference of

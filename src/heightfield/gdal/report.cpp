@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was found in a map, in lines for a person. Numbers carry as many digits as a surveyor would give.
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -42,6 +43,25 @@ std::string TerrainReport::text() const {
               degrees(slope.most), degrees(slope.median), 100 * slope.share_above, degrees(repose));
   for (const std::string& note : notes) out += "  note     " + note + "\n";
   return out;
+}
+
+std::string TerrainReport::warning() const {
+  constexpr double kMany = 0.05, kWide = 2;  // share of the cells; [m] to the nearest height
+  const double share = source_cells > 0 ? static_cast<double>(nodata.gaps) / static_cast<double>(source_cells) : 0;
+  const double wide = nodata.farthest * std::max(cell_x, cell_y);
+  if (nodata.gaps == 0 || (unmarked == 0 && share < kMany && wide <= kWide)) return "";
+  std::string out = line(
+      "%lld of %lld map cells under the site (%.3g %%) have no height and were filled from their "
+      "neighbours, from up to %.3g m away",
+      static_cast<long long>(nodata.gaps), static_cast<long long>(source_cells), 100 * share, wide);
+  out.pop_back();
+  if (unmarked > 0) {
+    out += line("; %lld of them hold no ground's height (%g) that the file does not declare as nodata",
+                static_cast<long long>(unmarked), unmarked_value);
+    out.pop_back();
+  }
+  return file + ": " + out +
+         " (gdal_edit.py -a_nodata declares it, gdal_fillnodata.py fills gaps, --at moves the site)";
 }
 
 }  // namespace navvy::heightfield

@@ -20,6 +20,18 @@ const std::vector<Format>& formats() {
       {"nav2-scale", ".yaml", "the same in mode scale, 0 to 100", {Layer::kTraversability}, write_nav2_scale},
       {"hillshade", ".png", "picture of a surface, lit from the north-west", {Layer::kElevation}, write_hillshade},
       {"relief", ".png", "picture of one layer in colours", {Layer::kElevation}, write_relief},
+      {"obj", ".obj", "triangles of one surface", {Layer::kElevation}, write_obj},
+      {"terra",
+       "",
+       "folder of NumPy arrays: target -1/0/1, occupancy, dumpability, distance",
+       {Layer::kTarget, Layer::kElevation, Layer::kTraversability},
+       write_terra},
+      {"mcap",
+       ".mcap",
+       "ROS 2 messages in one file: grid_map, occupancy, points",
+       {Layer::kElevation, Layer::kTraversability},
+       write_mcap},
+      {"bag", "", "the same as a rosbag2 folder (SQLite)", {Layer::kElevation, Layer::kTraversability}, write_bag},
       {"ply", ".ply", "triangles with layers at the vertices", {Layer::kElevation}, write_ply},
   };
   return table;

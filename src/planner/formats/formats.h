@@ -43,6 +43,21 @@ void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const
 /// property at each vertex. Faces only between known columns. Elevation must be in the map.
 void write_ply(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 
+/// One surface (elevation, elevation_start or target) as triangles of a Wavefront OBJ, in W.
+void write_obj(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// A folder of NumPy arrays [iy, ix], row 0 = least y, for excavation planners of the Terra kind: images/img_1.npy
+/// (int8: -1 the design lies lower, 1 higher, by more than a twentieth of a column's edge; 0 neither),
+/// occupancy/img_1.npy (int8: 1 where traversability is 0 or unknown), dumpability/img_1.npy (int8: 1 where soil may be
+/// dumped: neither to be dug nor occupied) and distance/img_1.npy (float32: metres to the nearest column to be dug, -1
+/// where there is none). Needs elevation, target and traversability in the map.
+void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// A ROS 2 bag of one instant, /clock, /terrain/grid_map (grid_map_msgs), /terrain/points (PointCloud2) and, with
+/// traversability, /terrain/occupancy: as one MCAP file, or as a rosbag2 folder with SQLite storage.
+void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
 /// A format as the program offers it.
 struct Format {
   std::string name;               ///< "geotiff"

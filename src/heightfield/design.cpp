@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three kinds of design come to one: heights at column centres.
+#include "heightfield/design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/error.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/import_design.h"
+#endif
+
+namespace navvy::heightfield {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+bool known(float value) { return value == value; }
+
+[[noreturn]] void fail(const std::string& file, int line, const std::string& value, const std::string& rule,
+                       const std::string& remedy) {
+  throw InputError(Fault{Fault::Severity::kError, file, line, "navvy:design", value, rule, remedy});
+}
+
+Vec2 centre(const Terrain& site, int ix, int iy) { return site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5); }
+
+/// Columns whose centres may lie in a box of W.
+CellRect columns_in(const Terrain& site, const Vec2& low, const Vec2& high) {
+  // Clamped as doubles: a surface may reach far beyond any site.
+  const Vec2 most(site.nx(), site.ny());
+  const Vec2 a = ((low - site.origin()) / site.cell()).array().floor().max(0).min(most.array()).matrix();
+  const Vec2 b = ((high - site.origin()) / site.cell()).array().ceil().max(0).min(most.array()).matrix();
+  return {static_cast<int>(a.x()), static_cast<int>(a.y()), static_cast<int>(b.x()), static_cast<int>(b.y())};
+}
+
+DesignSurface nowhere(const CellRect& rect) {
+  return {rect, std::vector<float>(static_cast<std::size_t>(rect.area()), kNone)};
+}
+
+float& value(DesignSurface& design, int ix, int iy) {
+  const CellRect& r = design.rect;
+  return design.z[static_cast<std::size_t>(iy - r.y0) * static_cast<std::size_t>(r.x1 - r.x0) +
+                  static_cast<std::size_t>(ix - r.x0)];
+}
+
+std::string span(const Vec2& low, const Vec2& high) {
+  char text[160];
+  std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(), high.y());
+  return text;
+}
+
+// --- Triangles.
+
+/// Where W lies in the coordinates of surveyors, in metres.
+Vec3 to_survey(const GroundSetup& setup) {
+  return {setup.easting * setup.file_unit - setup.origin.x(), setup.northing * setup.file_unit - setup.origin.y(),
+          setup.height_offset};
+}
+
+/// The number behind the last ID["EPSG", in a projected CRS; 0: none, or of another kind.
+int epsg_of(const std::string& wkt) {
+  const std::size_t at = wkt.rfind("ID[\"EPSG\",");
+  return wkt.rfind("PROJCRS", 0) != 0 || at == std::string::npos ? 0 : std::atoi(wkt.c_str() + at + 10);
+}
+
+DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
+  const GroundSetup& setup = site.setup();
+  if (const int epsg = epsg_of(setup.crs_wkt); epsg != 0 && tin.epsg != 0 && epsg != tin.epsg)
+    fail(tin.file, 0, "EPSG:" + std::to_string(tin.epsg), "the site's map is in EPSG:" + std::to_string(epsg),
+         "export both in one coordinate system");
+  // W's numbers are small: triangles are held there.
+  const Vec3 shift = to_survey(setup);
+  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  for (const auto& face : tin.faces)
+    for (const int i : face) {
+      low = low.cwiseMin(tin.points[static_cast<std::size_t>(i)]);
+      high = high.cwiseMax(tin.points[static_cast<std::size_t>(i)]);
+    }
+  DesignSurface out = nowhere(columns_in(site, (low - shift).head<2>(), (high - shift).head<2>()));
+  bool any = false;
+  for (const auto& face : tin.faces) {
+    const auto corner = [&](std::size_t i) -> Vec3 { return tin.points[static_cast<std::size_t>(face[i])] - shift; };
+    const Vec3 a = corner(0), b = corner(1) - a, c = corner(2) - a;
+    const double twice = b.x() * c.y() - b.y() * c.x();
+    // A sliver that is upright or a line covers no column.
+    if (!(std::abs(twice) > 0)) continue;
+    const Vec2 from = Vec2::Zero().cwiseMin(b.head<2>()).cwiseMin(c.head<2>()) + a.head<2>();
+    const Vec2 to = Vec2::Zero().cwiseMax(b.head<2>()).cwiseMax(c.head<2>()) + a.head<2>();
+    const CellRect rect = columns_in(site, from, to).cut(out.rect);
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) {
+        const Vec2 p = centre(site, ix, iy) - a.head<2>();
+        const double u = (p.x() * c.y() - p.y() * c.x()) / twice, v = (b.x() * p.y() - b.y() * p.x()) / twice;
+        // A centre on an edge belongs to both faces, which agree there; rounding may not open a seam.
+        if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
+        value(out, ix, iy) = static_cast<float>(a.z() + u * b.z() + v * c.z());
+        any = true;
+      }
+  }
+  if (any) return out;
+  const Vec2 corner = shift.head<2>() + site.origin(), size = site.cell() * Vec2(site.nx(), site.ny());
+  const Vec2 swapped_low(low.y(), low.x()), swapped_high(high.y(), high.x());
+  const bool swapped =
+      (swapped_low.array() < (corner + size).array()).all() && (swapped_high.array() > corner.array()).all();
+  fail(tin.file, 0, span(low.head<2>(), high.head<2>()),
+       "the surface '" + tin.name + "' covers no column of the site, which reaches over " +
+           span(corner, corner + size) + " [m]",
+       swapped ? "northing and easting are swapped: LandXML's points are northing easting elevation"
+               : "give both in the same coordinates and check the unit; a procedural site counts in W");
+}
+
+// --- Areas.
+
+struct Nearest {
+  bool inside = false;
+  double distance = 0;  ///< to the polygon's edge [m]
+  Vec2 place;           ///< there
+};
+
+Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
+  Nearest out;
+  double least = INFINITY;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Vec2 edge = b - a;
+    const Vec2 q = a + edge * std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    if ((p - q).squaredNorm() < least) {
+      least = (p - q).squaredNorm();
+      out.place = q;
+    }
+    // Edges that cross the ray from p towards +x.
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + edge.x() * (p.y() - a.y()) / edge.y())
+      out.inside = !out.inside;
+  }
+  out.distance = std::sqrt(least);
+  return out;
+}
+
+/// One area on the columns of a rectangle; kNone where it says nothing.
+DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const CellRect& rect, double floor,
+                      DesignSurface& floors) {
+  DesignSurface sides = nowhere(rect);
+  const Vec2 down = std::tan(area.fall) * Vec2(std::cos(area.fall_yaw), std::sin(area.fall_yaw));
+  const bool upright = area.batter > radians(89.99), pit = area.depth > 0;
+  const double rise = upright ? 0 : std::tan(area.batter);
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) {
+      const Vec2 p = centre(site, ix, iy);
+      const Nearest at = nearest(area.polygon, p);
+      const double base = floor - down.dot((at.inside ? p : at.place) - area.polygon[0]);
+      if (at.inside) {
+        value(floors, ix, iy) = static_cast<float>(base);
+      } else if (!upright) {
+        const double z = base + (pit ? 1 : -1) * at.distance * rise, ground = site.start_height(ix, iy);
+        // Sides end in daylight.
+        if (pit ? z < ground : z > ground) value(sides, ix, iy) = static_cast<float>(z);
+      }
+    }
+  return sides;
+}
+
+bool touches_edge(const DesignSurface& design, const CellRect& whole) {
+  const CellRect& r = design.rect;
+  for (int iy = r.y0; iy < r.y1; ++iy)
+    for (int ix = r.x0; ix < r.x1; ++ix) {
+      const bool open = (ix == r.x0 && r.x0 > whole.x0) || (ix == r.x1 - 1 && r.x1 < whole.x1) ||
+                        (iy == r.y0 && r.y0 > whole.y0) || (iy == r.y1 - 1 && r.y1 < whole.y1);
+      if (open && known(design.at(ix, iy))) return true;
+    }
+  return false;
+}
+
+/// Adds an area: floors lie over what was there, sides only where they cut deeper or fill higher.
+void add_area(const scene::DesignArea& area, const std::string& file, const Terrain& site, DesignSurface& out) {
+  Vec2 low = area.polygon[0], high = low;
+  for (const Vec2& corner : area.polygon) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+  const Vec2i first = site.column_at(area.polygon[0].x(), area.polygon[0].y());
+  if (!site.contains(first.x(), first.y()))
+    fail(file, area.line, span(low, high),
+         "the first corner, where depth_m counts from, is off the site, which reaches over " +
+             span(site.origin(), site.origin() + site.cell() * Vec2(site.nx(), site.ny())),
+         "begin the polygon with a corner on the site");
+  const double floor = site.start_height(first.x(), first.y()) - area.depth;
+  // How far sides reach depends on the ground there: look farther until they end.
+  double reach = std::abs(area.depth) / std::tan(area.batter) + 2 * site.cell();
+  for (;; reach *= 2) {
+    const Vec2 margin = Vec2::Constant(reach);
+    const CellRect rect = columns_in(site, low - margin, high + margin);
+    DesignSurface floors = nowhere(rect);
+    const DesignSurface sides = of_area(area, site, rect, floor, floors);
+    if (touches_edge(sides, site.site_rect())) continue;
+    CellRect both = out.rect;
+    both.include(rect);
+    DesignSurface grown = nowhere(both);
+    for (int iy = out.rect.y0; iy < out.rect.y1; ++iy)
+      for (int ix = out.rect.x0; ix < out.rect.x1; ++ix) value(grown, ix, iy) = out.at(ix, iy);
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) {
+        float& z = value(grown, ix, iy);
+        const float side = sides.at(ix, iy);
+        if (known(floors.at(ix, iy))) z = floors.at(ix, iy);
+        if (known(side) && (!known(z) || (area.depth > 0 ? side < z : side > z))) z = side;
+      }
+    out = std::move(grown);
+    return;
+  }
+}
+
+DesignSurface of_areas(const scene::Scene& scene, const Terrain& site) {
+  DesignSurface out;
+  for (const scene::DesignArea& area : scene.design.areas) add_area(area, scene.file, site, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<float> DesignSurface::over(int nx, int ny) const {
+  std::vector<float> out(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), kNone);
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix)
+      out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)] = at(ix, iy);
+  return out;
+}
+
+std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrain& site) {
+  const scene::Design& design = scene.design;
+  if (!design.any()) return std::nullopt;
+  if (design.tin) return of_tin(*design.tin, site);
+  if (design.file.empty()) return of_areas(scene, site);
+#ifdef NAVVY_WITH_GDAL
+  return import_design(design, site);
+#else
+  fail(design.file, 0, "", "this build reads no raster files",
+       "build with -DNAVVY_WITH_GDAL=ON, or use LandXML or areas");
+#endif
+}
+
+DesignFigures against_design(const Terrain& ground, const DesignSurface& design) {
+  DesignFigures out;
+  const double square = ground.cell() * ground.cell();
+  const auto add = [&](double difference, double& above, double& below) {
+    (difference > 0 ? above : below) += std::abs(difference) * square;
+  };
+  std::int64_t columns = 0;
+  for (int iy = design.rect.y0; iy < design.rect.y1; ++iy)
+    for (int ix = design.rect.x0; ix < design.rect.x1; ++ix) {
+      const auto wanted = static_cast<double>(design.at(ix, iy));
+      if (wanted != wanted) continue;
+      const double z = ground.height(ix, iy), start = ground.start_height(ix, iy), error = z - wanted;
+      ++columns;
+      add(start - wanted, out.design_cut, out.design_fill);
+      add(z - start, out.fill, out.cut);
+      add(error, out.under_dig, out.over_dig);
+      out.mean_error += error;
+      out.mean_size += std::abs(error);
+      if (std::abs(error) > std::abs(out.largest_error)) out.largest_error = error;
+    }
+  out.area = static_cast<double>(columns) * square;
+  out.mean_error /= std::max<double>(1, static_cast<double>(columns));
+  out.mean_size /= std::max<double>(1, static_cast<double>(columns));
+  return out;
+}
+
+}  // namespace navvy::heightfield

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map of one instant as a bag: what a planner that subscribes gets once.
+#include <cstdio>
+
+#include "core/file.h"
+#include "planner/formats/formats.h"
+#include "planner/ros/streams.h"
+
+namespace navvy::planner {
+
+void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  const std::string part = partial_name(path);
+  try {
+    const auto bag = ros::make_mcap(part);
+    ros::write_map(*bag, map, layers, ros::stamp(map.time()));
+    bag->close();
+  } catch (...) {
+    std::remove(part.c_str());  // a full disk is not to stay full of halves
+    throw;
+  }
+  commit_file(path);
+}
+
+void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  const auto bag = ros::make_bag_folder(path);
+  ros::write_map(*bag, map, layers, ros::stamp(map.time()));
+  bag->close();
+}
+
+}  // namespace navvy::planner

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thread that waits for readers, and one for each of them: how slow a reader is, only its own thread knows.
+#include "planner/publisher.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <list>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/stopwatch.h"
+
+namespace navvy::planner {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How often a waiting thread looks whether it shall end [s].
+constexpr double kGlance = 0.2;
+constexpr std::size_t kMostReaders = 64;
+
+[[noreturn]] void refuse(const std::string& place, const std::string& rule, const std::string& remedy) {
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
+}
+
+/// "tcp:5005" or "tcp:0.0.0.0:5005" as an address.
+sockaddr_in address_of(const std::string& place) {
+  std::string host = "127.0.0.1", port = place.substr(4);
+  if (const std::size_t colon = port.rfind(':'); colon != std::string::npos) {
+    host = port.substr(0, colon);
+    port = port.substr(colon + 1);
+  }
+  sockaddr_in out{};
+  out.sin_family = AF_INET;
+  unsigned number = 0;
+  const auto [end, failed] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (port.empty() || failed != std::errc() || end != port.data() + port.size() || number > 65535)
+    refuse(place, "no port from 0 to 65535", "e.g. tcp:5005");
+  if (inet_pton(AF_INET, host.c_str(), &out.sin_addr) != 1)
+    refuse(place, "no numeric IPv4 address", "e.g. tcp:0.0.0.0:5005 for every interface");
+  out.sin_port = htons(static_cast<std::uint16_t>(number));
+  return out;
+}
+
+/// A socket that listens; its port goes to `port`.
+int listening(const std::string& place, int& port) {
+  sockaddr_in address = address_of(place);
+  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  if (file >= 0) ::setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(file, 16) != 0) {
+    const int code = errno;
+    if (file >= 0) ::close(file);
+    refuse(place, std::string("cannot listen there: ") + std::strerror(code),
+           "choose another port, or 0 for a free one");
+  }
+  socklen_t length = sizeof address;
+  ::getsockname(file, reinterpret_cast<sockaddr*>(&address), &length);
+  port = ntohs(address.sin_port);
+  return file;
+}
+
+}  // namespace
+
+struct Publisher::State {
+  State(UpdateFeed& f, std::vector<Layer> l) : feed(f), layers(std::move(l)) {}
+
+  UpdateFeed& feed;
+  std::vector<Layer> layers;
+  std::string folder;
+  int listener = -1, port = 0;
+  mutable std::mutex mutex;  // of what follows
+  std::string fault;
+  struct Reader {
+    std::thread thread;
+    std::atomic<bool> done{false};
+  };
+  std::list<Reader> readers;
+  std::thread main;
+
+  void serve_files();
+  void accept_readers();
+  void serve(int file, std::atomic<bool>& done);
+  bool send_all(int file, const std::vector<char>& bytes) const;
+  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end.
+  template <class Deliver>
+  void follow(const Deliver& deliver);
+};
+
+template <class Deliver>
+void Publisher::State::follow(const Deliver& deliver) {
+  for (std::uint64_t seen = 0;;) {
+    // Asked before, so that what was published before the end still goes out.
+    const bool last = feed.closed();
+    const UpdateFeed::Update update = feed.wait(seen, kGlance);
+    if (update != nullptr) {
+      if (!deliver(*update)) return;
+      seen = update->sequence;
+    } else if (last) {
+      return;
+    }
+  }
+}
+
+void Publisher::State::serve_files() {
+  std::uint64_t number = 0;
+  follow([&](const MapUpdate& update) {
+    char name[40];
+    std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
+    try {
+      write_file_atomically((fs::path(folder) / name).string(), patch_bytes(update, layers));
+      return true;
+    } catch (const std::exception& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      fault = error.what();
+      return false;
+    }
+  });
+}
+
+/// False when the reader is gone, or too slow at the end.
+bool Publisher::State::send_all(int file, const std::vector<char>& bytes) const {
+  Stopwatch since_close;
+  for (std::size_t at = 0; at < bytes.size();) {
+    pollfd out{file, POLLOUT, 0};
+    const int ready = ::poll(&out, 1, static_cast<int>(1000 * kGlance));
+    // While the run goes on a reader may take all the time it wants.
+    if (!feed.closed()) since_close.restart();
+    if (since_close.seconds() > kPatience) return false;
+    if (ready <= 0) continue;
+    const ssize_t sent = ::send(file, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (sent < 0) return false;
+    at += static_cast<std::size_t>(sent);
+  }
+  return true;
+}
+
+void Publisher::State::serve(int file, std::atomic<bool>& done) {
+  const int yes = 1;
+  ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  try {
+    follow([&](const MapUpdate& update) { return send_all(file, patch_bytes(update, layers)); });
+  } catch (const std::exception&) {
+    // No memory for its patch: this reader is let go, and may come back.
+  }
+  ::close(file);
+  done = true;
+}
+
+void Publisher::State::accept_readers() {
+  while (!feed.closed()) {
+    pollfd in{listener, POLLIN, 0};
+    if (::poll(&in, 1, static_cast<int>(1000 * kGlance)) <= 0) continue;
+    const int file = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+    if (file < 0) continue;
+    const std::lock_guard<std::mutex> lock(mutex);
+    readers.remove_if([](Reader& reader) {
+      if (!reader.done) return false;
+      reader.thread.join();
+      return true;
+    });
+    if (readers.size() >= kMostReaders) {
+      ::close(file);
+      continue;
+    }
+    Reader& reader = readers.emplace_back();
+    reader.thread = std::thread([this, file, &reader] { serve(file, reader.done); });
+  }
+}
+
+Publisher::Publisher(UpdateFeed& feed, const std::string& place, std::vector<Layer> layers)
+    : state_(std::make_unique<State>(feed, std::move(layers))) {
+  State& s = *state_;
+  if (place.rfind("tcp:", 0) == 0) {
+    s.listener = listening(place, s.port);
+    s.main = std::thread([&s] { s.accept_readers(); });
+    return;
+  }
+  if (place.empty()) refuse(place, "names no folder", "a new folder, or tcp:PORT");
+  s.folder = place;
+  std::error_code failed;
+  fs::create_directories(place, failed);
+  if (failed) throw FileError("cannot make '" + place + "': " + failed.message());
+  for (const auto& entry : fs::directory_iterator(place))
+    refuse(place, "holds '" + entry.path().filename().string() + "' already: patches are numbered from 1",
+           "name a new folder");
+  s.main = std::thread([&s] { s.serve_files(); });
+}
+
+Publisher::~Publisher() {
+  State& s = *state_;
+  s.feed.close();
+  if (s.main.joinable()) s.main.join();
+  for (State::Reader& reader : s.readers) reader.thread.join();
+  if (s.listener >= 0) ::close(s.listener);
+}
+
+int Publisher::port() const { return state_->port; }
+
+std::string Publisher::fault() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->fault;
+}
+
+}  // namespace navvy::planner

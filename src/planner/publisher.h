@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patches of a running map for other processes: over TCP, or as numbered files.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner/updates.h"
+
+namespace navvy::planner {
+
+/// Sends every update of a feed to whoever reads, from threads of its own: the loop that publishes never waits.
+///
+/// `tcp:PORT` listens on 127.0.0.1 (`tcp:HOST:PORT` on the address HOST; port 0: a free one): each reader that connects
+/// gets one patch with the whole map, then patches in order, each from the number of the one before. A slow reader gets
+/// one patch for all that it missed; one that goes away costs nothing and may come back. A folder gets
+/// `patch_000000001.navvymap` and so on, each whole or not there, the first the whole map, to be read in the order of
+/// their numbers.
+class Publisher {
+ public:
+  /// @throws InputError for a place that is none, or a port that is taken; FileError for a folder that cannot be made.
+  Publisher(UpdateFeed& feed, const std::string& place, std::vector<Layer> layers);
+  /// Sends what is left, at most kPatience seconds to each reader, and ends its threads. Closes the feed.
+  ~Publisher();
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+
+  /// That it listens on; 0 for a folder.
+  int port() const;
+  /// What ended a folder's writing; empty while nothing did. Readers over TCP that go away are no fault.
+  std::string fault() const;
+
+  static constexpr double kPatience = 2;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace navvy::planner

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are known.
+#include <sqlite3.h>
+
+#include <filesystem>
+#include <map>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "planner/ros/bag.h"
+
+namespace navvy::planner::ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTables =
+    "CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);"
+    "CREATE TABLE metadata(id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);"
+    "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
+    " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
+    "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,"
+    " data BLOB NOT NULL);"
+    "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
+    "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');";
+
+class BagFolder final : public Bag {
+ public:
+  explicit BagFolder(const std::string& path) : folder_(path) {
+    // "out/bag/" is called "bag" too.
+    const std::string name = (folder_.has_filename() ? folder_ : folder_.parent_path()).filename().string();
+    storage_ = name + "_0.db3";
+    std::error_code failed;
+    fs::create_directories(folder_, failed);
+    if (failed) throw FileError("cannot make '" + path + "': " + failed.message());
+    for (const auto& entry : fs::directory_iterator(folder_))
+      if (entry.path().filename() != storage_ && entry.path().filename() != "metadata.yaml")
+        throw InputError(Fault{Fault::Severity::kError, path, 0, "bag", entry.path().filename().string(),
+                               "lies in the folder already", "name a new folder"});
+    // Without metadata nobody takes a half new folder for the old bag.
+    fs::remove(folder_ / "metadata.yaml", failed);
+    fs::remove(folder_ / storage_, failed);
+    if (sqlite3_open((folder_ / storage_).c_str(), &data_) != SQLITE_OK) fail();
+    run(kTables);
+  }
+  BagFolder(const BagFolder&) = delete;
+  BagFolder& operator=(const BagFolder&) = delete;
+  ~BagFolder() override {
+    sqlite3_finalize(insert_);
+    sqlite3_close(data_);
+  }
+
+  void write(const std::string& topic, Kind kind, std::int64_t time_ns, const Bytes& message) override {
+    Topic& to = topics_[topic];
+    if (to.id == 0) {
+      to.id = static_cast<int>(topics_.size());
+      to.kind = kind;
+      sqlite3_stmt* row = prepare("INSERT INTO topics VALUES (?, ?, ?, 'cdr', '')");
+      sqlite3_bind_int(row, 1, to.id);
+      sqlite3_bind_text(row, 2, topic.c_str(), -1, SQLITE_TRANSIENT);
+      sqlite3_bind_text(row, 3, type_name(kind).c_str(), -1, SQLITE_TRANSIENT);
+      const bool done = sqlite3_step(row) == SQLITE_DONE;
+      sqlite3_finalize(row);
+      if (!done) fail();
+    }
+    if (insert_ == nullptr) insert_ = prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
+    sqlite3_bind_int(insert_, 1, to.id);
+    sqlite3_bind_int64(insert_, 2, time_ns);
+    sqlite3_bind_blob64(insert_, 3, message.data(), message.size(), SQLITE_STATIC);
+    const bool done = sqlite3_step(insert_) == SQLITE_DONE;
+    sqlite3_reset(insert_);
+    if (!done) fail();
+    ++to.messages;
+    if (messages_++ == 0) first_ = time_ns;
+    last_ = time_ns;
+  }
+
+  void close() override {
+    if (data_ == nullptr) return;
+    sqlite3_finalize(insert_);
+    insert_ = nullptr;
+    const int closed = sqlite3_close(data_);
+    data_ = nullptr;
+    if (closed != SQLITE_OK) throw FileError("cannot close '" + (folder_ / storage_).string() + "'");
+    write_file_atomically((folder_ / "metadata.yaml").string(), metadata());
+  }
+
+ private:
+  struct Topic {
+    int id = 0;
+    Kind kind = Kind::kClock;
+    std::uint64_t messages = 0;
+  };
+
+  [[noreturn]] void fail() const {
+    throw FileError("cannot write '" + (folder_ / storage_).string() + "': " + sqlite3_errmsg(data_));
+  }
+  void run(const char* statements) {
+    if (sqlite3_exec(data_, statements, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+  }
+  sqlite3_stmt* prepare(const char* statement) {
+    sqlite3_stmt* out = nullptr;
+    if (sqlite3_prepare_v2(data_, statement, -1, &out, nullptr) != SQLITE_OK) fail();
+    return out;
+  }
+
+  std::string metadata() const {
+    const std::string start = std::to_string(first_), duration = std::to_string(last_ - first_);
+    std::string out =
+        "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  duration:\n    nanoseconds: " +
+        duration + "\n  starting_time:\n    nanoseconds_since_epoch: " + start +
+        "\n  message_count: " + std::to_string(messages_) + "\n  topics_with_message_count:\n";
+    for (const auto& [name, topic] : topics_)
+      out += "    - topic_metadata:\n        name: " + name + "\n        type: " + type_name(topic.kind) +
+             "\n        serialization_format: cdr\n        offered_qos_profiles: \"\"\n      message_count: " +
+             std::to_string(topic.messages) + "\n";
+    out += "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " + storage_ +
+           "\n  files:\n    - path: " + storage_ + "\n      starting_time:\n        nanoseconds_since_epoch: " + start +
+           "\n      duration:\n        nanoseconds: " + duration +
+           "\n      message_count: " + std::to_string(messages_) + "\n";
+    return out;
+  }
+
+  fs::path folder_;
+  std::string storage_;
+  sqlite3* data_ = nullptr;
+  sqlite3_stmt* insert_ = nullptr;
+  std::map<std::string, Topic> topics_;
+  std::uint64_t messages_ = 0;
+  std::int64_t first_ = 0, last_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Bag> make_bag_folder(const std::string& folder) { return std::make_unique<BagFolder>(folder); }
+
+}  // namespace navvy::planner::ros

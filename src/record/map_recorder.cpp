@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/map_recorder.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "core/edit_distance.h"
+#include "planner/formats/formats.h"
+#include "planner/map_maker.h"
+#include "planner/ros/streams.h"
+#include "planner/sources.h"
+#include "sim/terrain_view.h"
+#include "sim/timing.h"
+
+namespace navvy::record {
+namespace {
+
+using planner::Layer;
+
+bool is_bag(const scene::MapRecord& record) { return record.format == "mcap" || record.format == "bag"; }
+
+/// Formats of more than one file go by the list of a run's folder only where it knows their names.
+std::vector<std::string> files_of(const planner::Format& format, const std::string& stem) {
+  if (format.name == "nav2") return {stem + ".yaml", stem + ".pgm"};
+  if (format.name == "nav2-scale") return {stem + ".yaml", stem + ".png"};
+  return {stem + format.extension};
+}
+
+std::vector<Layer> layers_of(const scene::MapRecord& record) {
+  if (record.layers.empty()) return planner::format_named(record.format).by_default;
+  std::vector<Layer> out;
+  for (const std::string& name : record.layers) out.push_back(planner::layer_named(name));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Fault> check_records(const scene::Scene& scene) {
+  std::vector<Fault> faults;
+  for (const scene::MapRecord& record : scene.records) {
+    const auto add = [&](Fault fault, const char* child) {
+      fault.file = scene.file;
+      fault.line = record.line;
+      fault.element = "world/navvy:record[" + record.name + "]/" + child;
+      faults.push_back(std::move(fault));
+    };
+    try {
+      const planner::Format& format = planner::format_named(record.format);
+      // A folder of many files a time is no record.
+      if (format.extension.empty() && !is_bag(record))
+        add(Fault{Fault::Severity::kError, "", 0, "", record.format, "is not written while a scene runs",
+                  "write it afterwards with navvy map"},
+            "format");
+    } catch (const InputError& error) {
+      add(error.faults().front(), "format");
+    }
+    for (const std::string& name : record.layers) try {
+        planner::layer_named(name);
+      } catch (const InputError& error) {
+        add(error.faults().front(), "layers");
+      }
+  }
+  return faults;
+}
+
+struct MapRecorder::Stream {
+  Stream(const scene::MapRecord& r, planner::MapOptions options)
+      : record(r), layers(layers_of(r)), maker(std::move(options)) {}
+  scene::MapRecord record;
+  std::vector<Layer> layers;
+  planner::MapMaker maker;
+  std::unique_ptr<planner::ros::Bag> bag;
+};
+
+MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : session_(session), folder_(folder) {
+  const scene::Scene& scene = session.world().description();
+  std::vector<Fault> faults = check_records(scene);
+  if (!faults.empty()) throw InputError(std::move(faults));
+  for (const scene::MapRecord& record : scene.records) {
+    planner::MapOptions options;
+    options.layers = layers_of(record);
+    // Pictures and points need the surface.
+    options.layers.push_back(Layer::kElevation);
+    options.limits = planner::limits_for(scene);
+    planner::take_design(scene, session.world().ground(), options);
+    Stream& stream = *streams_.emplace_back(std::make_unique<Stream>(record, std::move(options)));
+    if (record.format == "mcap") stream.bag = planner::ros::make_mcap(folder.path(record.name + ".mcap"));
+    if (record.format == "bag") {
+      // Both files are the run's before they are there.
+      const std::string data = folder.path(record.name + "/" + record.name + "_0.db3");
+      folder.path(record.name + "/metadata.yaml");
+      stream.bag = planner::ros::make_bag_folder(data.substr(0, data.rfind('/')));
+    }
+  }
+}
+
+MapRecorder::~MapRecorder() = default;
+
+void MapRecorder::observe() {
+  const sim::World& world = session_.world();
+  std::optional<heightfield::TerrainView> view;
+  for (const auto& stream : streams_) {
+    const scene::MapRecord& record = stream->record;
+    if (!sim::sample_due(world.steps(), world.dt(), record.rate)) continue;
+    // One view for all: it costs a pass over the particles.
+    if (!view) view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
+    stream->maker.update(*view);
+    const planner::TerrainMap map = stream->maker.map();
+    if (stream->bag) {
+      const std::int64_t now = planner::ros::stamp(world.time());
+      planner::ros::write_map(*stream->bag, map, stream->layers, now);
+      planner::ros::write_machines(*stream->bag, world, now);
+      continue;
+    }
+    const planner::Format& format = planner::format_named(record.format);
+    char number[24];
+    std::snprintf(number, sizeof number, "_%05llu",
+                  static_cast<unsigned long long>(sim::sample_number(world.steps(), world.dt(), record.rate)));
+    std::string first;
+    for (const std::string& file : files_of(format, "maps/" + record.name + number)) {
+      const std::string path = folder_.path(file);
+      if (first.empty()) first = path;
+    }
+    format.write(map, stream->layers, first);
+  }
+}
+
+void MapRecorder::finish() {
+  for (const auto& stream : streams_)
+    if (stream->bag) stream->bag->close();
+}
+
+}  // namespace navvy::record

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps and bags that a scene asks for (navvy:record), written while it runs.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "record/run_folder.h"
+#include "session/session.h"
+
+namespace navvy::record {
+
+/// Faults of a scene's navvy:record elements that its reader cannot know: names of formats and layers. With their
+/// lines.
+std::vector<Fault> check_records(const scene::Scene& scene);
+
+/// Writes each record of the scene at its rate, into the run's folder: a format of one instant as
+/// `maps/<name>_<number>.<extension>`, the number counting periods from time zero; `mcap` and `bag` as one file
+/// `<name>.mcap` or one folder `<name>/` over the whole run, with clock, tf, odometry and joint states of all machines.
+/// Costs nothing in steps in which none is due; then a map brought up to date and the file.
+class MapRecorder {
+ public:
+  /// @throws InputError as check_records, FileError.
+  MapRecorder(const session::Session& session, RunFolder& folder);
+  ~MapRecorder();
+  MapRecorder(const MapRecorder&) = delete;
+  MapRecorder& operator=(const MapRecorder&) = delete;
+
+  /// Called at the start and after each step. @throws FileError.
+  void observe();
+  /// Closes what is open, once. @throws FileError.
+  void finish();
+
+ private:
+  struct Stream;
+  const session::Session& session_;
+  RunFolder& folder_;
+  std::vector<std::unique_ptr<Stream>> streams_;
+};
+
+}  // namespace navvy::record

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// A namespace of its own and far more elements than a scene may have: read apart from scenes, under limits of its own.
+#include "scene_io/landxml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/file.h"
+#include "core/limits.h"
+
+namespace navvy::scene_io {
+namespace {
+
+/// A file being read, to tell faults of it.
+struct Reading {
+  std::string file;
+  Faults& faults;
+  std::size_t before = faults.error_count();
+
+  void error(int line, const std::string& element, const std::string& value, const std::string& rule,
+             const std::string& remedy) const {
+    faults.add(Fault{Fault::Severity::kError, file, line, element, value, rule, remedy});
+  }
+  void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) const {
+    error(at.GetLineNum(), at.Name(), value.substr(0, 80), rule, remedy);
+  }
+  bool failed() const { return faults.error_count() > before; }
+};
+
+const Element* child(const Element* of, const char* name) {
+  return of != nullptr ? of->FirstChildElement(name) : nullptr;
+}
+
+/// Metres a unit; 0 after a fault.
+double read_unit(const Element& root, const Reading& reading) {
+  static const std::vector<std::pair<std::string, double>> kUnits = {
+      {"millimeter", 1e-3}, {"centimeter", 1e-2}, {"meter", 1},       {"kilometer", 1e3},
+      {"foot", 0.3048},     {"inch", 0.0254},     {"mile", 1609.344}, {"USSurveyFoot", 1200.0 / 3937.0}};
+  const Element* units = child(&root, "Units");
+  const Element* kind = units != nullptr ? units->FirstChildElement() : nullptr;
+  const char* name = kind != nullptr ? kind->Attribute("linearUnit") : nullptr;
+  if (name == nullptr) {
+    const Element& at = kind != nullptr ? *kind : units != nullptr ? *units : root;
+    reading.error(at, "", "says no unit, and feet and metres look alike",
+                  "add <Units><Metric linearUnit=\"meter\"/></Units>, or <Imperial linearUnit=\"foot\"/> or "
+                  "\"USSurveyFoot\"");
+    return 0;
+  }
+  for (const auto& [known, metres] : kUnits)
+    if (known == name) return metres;
+  std::vector<std::string> names;
+  names.reserve(kUnits.size());
+  for (const auto& [known, metres] : kUnits) names.push_back(known);
+  reading.error(*kind, name, "is no linearUnit that is read here", reading.faults.nearest(name, names));
+  return 0;
+}
+
+/// The Definition of the surface that is meant; null after a fault.
+const Element* find_definition(const Element& root, const std::string& wanted, const Reading& reading) {
+  std::vector<std::string> names;
+  const Element* found = nullptr;
+  for (const Element* s = child(child(&root, "Surfaces"), "Surface"); s != nullptr;
+       s = s->NextSiblingElement("Surface")) {
+    names.push_back(attribute(*s, "name"));
+    if (wanted.empty() || names.back() == wanted) found = s;
+  }
+  if (names.empty()) {
+    reading.error(root, "", "holds no surface", "export a TIN surface, not only alignments or points");
+  } else if (found == nullptr) {
+    reading.error(root, wanted, "no surface of this name in the file", reading.faults.nearest(wanted, names));
+  } else if (wanted.empty() && names.size() > 1) {
+    reading.error(root, std::to_string(names.size()) + " surfaces", "one of them has to be meant",
+                  "name it, e.g. <surface>" + names.front() + "</surface>");
+  } else if (const Element* definition = child(found, "Definition");
+             definition == nullptr || attribute(*definition, "surfType") != "TIN") {
+    reading.error(definition != nullptr ? *definition : *found,
+                  definition != nullptr ? attribute(*definition, "surfType") : "", "is no TIN",
+                  "export the surface as triangles (surfType=\"TIN\")");
+  } else {
+    return definition;
+  }
+  return nullptr;
+}
+
+/// Up to three words of a text, as they stand in it; how many there are, at most four.
+int split(const char* text, std::string_view words[3]) {
+  int count = 0;
+  for (const char* p = text; p != nullptr && *p != 0 && count <= 3;) {
+    while (*p != 0 && std::strchr(" \t\r\n", *p) != nullptr) ++p;
+    const char* begin = p;
+    while (*p != 0 && std::strchr(" \t\r\n", *p) == nullptr) ++p;
+    if (p == begin) break;
+    if (count < 3) words[count] = std::string_view(begin, static_cast<std::size_t>(p - begin));
+    ++count;
+  }
+  return count;
+}
+
+using Ids = std::unordered_map<std::string, int>;
+
+void read_points(const Element& definition, double metres, const Reading& reading, scene::Tin& tin, Ids& ids) {
+  for (const Element* p = child(child(&definition, "Pnts"), "P"); p != nullptr; p = p->NextSiblingElement("P")) {
+    const char* text = p->GetText();
+    const std::string id = attribute(*p, "id");
+    std::string_view words[3];
+    Vec3 at = Vec3::Zero();
+    bool sound = split(text, words) == 3;
+    for (int i = 0; i < 3 && sound; ++i)
+      sound = to_number(std::string(words[i]), at[i]) && std::abs(at[i] * metres) <= 1e9;
+    if (!sound) {
+      reading.error(*p, text != nullptr ? text : "", "a point is three numbers: northing easting elevation",
+                    "points that refer to others (pntRef) are not read: export coordinates");
+    } else if (id.empty() || !ids.emplace(id, static_cast<int>(tin.points.size())).second) {
+      reading.error(*p, id, "every point needs an id of its own", "give it another one");
+    }
+    // Northing comes first in the file, easting in ours.
+    tin.points.push_back(metres * Vec3(at.y(), at.x(), at.z()));
+  }
+}
+
+void read_faces(const Element& definition, const Reading& reading, scene::Tin& tin, const Ids& ids) {
+  for (const Element* f = child(child(&definition, "Faces"), "F"); f != nullptr; f = f->NextSiblingElement("F")) {
+    // Invisible ones fill the hull round a surface that is not convex.
+    if (attribute(*f, "i") == "1") continue;
+    const char* text = f->GetText();
+    std::string_view words[3];
+    if (split(text, words) != 3) {
+      reading.error(*f, text != nullptr ? text : "", "a face is the ids of three points", "export it as triangles");
+      continue;
+    }
+    std::array<int, 3> face = {};
+    bool sound = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = ids.find(std::string(words[i]));
+      if (found == ids.end())
+        reading.error(*f, std::string(words[i]), "no point of this id", "add the point, or remove the face");
+      else
+        face[i] = found->second;
+      sound = sound && found != ids.end();
+    }
+    if (sound) tin.faces.push_back(face);
+  }
+}
+
+/// Reads the text within the limits; empty after a fault.
+std::vector<char> read_text(const Reading& reading) {
+  std::vector<char> text;
+  try {
+    text = read_file(reading.file, limits::kLandXmlBytes);
+  } catch (const FileError& failure) {
+    reading.error(0, "LandXML", "", failure.what(), "export one surface alone, or a coarser one");
+    return {};
+  }
+  const auto elements = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
+  if (elements <= 2 * limits::kLandXmlElements) return text;
+  reading.error(0, "LandXML", std::to_string(elements) + " tags",
+                "more than " + std::to_string(2 * limits::kLandXmlElements),
+                "export one surface alone, or a coarser one");
+  return {};
+}
+
+}  // namespace
+
+bool is_landxml(const std::string& file) {
+  std::string head(4096, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  return head.find("<LandXML") != std::string::npos;
+}
+
+std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const std::string& surface, Faults& faults) {
+  const Reading reading{file, faults};
+  const std::vector<char> text = read_text(reading);
+  if (text.empty()) {
+    if (!reading.failed()) reading.error(0, "LandXML", "", "is empty", "export it again");
+    return nullptr;
+  }
+  tinyxml2::XMLDocument xml;
+  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS || xml.RootElement() == nullptr) {
+    reading.error(xml.ErrorLineNum(), "LandXML", xml.ErrorName(), "is no sound XML", "export it again");
+    return nullptr;
+  }
+  const Element& root = *xml.RootElement();
+  if (std::strcmp(root.Name(), "LandXML") != 0) {
+    reading.error(root, root.Name(), "the root must be <LandXML>", "export it as LandXML 1.2");
+    return nullptr;
+  }
+  auto tin = std::make_shared<scene::Tin>();
+  tin->file = file;
+  const double metres = read_unit(root, reading);
+  const Element* definition = find_definition(root, surface, reading);
+  if (definition == nullptr || metres == 0) return nullptr;
+  tin->name = attribute(*definition->Parent()->ToElement(), "name");
+  if (const Element* crs = child(&root, "CoordinateSystem")) tin->epsg = crs->IntAttribute("epsgCode", 0);
+  Ids ids;
+  read_points(*definition, metres, reading, *tin, ids);
+  read_faces(*definition, reading, *tin, ids);
+  if (tin->faces.empty() && !reading.failed())
+    reading.error(*definition, tin->name, "has no visible face", "export the surface with its faces");
+  return reading.failed() ? nullptr : tin;
+}
+
+}  // namespace navvy::scene_io

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of us; a grid map is
+// asked by the rule that its users ask by. Not square, with a hole and a marked corner.
+#include "planner/ros/streams.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "folder.h"
+#include "heightfield/maps.h"
+#include "paths.h"
+#include "planner/formats/formats.h"
+#include "planner/grounds.h"
+
+namespace navvy::planner {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kNx = 12, kNy = 8;
+
+bool hole(int ix, int iy) { return ix == 3 && iy == 5; }
+float elevation(int ix, int iy) { return hole(ix, iy) ? kUnknown : static_cast<float>(0.1 * ix - 0.03 * iy * ix + iy); }
+float good(int ix, int iy) { return hole(ix, iy) ? kUnknown : ix == kNx - 1 && iy == 0 ? 0.0f : 0.01f * (ix + 10); }
+
+TerrainMap example() {
+  std::vector<float> z, t;
+  for (int iy = 0; iy < kNy; ++iy)
+    for (int ix = 0; ix < kNx; ++ix) z.push_back(elevation(ix, iy)), t.push_back(good(ix, iy));
+  return TerrainMap(testing::setup(kNx, kNy), 12.5, 3).with(Layer::kElevation, z).with(Layer::kTraversability, t);
+}
+const std::vector<Layer> kTwo = {Layer::kElevation, Layer::kTraversability};
+
+/// The readers' own Python; empty where nobody has made it.
+std::string readers() {
+  const std::string python = navvy::source_dir() + "/build/readers/bin/python3";
+  return std::filesystem::exists(python) ? python : "";
+}
+
+// Prints what a bag holds, by topic: type, times, and the last message in words that tests can ask.
+const char* const kRead = R"(
+import json, math, sys
+from pathlib import Path
+from rosbags.typesys import Stores, get_typestore, get_types_from_msg
+store = get_typestore(Stores.EMPTY)
+out, path = {}, Path(sys.argv[1])
+def learn(text, kind):
+    store.register({k: v for k, v in get_types_from_msg(text, kind).items() if k not in store.fielddefs})
+def tell(topic, kind, ns, raw):
+    m = store.deserialize_cdr(raw, kind)
+    t = out.setdefault(topic, {'type': kind, 'times': []})
+    t['times'].append(ns)
+    plain = lambda v: None if isinstance(v, float) and not math.isfinite(v) else v
+    if kind.endswith('GridMap'):
+        r, rows, p = m.info.resolution, m.data[0].layout.dim[1].size, m.info.pose.position
+        cols = m.data[0].layout.dim[0].size
+        t['dims'] = [[d.label, d.size, d.stride] for d in m.data[0].layout.dim]
+        t['layers'], t['basic'], t['frame'] = list(m.layers), list(m.basic_layers), m.header.frame_id
+        t['stamp'] = [m.header.stamp.sec, m.header.stamp.nanosec]
+        top, left = p.x + m.info.length_x / 2, p.y + m.info.length_y / 2
+        x0, y0 = float(sys.argv[2]), float(sys.argv[3])
+        for name, data in zip(m.layers, m.data):
+            at = lambda x, y: plain(float(data.data[int((left - y) / r) * rows + int((top - x) / r)]))
+            t[name] = [at(x0 + r * (i + .5), y0 + r * (j + .5)) for j in range(cols) for i in range(rows)]
+    if kind.endswith('OccupancyGrid'):
+        t['size'] = [m.info.width, m.info.height, m.info.resolution, m.info.origin.position.x, m.info.origin.position.y]
+        t['data'] = [int(v) for v in m.data]
+    if kind.endswith('PointCloud2'):
+        import struct
+        n = m.point_step // 4
+        t['fields'] = [[f.name, f.offset, f.datatype, f.count] for f in m.fields]
+        b = bytes(m.data)
+        t['points'] = [struct.unpack_from('<%df' % n, b, i * m.point_step) for i in range(m.width * m.height)]
+        assert m.row_step == m.point_step * m.width == len(b)
+    if kind.endswith('Odometry'):
+        p, q, v, w = m.pose.pose.position, m.pose.pose.orientation, m.twist.twist.linear, m.twist.twist.angular
+        t['state'] = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z]
+        t['child'] = m.child_frame_id
+    if kind.endswith('JointState'):
+        t['joints'] = [list(m.name), list(m.position), list(m.velocity), list(m.effort)]
+    if kind.endswith('TFMessage'):
+        t['frames'] = [[f.header.frame_id, f.child_frame_id] for f in m.transforms]
+    if kind.endswith('Clock'): t['clock'] = [m.clock.sec, m.clock.nanosec]
+types = {}
+if path.suffix == '.mcap':
+    from mcap.reader import make_reader
+    reader = make_reader(open(path, 'rb'))
+    summary = reader.get_summary()
+    out['statistics'] = [summary.statistics.message_count, len(summary.channels), len(summary.schemas)]
+    assert reader.get_header().profile == 'ros2'
+    for schema, channel, message in reader.iter_messages():
+        assert schema.encoding == 'ros2msg' and channel.message_encoding == 'cdr'
+        learn(schema.data.decode(), schema.name)
+        tell(channel.topic, schema.name, message.log_time, message.data)
+else:
+    from rosbags.rosbag2 import Reader
+    for kind, text in json.load(open(sys.argv[4])).items():
+        learn(text, kind)
+    with Reader(path) as reader:
+        out['statistics'] = [reader.message_count, len(reader.topics), reader.duration]
+        for connection, ns, raw in reader.messages():
+            tell(connection.topic, connection.msgtype, ns, raw)
+print(json.dumps(out))
+)";
+
+json read(const test::Folder& folder, const std::string& bag) {
+  // A folder's storage tells types by name only.
+  json types;
+  for (int i = 0; i < ros::kKinds; ++i)
+    types[ros::type_name(static_cast<ros::Kind>(i))] = ros::definition(static_cast<ros::Kind>(i));
+  heightfield::testing::write_text(folder / "types.json", types.dump());
+  heightfield::testing::write_text(folder / "read.py", kRead);
+  const Vec2 origin = testing::setup().origin;
+  const std::string text = heightfield::testing::output_of(
+      "'" + readers() + "' '" + folder / "read.py" + "' '" + bag + "' " + std::to_string(origin.x()) + " " +
+      std::to_string(origin.y()) + " '" + folder / "types.json" + "'");
+  return json::parse(text, nullptr, false);
+}
+
+void expect_map(const json& bag) {
+  ASSERT_FALSE(bag.is_discarded()) << "the reader failed";
+  const json& grid = bag.at("/terrain/grid_map");
+  EXPECT_EQ(grid.at("type"), "grid_map_msgs/msg/GridMap");
+  EXPECT_EQ(grid.at("stamp"), json({12, 500000000}));
+  EXPECT_EQ(grid.at("times"), json({12500000000}));
+  EXPECT_EQ(grid.at("layers"), json({"elevation", "traversability"}));
+  EXPECT_EQ(grid.at("basic"), json({"elevation"}));
+  EXPECT_EQ(grid.at("frame"), "map");
+  EXPECT_EQ(grid.at("dims"), json({{"column_index", kNy, kNx * kNy}, {"row_index", kNx, kNx}}));
+  const json& cells = bag.at("/terrain/occupancy");
+  EXPECT_EQ(cells.at("size")[0], kNx);
+  EXPECT_EQ(cells.at("size")[1], kNy);
+  EXPECT_NEAR(cells.at("size")[3].get<double>(), -3.3, 1e-12);
+  const json& cloud = bag.at("/terrain/points");
+  EXPECT_EQ(cloud.at("fields"), json({{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"traversability", 12, 7, 1}}));
+  ASSERT_EQ(cloud.at("points").size(), kNx * kNy - 1u);
+  std::size_t k = 0, point = 0;
+  for (int iy = 0; iy < kNy; ++iy)
+    for (int ix = 0; ix < kNx; ++ix, ++k) {
+      SCOPED_TRACE(std::to_string(ix) + " " + std::to_string(iy));
+      if (hole(ix, iy)) {
+        EXPECT_TRUE(grid.at("elevation")[k].is_null());
+        EXPECT_EQ(cells.at("data")[k], -1);
+        continue;
+      }
+      EXPECT_EQ(grid.at("elevation")[k].get<float>(), elevation(ix, iy));
+      EXPECT_EQ(grid.at("traversability")[k].get<float>(), good(ix, iy));
+      EXPECT_NEAR(cells.at("data")[k].get<int>(), 100 * (1 - good(ix, iy)), 0.5001);
+      const json& p = cloud.at("points")[point++];
+      const Vec2 at = testing::centre(testing::setup(kNx, kNy), ix, iy);
+      EXPECT_EQ(p[0].get<float>(), static_cast<float>(at.x()));
+      EXPECT_EQ(p[1].get<float>(), static_cast<float>(at.y()));
+      EXPECT_EQ(p[2].get<float>(), elevation(ix, iy));
+      EXPECT_EQ(p[3].get<float>(), good(ix, iy));
+    }
+  EXPECT_EQ(bag.at("/clock").at("clock"), json({12, 500000000}));
+}
+
+TEST(Mcap, OfAMapIsReadByOthers) {
+  if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
+  const test::Folder folder;
+  write_mcap(example(), kTwo, folder / "map.mcap");
+  const json bag = read(folder, folder / "map.mcap");
+  expect_map(bag);
+  EXPECT_EQ(bag.at("statistics"), json({4, 4, 4}));
+}
+
+TEST(RosBag, OfAMapIsReadByOthers) {
+  if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
+  const test::Folder folder;
+  write_bag(example(), kTwo, folder / "bag");
+  const json bag = read(folder, folder / "bag");
+  expect_map(bag);
+  EXPECT_EQ(bag.at("statistics")[0], 4);
+  // A second one replaces it; a folder of somebody else is left alone.
+  write_bag(example(), kTwo, folder / "bag");
+  EXPECT_EQ(read(folder, folder / "bag").at("statistics")[0], 4);
+  heightfield::testing::write_text(folder / "bag/mine.txt", "x");
+  EXPECT_THROW(write_bag(example(), kTwo, folder / "bag"), InputError);
+}
+
+/// A body that stands on its side and moves along W's x.
+ros::BodyState body() {
+  ros::BodyState out;
+  out.frame = "ew/chassis";
+  out.X_WB = Pose(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));
+  out.X_WB.translation() = Vec3(1, 2, 3);
+  out.v_W = Vec3(0.5, 0, 0.1);
+  out.w_W = Vec3(0, 0, 0.25);
+  return out;
+}
+
+void write_bodies(ros::Bag& bag) {
+  for (const std::int64_t ns : {1'000'000'000LL, 2'500'000'001LL}) {
+    bag.write("/clock", ros::Kind::kClock, ns, ros::clock(ns));
+    bag.write("/ew/odom", ros::Kind::kOdometry, ns, ros::odometry(body(), ns));
+    bag.write("/ew/joint_states", ros::Kind::kJointState, ns,
+              ros::joint_state({{"boom", "arm"}, {0.5, -1}, {0, 2}, {7, 8}}, ns));
+    bag.write("/tf", ros::Kind::kTf, ns, ros::tf({body(), body()}, ns));
+  }
+  bag.close();
+}
+
+void expect_bodies(const json& bag) {
+  ASSERT_FALSE(bag.is_discarded()) << "the reader failed";
+  const double h = std::sqrt(0.5);
+  // 90 deg to the left: W's x is the body's -y.
+  const std::vector<double> state = {1, 2, 3, 0, 0, h, h, 0, -0.5, 0.1, 0, 0, 0.25};
+  for (std::size_t i = 0; i < state.size(); ++i)
+    EXPECT_NEAR(bag.at("/ew/odom").at("state")[i].get<double>(), state[i], 1e-12) << i;
+  EXPECT_EQ(bag.at("/ew/odom").at("child"), "ew/chassis");
+  EXPECT_EQ(bag.at("/ew/joint_states").at("joints"), json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
+  EXPECT_EQ(bag.at("/tf").at("frames").size(), 2u);
+  EXPECT_EQ(bag.at("/tf").at("frames")[1][0], "map");
+  EXPECT_EQ(bag.at("/clock").at("clock"), json({2, 500000001}));
+  EXPECT_EQ(bag.at("/clock").at("times"), json({1000000000, 2500000001}));
+}
+
+TEST(Mcap, OfMovingBodiesIsReadByOthers) {
+  if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
+  const test::Folder folder;
+  write_bodies(*ros::make_mcap(folder / "run.mcap"));
+  expect_bodies(read(folder, folder / "run.mcap"));
+}
+
+TEST(RosBag, OfMovingBodiesIsReadByOthers) {
+  if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
+  const test::Folder folder;
+  write_bodies(*ros::make_bag_folder(folder / "run"));
+  const json bag = read(folder, folder / "run");
+  expect_bodies(bag);
+  EXPECT_EQ(bag.at("statistics")[0], 8);
+}
+
+TEST(Bags, ThatCannotBeWrittenAreFileErrors) {
+  EXPECT_THROW(ros::make_mcap("/proc/no/such.mcap"), FileError);
+  EXPECT_THROW(ros::make_bag_folder("/proc/no/such"), FileError);
+}
+
+}  // namespace
+}  // namespace navvy::planner
