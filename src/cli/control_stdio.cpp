@@ -10,6 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kLongestName = 1000;
+constexpr std::string_view kSeverity = "error: ";
 constexpr int kPatience = 100;  // between two looks at `stop` [ms]
 
 /// Brackets and braces that are open at once, strings apart; counted before the parser, which builds them all.
@@ -59,8 +61,12 @@ InputError fault(const std::string& element, const std::string& value, const std
 
 /// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest
 /// step.
-ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop)
-    : stop_(std::move(stop)), session_(session), world_(session.world()), rate_(rate) {}
+ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk)
+    : stop_(std::move(stop)),
+      session_(session),
+      world_(session.world()),
+      rate_(rate),
+      requests_(session, rate, std::move(desk)) {}
 
 /// The next line without its end. Every byte is looked at once, whatever the pieces that it comes in.
 ControlStdio::Read ControlStdio::read_line(std::string& line) {
@@ -121,15 +127,30 @@ bool ControlStdio::say(const std::string& line) {
   return true;
 }
 
-/// Outputs first, then inputs: the controller answers what it has just been told.
-bool ControlStdio::exchange() {
-  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return true;
+bool ControlStdio::say_outputs() {
   json out;
   out["time"] = world_.time();
   json& values = out["outputs"];
   for (std::size_t i = 0; i < world_.outputs().size(); ++i)
     values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
-  if (!say(out.dump() + "\n")) return false;
+  return say(out.dump() + "\n");
+}
+
+bool ControlStdio::ask(const std::string& line, bool& there) {
+  if (nesting(line) > kDeepestNesting) return false;
+  const json in = json::parse(line, nullptr, false);
+  if (!ControlRequests::is_request(in)) return false;
+  const json answer = requests_.answer(in);
+  there = say(answer.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  // Inputs that follow belong to the state as it is now.
+  if (there && requests_.moved()) there = say_outputs();
+  return true;
+}
+
+/// Outputs first, then inputs: the controller answers what it has just been told.
+bool ControlStdio::exchange() {
+  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return true;
+  if (!say_outputs()) return false;
   // Lock step: simulated time stands still until a usable answer is there.
   for (;;) {
     std::string line;
@@ -143,10 +164,14 @@ bool ControlStdio::exchange() {
     try {
       if (read == Read::kTooLong)
         throw fault("line", "", "must have at most " + std::to_string(kLongestLine) + " bytes");
-      return obey(line);
-    } catch (const InputError& error) {
+      bool there = true;
+      if (!ask(line, there)) return obey(line);
+      if (!there) return false;
+    } catch (const Error& error) {
       // A slip is the controller's to mend, which knows best what it meant.
-      const json answer{{"error", error.what()}, {"line", lines_}};
+      std::string text = error.what();
+      if (text.rfind(kSeverity, 0) == 0) text.erase(0, kSeverity.size());  // the key says so
+      const json answer{{"error", text}, {"line", lines_}};
       if (!say(answer.dump(-1, ' ', false, json::error_handler_t::replace) + "\n")) return false;
     }
   }
@@ -161,7 +186,7 @@ bool ControlStdio::obey(const std::string& line) {
   if (!in.is_object()) throw fault("line", beginning(line), "must be one JSON object");
   // A misspelt key would otherwise be an input that never arrives.
   for (const auto& [key, value] : in.items())
-    if (key != "inputs" && key != "end") throw fault(key, beginning(value), "must be 'inputs' or 'end'");
+    if (key != "inputs" && key != "end") throw fault(key, beginning(value), "must be 'inputs' or 'end', or a request");
   if (in.contains("end") && !in["end"].is_boolean()) throw fault("end", beginning(in["end"]), "must be true or false");
   std::vector<std::pair<int, double>> inputs;
   if (in.contains("inputs")) {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "session/session.h"
+#include "cli/control_requests.h"
 
 namespace navvy::cli {
 
@@ -15,12 +15,15 @@ namespace navvy::cli {
 /// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} ends the
 /// run.
 ///
+/// Any number of requests may come before that line (control_requests.h); each is answered by one line. After one that
+/// puts the session into another state the outputs are printed again.
+///
 /// A line that cannot be used changes nothing and is answered by {"error":..., "line":...}; simulated time stands still
 /// until one comes that can be used. A controller that goes away, closing either stream, ends the run too.
 class ControlStdio {
  public:
   /// @param stop asked while it waits for its controller: true ends the wait
-  ControlStdio(session::Session& session, double rate, std::function<bool()> stop);
+  ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk = {});
   /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone, or `stop` said so.
   bool exchange();
   /// How the controller went away without {"end": true}; empty while it is there.
@@ -33,6 +36,9 @@ class ControlStdio {
   enum class Read { kLine, kTooLong, kStopped, kEnded };
   Read read_line(std::string& line);
   bool say(const std::string& line);
+  bool say_outputs();
+  /// Whether the line is a request, which is answered then; `there` becomes false when nobody reads the answer.
+  bool ask(const std::string& line, bool& there);
   bool obey(const std::string& line);
 
   std::function<bool()> stop_;
@@ -44,6 +50,7 @@ class ControlStdio {
   session::Session& session_;
   const sim::World& world_;
   double rate_;  ///< of exchanges [1/s]
+  ControlRequests requests_;
   std::uint64_t lines_ = 0;
 };
 

@@ -7,14 +7,18 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
 #include "control/step_kinds.h"
+#include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
+#include "record/map_recorder.h"
 #include "scene_io/loader.h"
 #include "session/program_check.h"
 #include "sim/start_check.h"
@@ -40,8 +44,20 @@ void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
   std::fflush(stdout);
 }
 
+/// Says what follows from a machine's file without standing in it.
+void tell_derived(const std::string& name, const scene::Machine& machine) {
+  for (const std::string& one : machine.derived) std::printf("'%s': %s\n", name.c_str(), one.c_str());
+}
+
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   int errors = 0, warnings = 0;
+  // What libraries warn of while they try a start counts like any other: once, and on standard output.
+  std::set<std::string> told;
+  set_log_sink([&](LogLevel level, const std::string& text) {
+    if (level < LogLevel::kWarning || !told.insert(text).second) return;
+    std::cout << "warning: " << text << "\n";
+    ++warnings;
+  });
   for (const std::string& name : files) {
     std::string file;
     try {
@@ -54,10 +70,16 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // One pass over all files: a user fixes every fault in one go.
     std::optional<scene::Scene> world;
     // Machine and soil files are checked by themselves and give no world.
-    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides);
+    std::optional<scene::Machine> machine;
+    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides, &machine);
+    if (machine) tell_derived(machine->name, *machine);
+    if (world)
+      for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
       for (Fault& fault : session::check_programs(*world)) faults.push_back(std::move(fault));
+    if (world)
+      for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
     // And what its machines do in their first second.
     if (world) check_machines(*world, faults);
     for (const Fault& fault : faults) {
@@ -66,6 +88,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       ++(fault.severity == Fault::Severity::kError ? errors : warnings);
     }
   }
+  set_log_sink({});
   // The last line is for people, the exit status for scripts.
   std::printf("%zu file%s checked: %d error%s, %d warning%s\n", files.size(), files.size() == 1 ? "" : "s", errors,
               errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");

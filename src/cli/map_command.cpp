@@ -51,8 +51,23 @@ std::string scene_of(const std::filesystem::path& folder, const std::string& ask
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
 }
 
+planner::MapOptions map_options(const MapCommand& options, const std::vector<planner::Layer>& layers,
+                                const scene::Scene& scene) {
+  planner::MapOptions out;
+  out.layers = layers;
+  out.limits = planner::limits_for(scene);
+  // A picture of any layer has the surface's shade.
+  out.layers.push_back(planner::Layer::kElevation);
+  // Zero stands for "not given".
+  if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
+  if (options.step > 0) out.limits.step_height = options.step;
+  if (options.roughness > 0) out.limits.roughness = options.roughness;
+  if (options.window > 0) out.limits.window = options.window;
+  return out;
+}
+
 /// The state of a snapshot, with its awake soil: needs the device, as particles live there.
-planner::TerrainMap of_snapshot(const MapCommand& options, const planner::MapOptions& wanted) {
+planner::TerrainMap of_snapshot(const MapCommand& options, const std::vector<planner::Layer>& layers) {
   const std::string scene = options.scene.empty()
                                 ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
                                 : find_scene(options.scene);
@@ -60,34 +75,26 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const planner::MapOpt
   device::Device device(options.device);
   session::Session session(load(scene), device);
   session.load(options.from);
-  planner::MapMaker maker(wanted);
-  maker.update(sim::terrain_view(session.world(), heightfield::SurfaceKind::kMapped));
+  const sim::World& world = session.world();
+  planner::MapOptions wanted = map_options(options, layers, world.description());
+  planner::take_design(world.description(), world.ground(), wanted);
+  planner::MapMaker maker(std::move(wanted));
+  maker.update(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
   return maker.map();
 }
 
-planner::TerrainMap read(const MapCommand& options, const planner::MapOptions& wanted) {
+planner::TerrainMap read(const MapCommand& options, const std::vector<planner::Layer>& layers) {
   // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
     const scene::Scene scene = load(scene_of(from, options.from));
+    const planner::MapOptions wanted = map_options(options, layers, scene);
     if (options.start) return planner::map_of_site(scene, wanted);
     return planner::map_of_run(scene, (from / "terrain_end.tif").string(), wanted);
   }
-  if (is_snapshot(options.from)) return of_snapshot(options, wanted);
-  return planner::map_of_site(load(find_scene(options.from)), wanted);
-}
-
-planner::MapOptions map_options(const MapCommand& options, const std::vector<planner::Layer>& layers) {
-  // Zero stands for "not given".
-  planner::MapOptions out;
-  out.layers = layers;
-  // A picture of any layer has the surface's shade.
-  out.layers.push_back(planner::Layer::kElevation);
-  if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
-  if (options.step > 0) out.limits.step_height = options.step;
-  if (options.roughness > 0) out.limits.roughness = options.roughness;
-  if (options.window > 0) out.limits.window = options.window;
-  return out;
+  if (is_snapshot(options.from)) return of_snapshot(options, layers);
+  const scene::Scene scene = load(find_scene(options.from));
+  return planner::map_of_site(scene, map_options(options, layers, scene));
 }
 
 int map(const MapCommand& options) {
@@ -96,7 +103,7 @@ int map(const MapCommand& options) {
   const std::vector<planner::Layer> layers =
       options.layers.empty() ? format.by_default : planner::layers_named(options.layers);
   require_writable(options.out);
-  const planner::TerrainMap made = read(options, map_options(options, layers));
+  const planner::TerrainMap made = read(options, layers);
   format.write(made, layers, options.out);
   // One line that says what was written.
   std::string names;
@@ -149,10 +156,10 @@ void add_map(CLI::App& app, Action& action) {
   const auto limit = [&](const char* name, double& to, const char* meaning) {
     command->add_option(name, to, meaning)->check(above_zero);
   };
-  limit("--slope-limit-deg", options->slope_deg, "slope that is not traversable (30)");
-  limit("--step-limit", options->step, "step height that is not traversable [m] (0.3)");
-  limit("--roughness-limit", options->roughness, "rms roughness that is not traversable [m] (0.1)");
-  limit("--window", options->window, "half the side of the square that step and roughness look at [m] (0.2)");
+  limit("--slope-limit-deg", options->slope_deg, "slope that is not traversable (the machine's, else 30)");
+  limit("--step-limit", options->step, "step height that is not traversable [m] (the machine's, else 0.3)");
+  limit("--roughness-limit", options->roughness, "rms roughness that is not traversable [m] (the machine's, else 0.1)");
+  limit("--window", options->window, "half the side of the square that step and roughness look at [m] (likewise, 0.2)");
   command->footer(footer());
   command->callback([options, &action] { action = [options] { return map(*options); }; });
 }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/control_stdio.h"
@@ -20,10 +21,16 @@
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
+#include "planner/formats/png_file.h"
+#include "planner/publisher.h"
+#include "planner/sources.h"
+#include "record/map_recorder.h"
 #include "record/rates_note.h"
 #include "record/recorder.h"
 #include "record/run_folder.h"
 #include "session/session.h"
+#include "sim/terrain_view.h"
+#include "sim/timing.h"
 
 namespace navvy::cli {
 namespace {
@@ -38,6 +45,9 @@ struct RunOptions {
   std::string snapshot;
   double snapshot_at = -1;
   double hash_every = 0;
+  std::string publish, publish_layers;
+  double publish_rate = 10;
+  bool energy = false;
   bool quiet = false;
   std::vector<std::string> command;  ///< the whole command line, for the run's folder
 };
@@ -67,18 +77,66 @@ class ProgressLine {
   Stopwatch watch_;
 };
 
+/// The run's map for other processes, as often as asked for.
+class PublishedMap {
+ public:
+  PublishedMap(const RunOptions& options, const sim::World& world)
+      : world_(world), rate_(options.publish_rate), layers_(layers_of(options)), feed_(map_options(layers_, world)) {
+    publisher_.emplace(feed_, options.publish, layers_);
+    if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));
+    feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+  }
+  /// Called after each step. @throws FileError for what ended the writing.
+  void observe() {
+    if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return;
+    feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+    if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);
+  }
+
+ private:
+  static std::vector<planner::Layer> layers_of(const RunOptions& options) {
+    return options.publish_layers.empty() ? planner::all_layers() : planner::layers_named(options.publish_layers);
+  }
+  static planner::MapOptions map_options(const std::vector<planner::Layer>& layers, const sim::World& world) {
+    planner::MapOptions out;
+    out.layers = layers;
+    out.limits = planner::limits_for(world.description());
+    planner::take_design(world.description(), world.ground(), out);
+    return out;
+  }
+
+  const sim::World& world_;
+  double rate_;
+  std::vector<planner::Layer> layers_;
+  planner::UpdateFeed feed_;
+  std::optional<planner::Publisher> publisher_;
+};
+
 /// Named by the scene and not by its file: a scene read from a run's folder goes back there.
 std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
 
+/// "12.5" for people.
+std::string short_text(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
 int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
-                    StopSignals& signals) {
+                    StopSignals& signals, PublishedMap* published) {
   ProgressLine line(options.quiet || !options.control.empty());
   // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
+  ControlDesk desk;
+  desk.draw = [&](const std::string& camera) {
+    const render::Image image = recorder.draw(camera);
+    return Picture{image.width, image.height,
+                   planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
+  };
   if (!options.control.empty())
-    control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked);
+    control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
   bool snapshot_due = !options.snapshot.empty();
   try {
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
@@ -92,7 +150,13 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
       // All that a step changes is recorded before the next one.
       session.step();
       recorder.observe();
+      if (published != nullptr) published->observe();
       line.show(recorder.progress());
+    }
+    // The state of the end is one, too.
+    if (snapshot_due && session.world().time() >= options.snapshot_at - 0.5 * session.world().dt()) {
+      session.save(options.snapshot);
+      snapshot_due = false;
     }
   } catch (const std::exception& error) {
     // The first cause is what the user reads; a second one in closing the files is only logged by the recorder.
@@ -105,13 +169,15 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   line.end();
   // Asked for and not written: that must not go unnoticed.
   if (snapshot_due)
-    log_warning("no snapshot: the run ended at " + std::to_string(session.world().time()) + " s, before --snapshot-at");
+    log(LogLevel::kError, "no snapshot: the run ended at " + short_text(session.world().time()) +
+                              " s, before --snapshot-at " + short_text(options.snapshot_at));
   // From here on nobody hurries: the files are closed in their order.
   const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
   signals.obeyed();
   const bool complete = session.complete();
   recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
   if (interrupted) return kInterrupted;
+  if (snapshot_due) return kFile;
   // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
   // failure.
   const bool cut_as_asked = (options.scene.duration > 0 || control) && !session.fell_short();
@@ -129,11 +195,32 @@ void tell_programs(std::FILE* say, const session::Session& session) {
 
 /// A snapshot that cannot be read is bad input, told before the scene is built.
 void require_snapshot(const std::string& path) {
-  if (path.empty() || (std::filesystem::is_regular_file(path) && std::ifstream(path).is_open())) return;
+  if (path.empty()) return;
+  try {
+    require_regular(path);
+  } catch (const FileError& error) {
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, error.what(), "name a snapshot's file"});
+  }
+  if (std::ifstream(path).is_open()) return;
   // Where snapshots come from is what a user asks next.
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, "no such snapshot, or it cannot be read",
                          "--snapshot FILE --snapshot-at T writes one; a run that stopped itself leaves failed.snapshot "
                          "among its results"});
+}
+
+/// A snapshot that the run does not come to, or one with nothing behind it, is a slip: told before the first step.
+void require_times(const RunOptions& options, const session::Session& session) {
+  const double now = session.world().time(), end = session.world().description().recording.duration;
+  if (!options.snapshot.empty() && options.snapshot_at > end)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--snapshot-at", short_text(options.snapshot_at),
+                           "the run lasts " + short_text(end) + " s at most",
+                           "choose an earlier moment, or a longer --duration"});
+  if (!options.resume.empty() && session.done())
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", options.resume,
+                           "it was taken at " + short_text(now) +
+                               " s, and there is nothing left to run: the duration is " + short_text(end) +
+                               " s, or all programs have ended",
+                           "choose a longer --duration, or an earlier snapshot"});
 }
 
 int run(const RunOptions& options) {
@@ -153,10 +240,13 @@ int run(const RunOptions& options) {
     scene.set.push_back(std::string("solver.control_rate_hz=") + rate);
   }
   const scene::Scene description = scene.load(&record_options.scene_text);
+  if (std::vector<Fault> faults = record::check_records(description); !faults.empty())
+    throw InputError(std::move(faults));
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
   // Taken before minutes are spent, emptied when the run begins.
   auto folder = std::make_unique<record::RunFolder>(
-      record_options.directory, std::vector<std::string>{options.resume, description.file, description.ground.file});
+      record_options.directory,
+      std::vector<std::string>{options.resume, description.file, description.ground.file, description.design.file});
   // The scene is sound from here on; a device may still be missing.
   device::Device device(options.scene.device);
   // Said before the run: the first thing to look at when it is slow.
@@ -168,13 +258,19 @@ int run(const RunOptions& options) {
   session::Session session(description, device);
   // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume, options.resume_anyway);
+  require_times(options, session);
+  if (options.energy) session.keep_soil_energy();
   // What comes out other than asked is said before the first step.
   const std::string rates = record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
   if (!options.quiet && !rates.empty()) log_info(rates);
   // Hours must not end at a path that cannot be written.
   if (!options.snapshot.empty()) require_writable(options.snapshot);
   record::Recorder recorder(session, record_options, std::move(folder));
-  const int code = step_to_the_end(options, session, recorder, signals);
+  std::optional<PublishedMap> published;
+  if (!options.publish.empty()) published.emplace(options, session.world());
+  const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
+  // Readers get the last map before the program goes.
+  published.reset();
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
   if (code != kInterrupted) tell_programs(say, session);
@@ -190,7 +286,10 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
   // What follows leaves the scene alone and goes into the run.
-  command->add_option("--out", options->out, "directory of the results");
+  command->add_option("--out", options->out, "directory of the results")->check([](const std::string& text) {
+    // What an unset variable of a shell leaves; the default would be another folder than the one that was meant.
+    return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>" : "";
+  });
   command->add_option("--control", options->control,
                       "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
   command
@@ -199,7 +298,9 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->check(CLI::Range(0.001, 1e5))
       ->needs("--control");
   command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
-  command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")->needs("--snapshot");
+  command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")
+      ->check(not_negative)
+      ->needs("--snapshot");
   // Either of the two alone is a slip.
   command->get_option("--snapshot")->needs("--snapshot-at");
   command->add_option("--resume", options->resume, "snapshot to go on from");
@@ -211,6 +312,17 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->add_option("--hash-every", options->hash_every,
                    "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
       ->check(above_zero);
+  command->add_option(
+      "--publish", options->publish,
+      "the map as it changes, for other processes: tcp:PORT (on 127.0.0.1), tcp:HOST:PORT, or a new folder");
+  command->add_option("--publish-rate", options->publish_rate, "updates per simulated second (10)")
+      ->check(CLI::Range(0.001, 1e4))
+      ->needs("--publish");
+  command->add_option("--publish-layers", options->publish_layers, "names separated by commas (all)")
+      ->needs("--publish");
+  command->add_flag(
+      "--energy", options->energy,
+      "also tell in the summary where the soil's energy came from and went; takes two to four times as long");
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -93,6 +94,7 @@ int soils() {
     std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(), soil.bank_density / 1000,
                 soil.swell, degrees(soil.friction_angle), soil.cohesion / 1000, soil.residual_cohesion / 1000,
                 soil.young_modulus / 1e6, soil.source.c_str());
+  std::puts("E where a soil gives none: 1 MPa, or 200 c where that is more; steps grow with its root.");
   return kOk;
 }
 
@@ -107,6 +109,11 @@ int one_soil(const std::string& name) {
       std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low, value.high);
     std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]), static_cast<double>(soil.color[1]),
                 static_cast<double>(soil.color[2]));
+    std::printf("  young_modulus_pa is %s; %.2f times the steps of 1 MPa\n",
+                soil.young_modulus == scene::default_stiffness(soil.cohesion) ? "the default of its cohesion"
+                                                                              : "its own, not 200 x its cohesion",
+                std::sqrt(soil.young_modulus / 1e6));
+    if (const auto soft = scene::too_soft(soil)) std::printf("  %s\n", soft->text().c_str());
     return kOk;
   }
   throw InputError(

@@ -57,5 +57,12 @@ inline constexpr double kMapDecodedBytes = 4e9;                 ///< of all bloc
 inline constexpr std::size_t kMapSidecarBytes = 4 * kMegabyte;  ///< of a .prj, .aux.xml or world file beside it
 inline constexpr std::size_t kMapWordBytes = 64;                ///< of a number in an ESRI ASCII grid
 inline constexpr std::size_t kMapTextBytes = 1000 * kMegabyte;  ///< of an ESRI ASCII grid, read from its first row on
+inline constexpr std::size_t kNpyBytes = 512 * kMegabyte;       ///< of an NPY, which is held whole
+
+// Design surfaces.
+inline constexpr std::size_t kLandXmlBytes = 64 * kMegabyte;
+inline constexpr std::size_t kLandXmlElements = 1'500'000;  ///< points and faces of all its surfaces are elements
+inline constexpr std::size_t kDesignCorners = 1000;         ///< of an area
+inline constexpr std::size_t kDesignAreas = 100;
 
 }  // namespace navvy::limits

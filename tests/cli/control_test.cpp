@@ -71,12 +71,99 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
   EXPECT_EQ(lines[0].at("time"), 0);
   for (std::size_t i = 0; i < bad.size(); ++i) {
     EXPECT_EQ(lines[i + 1].at("line"), i + 1);
+    EXPECT_NE(lines[i + 1].at("error").get<std::string>().rfind("error", 0), 0u) << "the key says so";
     EXPECT_NE(lines[i + 1].at("error").get<std::string>().find(bad[i].second), std::string::npos)
         << bad[i].first << ": " << lines[i + 1];
   }
   // The second bad line named a good input as well: none of it acted.
   EXPECT_NEAR(lines.back().at("time").get<double>(), 0.02, 0.003);
   EXPECT_EQ(summary().at("status"), "finished");
+}
+
+TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
+  const std::string snapshot = folder_ / "s.snapshot";
+  const std::string input = R"({"info": true}
+{"heights": {"min_m": [-0.5, -0.5], "max_m": [0.5, 0], "cell_m": 0.25}}
+{"heights": {"min_m": [-0.5, -0.5], "max_m": [0.5, 0], "cell_m": 0.25, "layer": "slope"}}
+{"changed": 0}
+{"changed": 1}
+{"save": ")" + snapshot + R"("}
+{}
+{"load": ")" + snapshot + R"("}
+{}
+{}
+{"reset": true}
+{"end": true}
+)";
+  std::vector<json> lines;
+  ASSERT_EQ(drive(input, lines), 0) << complained();
+  ASSERT_EQ(lines.size(), 14u);
+  const json& info = lines[1].at("info");
+  EXPECT_EQ(info.at("scene"), "bucket_path");
+  EXPECT_EQ(info.at("time"), 0);
+  EXPECT_EQ(info.at("layers").at("slope"), "rad");
+  EXPECT_EQ(info.at("inputs").at("bucket/slide_x/velocity"), "m/s");
+  const json& heights = lines[2].at("heights");
+  EXPECT_EQ(heights.at("nx"), 4);
+  EXPECT_EQ(heights.at("ny"), 2);
+  ASSERT_EQ(heights.at("values").size(), 8u);
+  EXPECT_NEAR(heights.at("values")[5].get<double>(), 0, 1e-6);
+  EXPECT_EQ(lines[3].at("heights").at("unit"), "rad");
+  EXPECT_EQ(lines[4].at("changed").at("rects_m").size(), 1u);
+  EXPECT_EQ(lines[4].at("changed").at("sequence"), 1);
+  EXPECT_EQ(lines[5].at("changed").at("rects_m").size(), 0u);
+  EXPECT_EQ(lines[6].at("save").at("file"), snapshot);
+  // One control step on, and back: the outputs come again.
+  EXPECT_NEAR(lines[7].at("time").get<double>(), 0.02, 0.003);
+  EXPECT_EQ(lines[8].at("load").at("time"), 0);
+  EXPECT_EQ(lines[9], lines[0]);
+  EXPECT_EQ(lines[10], lines[7]) << "the same step again gives the same bits";
+  EXPECT_NEAR(lines[11].at("time").get<double>(), 0.04, 0.003);
+  EXPECT_EQ(lines[12].at("reset").at("time"), 0);
+  EXPECT_EQ(lines[13], lines[0]);
+}
+
+TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
+  std::ofstream(folder_ / "bad.snapshot") << "navvy state of nothing";
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {R"({"heights": {"cell_m": 0.0001, "min_m": [0, 0]}})", "cell_m"},
+      {R"({"heights": {"cell_m": 0.002}})", "1000000 cells"},
+      {R"({"heights": {"layer": "slop"}})", "slope"},
+      {R"({"heights": {"max": [1, 1]}})", "max_m"},
+      {R"({"heights": {"min_m": [1, 1], "max_m": [0, 2]}})", "rectangle"},
+      {R"({"heights": 3})", "must be an object"},
+      {R"({"changed": -1})", "whole number"},
+      {R"({"image": "nobody"})", "no camera"},
+      {R"({"info": 1})", "must be true"},
+      {R"({"reset": true, "inputs": {}})", "two lines"},
+      {R"({"save": "/proc/no/such"})", "cannot create"},
+      {R"({"load": "/no/such.snapshot"})", "/no/such.snapshot"},
+      {R"({"load": ")" + (folder_ / "bad.snapshot") + "\"}", "bad.snapshot"},
+  };
+  std::string input = "{}\n";
+  for (const auto& [line, message] : bad) input += line + "\n";
+  input += "{}\n{\"end\": true}\n";
+  std::vector<json> lines, plain;
+  ASSERT_EQ(drive(input, lines), 0) << complained();
+  ASSERT_EQ(lines.size(), bad.size() + 3);
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    ASSERT_TRUE(lines[i + 2].contains("error")) << bad[i].first << ": " << lines[i + 2];
+    EXPECT_NE(lines[i + 2].at("error").get<std::string>().find(bad[i].second), std::string::npos)
+        << bad[i].first << ": " << lines[i + 2];
+  }
+  ASSERT_EQ(drive("{}\n{}\n{\"end\": true}\n", plain), 0) << complained();
+  EXPECT_EQ(lines.back(), plain.back()) << "no request leaves a trace";
+}
+
+TEST_F(Control, SendsThePictureOfACamera) {
+  std::vector<json> lines;
+  ASSERT_EQ(drive("{\"image\": \"side\"}\n{\"end\": true}\n", lines), 0) << complained();
+  ASSERT_EQ(lines.size(), 2u);
+  const json& image = lines[1].at("image");
+  EXPECT_EQ(image.at("camera"), "side");
+  EXPECT_GT(image.at("width"), 0);
+  // The first eight bytes of every PNG.
+  EXPECT_EQ(image.at("png_base64").get<std::string>().substr(0, 10), "iVBORw0KGg");
 }
 
 TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
@@ -97,13 +184,15 @@ TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
   std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n", spent.count());
 }
 
-TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAJoint) {
+TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAnInput) {
   const std::string beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
-                    other = R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})";
+                    other = R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})",
+                    fast =
+                        R"({"inputs": {"excavator/boom_joint/velocity": 1e300, "excavator/arm_joint/effort": -1e300}})";
   std::vector<json> lines;
-  ASSERT_EQ(drive(beyond + "\n" + beyond + "\n" + other + "\n{}\n{\"end\": true}\n", lines, "trench"), 0)
+  ASSERT_EQ(drive(beyond + "\n" + beyond + "\n" + other + "\n" + fast + "\n{}\n{\"end\": true}\n", lines, "trench"), 0)
       << complained();
-  EXPECT_EQ(lines.size(), 5u) << "the run goes on";
+  EXPECT_EQ(lines.size(), 6u) << "the run goes on";
   const std::string said = complained();
   const auto count = [&](const std::string& part) {
     int found = 0;
@@ -115,7 +204,9 @@ TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAJoint) {
       << said;
   EXPECT_EQ(count("input excavator/arm_joint/position: -4 rad is beyond the joint's limits, -2.75 to -0.6 rad"), 1)
       << said;
-  EXPECT_EQ(count("beyond the joint's limits"), 2) << said;
+  EXPECT_EQ(count("input excavator/boom_joint/velocity: 1e+300 rad/s is beyond the joint's limits"), 1) << said;
+  EXPECT_EQ(count("input excavator/arm_joint/effort: -1e+300 N m is beyond the joint's limits"), 1) << said;
+  EXPECT_EQ(count("beyond the joint's limits"), 4) << said;
 }
 
 TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {

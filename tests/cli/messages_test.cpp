@@ -107,6 +107,28 @@ TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
 }
 
+TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
+  const std::string file = scene("",
+                                 "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 -0.8 0 0 0</pose>"
+                                 "<navvy:on_ground>false</navvy:on_ground></include>");
+  EXPECT_EQ(run({"check", file}), 2);
+  expect_said("include[digger]");
+  expect_said("starts with its middle that far below the ground");
+  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
+  expect_complained("starts with its middle that far below the ground");
+  EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
+}
+
+TEST_F(Messages, CheckTellsWhatFollowsFromAMachinesFile) {
+  const std::string crate =
+      "<model name=\"crate\"><pose>3 0 0.5 0 0 0</pose><link name=\"a\">"
+      "<navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><visual name=\"body\"><geometry><box><size>0.5 0.4 0.2"
+      "</size></box></geometry></visual></link></model>\n";
+  EXPECT_EQ(run({"check", scene("", crate)}), 0) << said();
+  expect_said("'crate': link 'a' collides as its visuals: box 'body'\n");
+  expect_said("20 kg");
+}
+
 TEST_F(Messages, CheckRefusesAMachineThatTipsOver) {
   const std::string slope = "<slope><angle_deg>38</angle_deg><yaw_deg>90</yaw_deg></slope>";
   EXPECT_EQ(run({"check", scene(slope, machine("digger", "0 0 0 0 0 0"))}), 2);

@@ -230,6 +230,23 @@ TEST_F(Program, LabHelpFollowsFromTheRigAndFitsATerminal) {
     }
 }
 
+TEST_F(Program, LabRunsEveryCombinationOfListsAndDrawsThem) {
+  const std::string json = (directory_ / "sweep.json").string(), svg = (directory_ / "sweep.svg").string();
+  ASSERT_EQ(run({"lab", "light-tool", "--height", "0.01,0.02", "--cohesion-pa", "0,20000", "--quiet", "--json", json,
+                 "--plot", svg}),
+            0)
+      << complained();
+  const auto runs = nlohmann::json::parse(text_of(json));
+  ASSERT_EQ(runs.size(), 4u);
+  const auto& last = runs.at(3).at("inputs");
+  EXPECT_EQ(last.at("geometry").at("height_m").get<double>(), 0.02);
+  EXPECT_EQ(last.at("soil").at("young_modulus_pa").get<double>(), 4e6) << "stiffness follows the cohesion";
+  EXPECT_EQ(runs.at(0).at("inputs").at("soil").at("young_modulus_pa").get<double>(), 1e6);
+  EXPECT_NE(text_of(svg).find("height [m]"), std::string::npos);
+  EXPECT_EQ(run({"lab", "light-tool", "--plot", svg}), 2);
+  EXPECT_NE(complained().find("drawn over a list of values"), std::string::npos) << complained();
+}
+
 TEST_F(Program, LabNamesAWrongWordOrNumberOfTheRig) {
   EXPECT_EQ(run({"lab", "column", "--shape", "plain"}), 2);
   EXPECT_NE(complained().find("did you mean 'plane'?"), std::string::npos) << complained();

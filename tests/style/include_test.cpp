@@ -85,6 +85,8 @@ const std::vector<Library>& libraries() {
       {"Coin, OpenGL, OSMesa", {"Inventor/", "GL/", "EGL/"}, {"src/render"}},
       {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/geometry/obj"}},
       {"libpng", {"png.h"}, {"src/render", "src/record", "src/planner/formats"}},
+      {"Fast-CDR", {"fastcdr/"}, {"src/planner/ros"}},
+      {"SQLite", {"sqlite3.h"}, {"src/planner/ros"}},
       {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
       {"spdlog", {"spdlog/"}, {"src/cli"}},
@@ -100,7 +102,8 @@ bool is_system(const std::string& name) {
   // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals need.
   static const Names posix = {"fcntl.h",    "unistd.h", "signal.h",  "dlfcn.h",
                               "execinfo.h", "poll.h",   "pthread.h", "termios.h"};
-  return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 || starts_with(name, "sys/");
+  return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 || starts_with(name, "sys/") ||
+         starts_with(name, "netinet/") || starts_with(name, "arpa/");
 }
 
 std::string module_of(const std::string& path) {
@@ -166,6 +169,8 @@ const Names& inner() {
 const std::map<std::string, std::string>& insiders() {
   static const std::map<std::string, std::string> table = {
       {"src/cli/lab_command.cpp", "runs the laboratory, whose rigs are built of the solver itself"},
+      {"src/cli/lab_output.h", "tells what the laboratory measured"},
+      {"src/cli/lab_output.cpp", "tells what the laboratory measured"},
   };
   return table;
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a controller may ask between two steps: maps, pictures, states (scenarios/README.md, "Driving from outside").
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "planner/updates.h"
+#include "session/session.h"
+
+namespace navvy::cli {
+
+/// A drawn picture as a PNG file's bytes.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<char> png;
+};
+
+/// What the program lends to its controller.
+struct ControlDesk {
+  /// Draws what a camera of the scene sees now; nothing: no pictures. @throws Error.
+  std::function<Picture(const std::string& camera)> draw;
+  bool files = true;  ///< states may be saved to and loaded from files
+};
+
+/// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info": true}, {"reset":
+/// true},
+/// {"save": "file"}, {"load": "file"}. Simulated time stands still meanwhile; the map is brought up to date when it is
+/// asked for and costs nothing otherwise.
+class ControlRequests {
+ public:
+  /// Keeps the session's present state for `reset` (some MiB for each million particles).
+  ControlRequests(session::Session& session, double rate, ControlDesk desk);
+
+  /// Whether the line asks for something, and so drives nothing.
+  static bool is_request(const nlohmann::json& line);
+  /// The answer, an object under the request's key. @throws Error for what cannot be answered: the session is then as
+  /// it was.
+  nlohmann::json answer(const nlohmann::json& line);
+  /// Whether the last answer put the session into another state: its outputs are others now.
+  bool moved() const { return moved_; }
+
+ private:
+  nlohmann::json heights(const nlohmann::json& what);
+  nlohmann::json changed(const nlohmann::json& what);
+  nlohmann::json image(const nlohmann::json& what) const;
+  nlohmann::json info() const;
+  nlohmann::json go_back(const std::function<void()>& load);
+  planner::UpdateFeed::Update now();
+
+  session::Session& session_;
+  const sim::World& world_;
+  double rate_;
+  ControlDesk desk_;
+  std::vector<char> start_;
+  planner::UpdateFeed feed_;
+  bool moved_ = false;
+};
+
+}  // namespace navvy::cli
