@@ -10,6 +10,7 @@
 #include "control/operator.h"
 #include "core/archive.h"
 #include "heightfield/terrain_view.h"
+#include "session/bucket_gauge.h"
 #include "session/reports.h"
 #include "sim/world.h"
 
@@ -57,7 +58,8 @@ class OperatedMachine {
   void visit(Archive& a);
 
  private:
-  void observe(control::Observation& seen) const;
+  /// Returns what the soil does to the bucket in more detail than an operator sees.
+  BucketLoad observe(control::Observation& seen) const;
   void send(const control::Command& command);
   void note_cycle(std::vector<Cycle>& cycles);
   void note_tip(std::vector<BedTip>& tips);
@@ -67,10 +69,12 @@ class OperatedMachine {
   sim::LinkHandle base_;
   std::vector<sim::JointHandle> joints_;
   std::vector<sim::WheelHandle> wheels_;
-  std::optional<sim::ToolHandle> bucket_, bed_;
+  std::optional<BucketGauge> bucket_;
+  std::optional<sim::ToolHandle> bed_;
   // The operator's own memory is in it; what it saw last is beside it.
   control::Operator op_;
   control::Observation seen_;
+  BucketLoad load_;
   // Begun and not yet ended.
   std::optional<Cycle> open_;
   std::optional<BedTip> open_tip_;

@@ -16,6 +16,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "heightfield/design.h"
+#include "session/bucket_gauge.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
@@ -36,13 +37,18 @@ struct Session::State {
         surface(world),
         device_name(device.info().name),
         // Tools never change in number or order.
-        tools(world.tools()) {}
+        tools(world.tools()) {
+    for (int m = 0; m < world.machine_count(); ++m)
+      for (const scene::Bucket& bucket : world.machine(m).description().buckets)
+        buckets.emplace_back(world.machine(m), bucket);
+  }
 
   // World, surface and handles are built in this order and refer to what stands above.
   sim::World world;
   SeenSurface surface;
   std::string device_name;
   std::vector<sim::ToolHandle> tools;  ///< all of the world
+  std::vector<BucketGauge> buckets;    ///< of all machines
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
@@ -81,6 +87,7 @@ void Session::State::note_forces() {
       force.residual_max =
           std::max(force.residual_max, balance.residual_moment.cwiseAbs().maxCoeff() / balance.scale_moment);
   }
+  for (const BucketGauge& bucket : buckets) force.draft_peak = std::max(force.draft_peak, bucket.load().draft);
 }
 
 void Session::State::take_over(int machine) {
@@ -91,8 +98,9 @@ void Session::State::take_over(int machine) {
 
 /// What is not the world's: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
-  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports.
-  a.section("session", 5, [&] {
+  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports;
+  // 6: peaks of draft and back.
+  a.section("session", 6, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
