@@ -25,11 +25,6 @@ constexpr const char* kRequests[] = {"heights", "changed", "image", "info", "res
 /// A million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 
-std::string shown(const json& value) {
-  const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  return text.size() <= 80 ? text : text.substr(0, 80) + "...";
-}
-
 [[noreturn]] void refuse(const std::string& key, const json& value, const std::string& rule,
                          const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, key, shown(value), rule, remedy});
@@ -37,7 +32,7 @@ std::string shown(const json& value) {
 
 double number_in(const std::string& key, const json& value, double least, double most) {
   if (!value.is_number() || !(value.get<double>() >= least) || !(value.get<double>() <= most))
-    refuse(key, value, "must be a number from " + std::to_string(least) + " to " + std::to_string(most), "mend it");
+    refuse(key, value, "must be a number from " + shown(json(least)) + " to " + shown(json(most)), "mend it");
   return value.get<double>();
 }
 
@@ -66,14 +61,11 @@ std::string base64(const std::vector<char>& bytes) {
   return out;
 }
 
-planner::MapOptions options_of(const sim::World& world) {
-  planner::MapOptions options;
-  options.limits = planner::limits_for(world.description());
-  planner::take_design(world.description(), world.ground(), options);
-  return options;
-}
-
 }  // namespace
+
+std::string shown(const std::string& text) { return text.size() <= 80 ? text : text.substr(0, 80) + "..."; }
+
+std::string shown(const json& value) { return shown(value.dump(-1, ' ', false, json::error_handler_t::replace)); }
 
 ControlRequests::ControlRequests(session::Session& session, double rate, ControlDesk desk)
     : session_(session),
@@ -81,7 +73,8 @@ ControlRequests::ControlRequests(session::Session& session, double rate, Control
       rate_(rate),
       desk_(std::move(desk)),
       start_(saved(session)),
-      feed_(options_of(session.world())) {}
+      feed_(planner::options_for(session.world().description(), session.world().ground(), planner::all_layers(),
+                                 session.design())) {}
 
 bool ControlRequests::is_request(const json& line) {
   return line.is_object() &&

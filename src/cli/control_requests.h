@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller may ask between two steps: maps, pictures, states (scenarios/README.md, "Driving from outside").
+// What a controller may ask between two steps: maps, pictures, states (scenarios/README.md, "Driving it from another
+// program").
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,10 @@
 #include "session/session.h"
 
 namespace navvy::cli {
+
+/// Enough of a value or text to recognise it, for messages: at most 80 bytes and "...".
+std::string shown(const nlohmann::json& value);
+std::string shown(const std::string& text);
 
 /// A drawn picture as a PNG file's bytes.
 struct Picture {
@@ -26,10 +31,9 @@ struct ControlDesk {
   bool files = true;  ///< states may be saved to and loaded from files
 };
 
-/// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info": true}, {"reset":
-/// true},
-/// {"save": "file"}, {"load": "file"}. Simulated time stands still meanwhile; the map is brought up to date when it is
-/// asked for and costs nothing otherwise.
+/// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info": true},
+/// {"reset": true}, {"save": "file"}, {"load": "file"}. Simulated time stands still meanwhile; the map is brought up to
+/// date when it is asked for and costs nothing otherwise.
 class ControlRequests {
  public:
   /// Keeps the session's present state for `reset` (some MiB for each million particles).

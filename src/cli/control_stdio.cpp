@@ -45,17 +45,23 @@ int nesting(const std::string& line) {
   return deepest;
 }
 
-/// Enough of a text to recognise it.
-std::string beginning(const std::string& text) { return text.size() <= 80 ? text : text.substr(0, 80) + "..."; }
-
-std::string beginning(const json& value) {
-  return beginning(value.dump(-1, ' ', false, json::error_handler_t::replace));
-}
-
 InputError fault(const std::string& element, const std::string& value, const std::string& rule) {
   return InputError(Fault{Fault::Severity::kError, "", 0, element, value, rule,
                           R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
 }
+
+/// A line as the object it must be.
+json parsed(const std::string& line) {
+  if (nesting(line) > ControlStdio::kDeepestNesting)
+    throw fault("line", shown(line), "must nest at most " + std::to_string(ControlStdio::kDeepestNesting) + " deep");
+  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
+  json in = json::parse(line, nullptr, false);
+  if (!in.is_object()) throw fault("line", shown(line), "must be one JSON object");
+  return in;
+}
+
+/// One line of text; bytes that are no UTF-8 are replaced.
+std::string line_of(const json& out) { return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
 
@@ -133,18 +139,13 @@ bool ControlStdio::say_outputs() {
   json& values = out["outputs"];
   for (std::size_t i = 0; i < world_.outputs().size(); ++i)
     values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
-  return say(out.dump() + "\n");
+  return say(line_of(out));
 }
 
-bool ControlStdio::ask(const std::string& line, bool& there) {
-  if (nesting(line) > kDeepestNesting) return false;
-  const json in = json::parse(line, nullptr, false);
-  if (!ControlRequests::is_request(in)) return false;
-  const json answer = requests_.answer(in);
-  there = say(answer.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+bool ControlStdio::answer(const json& request) {
+  if (!say(line_of(requests_.answer(request)))) return false;
   // Inputs that follow belong to the state as it is now.
-  if (there && requests_.moved()) there = say_outputs();
-  return true;
+  return !requests_.moved() || say_outputs();
 }
 
 /// Outputs first, then inputs: the controller answers what it has just been told.
@@ -164,39 +165,31 @@ bool ControlStdio::exchange() {
     try {
       if (read == Read::kTooLong)
         throw fault("line", "", "must have at most " + std::to_string(kLongestLine) + " bytes");
-      bool there = true;
-      if (!ask(line, there)) return obey(line);
-      if (!there) return false;
+      const json in = parsed(line);
+      if (!ControlRequests::is_request(in)) return obey(in);
+      if (!answer(in)) return false;
     } catch (const Error& error) {
       // A slip is the controller's to mend, which knows best what it meant.
       std::string text = error.what();
       if (text.rfind(kSeverity, 0) == 0) text.erase(0, kSeverity.size());  // the key says so
-      const json answer{{"error", text}, {"line", lines_}};
-      if (!say(answer.dump(-1, ' ', false, json::error_handler_t::replace) + "\n")) return false;
+      if (!say(line_of({{"error", text}, {"line", lines_}}))) return false;
     }
   }
 }
 
-/// False when the line ends the run. All of it is checked before any of it acts.
-bool ControlStdio::obey(const std::string& line) {
-  if (nesting(line) > kDeepestNesting)
-    throw fault("line", beginning(line), "must nest at most " + std::to_string(kDeepestNesting) + " deep");
-  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
-  const json in = json::parse(line, nullptr, false);
-  if (!in.is_object()) throw fault("line", beginning(line), "must be one JSON object");
+bool ControlStdio::obey(const json& in) {
   // A misspelt key would otherwise be an input that never arrives.
   for (const auto& [key, value] : in.items())
-    if (key != "inputs" && key != "end") throw fault(key, beginning(value), "must be 'inputs' or 'end', or a request");
-  if (in.contains("end") && !in["end"].is_boolean()) throw fault("end", beginning(in["end"]), "must be true or false");
+    if (key != "inputs" && key != "end") throw fault(key, shown(value), "must be 'inputs' or 'end', or a request");
+  if (in.contains("end") && !in["end"].is_boolean()) throw fault("end", shown(in["end"]), "must be true or false");
   std::vector<std::pair<int, double>> inputs;
   if (in.contains("inputs")) {
-    if (!in["inputs"].is_object())
-      throw fault("inputs", beginning(in["inputs"]), "must be an object of names and numbers");
+    if (!in["inputs"].is_object()) throw fault("inputs", shown(in["inputs"]), "must be an object of names and numbers");
     for (const auto& [name, value] : in["inputs"].items()) {
       // No channel's name is so long, and looking for the nearest one costs time.
-      if (name.size() > kLongestName) throw fault(beginning(name), beginning(value), "is no input");
+      if (name.size() > kLongestName) throw fault(shown(name), shown(value), "is no input");
       if (!value.is_number() || !std::isfinite(value.get<double>()))
-        throw fault(beginning(name), beginning(value), "must be a number");
+        throw fault(shown(name), shown(value), "must be a number");
       // By name each time: controllers send few inputs, and the map is fast.
       inputs.emplace_back(world_.input(name), value.get<double>());
     }

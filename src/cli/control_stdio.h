@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cli/control_requests.h"
@@ -37,9 +38,10 @@ class ControlStdio {
   Read read_line(std::string& line);
   bool say(const std::string& line);
   bool say_outputs();
-  /// Whether the line is a request, which is answered then; `there` becomes false when nobody reads the answer.
-  bool ask(const std::string& line, bool& there);
-  bool obey(const std::string& line);
+  /// False when nobody reads the answer.
+  bool answer(const nlohmann::json& request);
+  /// False when the line ends the run. All of it is checked before any of it acts.
+  bool obey(const nlohmann::json& in);
 
   std::function<bool()> stop_;
   std::string unread_;       ///< what came after the last line

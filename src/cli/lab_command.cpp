@@ -246,8 +246,9 @@ int run_rig(const LabOptions& options) {
   if (!options.plot.empty() && lists.axes.empty())
     throw refused("lab " + rig.name + " --plot", options.plot, "drawn over a list of values",
                   "give some option more than one, as --cell 0.1,0.05");
+  const std::vector<std::vector<double>> places = lab::combinations(lists.axes);
   std::vector<lab::Setup> setups;
-  for (const std::vector<double>& at : lab::combinations(lists.axes)) {
+  for (const std::vector<double>& at : places) {
     LabOptions one = options;
     for (std::size_t i = 0; i < at.size(); ++i) lists.put[i](one, at[i]);
     // All of them are checked before the first one runs.
@@ -255,7 +256,6 @@ int run_rig(const LabOptions& options) {
     lab::check(rig, setups.back());
   }
   lab::Sweep sweep{lists.axes, {}};
-  const auto places = lab::combinations(lists.axes);
   nlohmann::json runs = nlohmann::json::array();
   bool missed = false;
   std::printf("%s: %s\n", rig.name.c_str(), rig.summary.c_str());
@@ -357,7 +357,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
                       described("draw the first result over the first list to this SVG file; any number takes a list, "
                                 "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
   command->add_flag("--energy", options->energy,
-                    described("also tell where the soil's energy came from and went; takes two to four times as long"));
+                    described("also tell where the soil's energy came from and went; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;

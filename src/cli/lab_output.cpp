@@ -39,11 +39,11 @@ std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_t
 
 /// Supplied, kept and spent, in joules; then what the sums do not explain.
 void print_energy(const soil::EnergyAccount& energy) {
-  std::printf("energy [J]:");
-  soil::each_energy([&](const char* name, double soil::EnergyAccount::*member) {
-    std::printf(" %s %s,", name, lab::short_text(energy.*member).c_str());
+  std::string text;
+  soil::tell_energy(energy, [&](const char* name, double joule) {
+    text += (text.empty() ? " " : ", ") + std::string(name) + " " + lab::short_text(joule);
   });
-  std::printf(" residual %s\n", lab::short_text(energy.residual()).c_str());
+  std::printf("energy [J]:%s\n", text.c_str());
 }
 
 }  // namespace
@@ -73,12 +73,8 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     nlohmann::json& values = out["series"][key(s.name, s.unit)] = nlohmann::json::array();
     for (const double v : s.values) values.push_back(number(v));
   }
-  if (report.energy) {
-    soil::each_energy([&](const char* name, double soil::EnergyAccount::*member) {
-      out["energy_j"][name] = number((*report.energy).*member);
-    });
-    out["energy_j"]["residual"] = number(report.energy->residual());
-  }
+  if (report.energy)
+    soil::tell_energy(*report.energy, [&](const char* name, double joule) { out["energy_j"][name] = number(joule); });
   out["particles_peak"] = report.particles_peak;
   out["steps"] = report.steps;
   out["simulated_time_s"] = report.simulated_time;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -52,13 +53,12 @@ std::string scene_of(const std::filesystem::path& folder, const std::string& ask
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
 }
 
-planner::MapOptions map_options(const MapCommand& options, const std::vector<planner::Layer>& layers,
-                                const scene::Scene& scene) {
-  planner::MapOptions out;
-  out.layers = layers;
-  out.limits = planner::limits_for(scene);
+planner::MapOptions map_options(const MapCommand& options, std::vector<planner::Layer> layers,
+                                const scene::Scene& scene, const heightfield::Terrain& site,
+                                const heightfield::DesignSurface* design = nullptr) {
   // A picture of any layer has the surface's shade.
-  out.layers.push_back(planner::Layer::kElevation);
+  layers.push_back(planner::Layer::kElevation);
+  planner::MapOptions out = planner::options_for(scene, site, std::move(layers), design);
   // Zero stands for "not given".
   if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
   if (options.step > 0) out.limits.step_height = options.step;
@@ -77,9 +77,7 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const std::vector<pla
   session::Session session(load(scene), device, planner::path_planners());
   session.load(options.from);
   const sim::World& world = session.world();
-  planner::MapOptions wanted = map_options(options, layers, world.description());
-  planner::take_design(world.description(), world.ground(), wanted);
-  planner::MapMaker maker(std::move(wanted));
+  planner::MapMaker maker(map_options(options, layers, world.description(), world.ground(), session.design()));
   maker.update(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
   return maker.map();
 }
@@ -89,13 +87,15 @@ planner::TerrainMap read(const MapCommand& options, const std::vector<planner::L
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
     const scene::Scene scene = load(scene_of(from, options.from));
-    const planner::MapOptions wanted = map_options(options, layers, scene);
-    if (options.start) return planner::map_of_site(scene, wanted);
-    return planner::map_of_run(scene, (from / "terrain_end.tif").string(), wanted);
+    const heightfield::Ground site = heightfield::make_ground(scene);
+    const planner::MapOptions wanted = map_options(options, layers, scene, site);
+    if (options.start) return planner::map_of_site(site, wanted);
+    return planner::map_of_run(scene, site, (from / "terrain_end.tif").string(), wanted);
   }
   if (is_snapshot(options.from)) return of_snapshot(options, layers);
   const scene::Scene scene = load(find_scene(options.from));
-  return planner::map_of_site(scene, map_options(options, layers, scene));
+  const heightfield::Ground site = heightfield::make_ground(scene);
+  return planner::map_of_site(site, map_options(options, layers, scene, site));
 }
 
 int map(const MapCommand& options) {

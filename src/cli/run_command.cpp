@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/control_stdio.h"
 #include "cli/exit_code.h"
+#include "cli/published_map.h"
 #include "cli/scene_options.h"
 #include "cli/stop_signals.h"
 #include "cli/validators.h"
@@ -23,15 +24,11 @@
 #include "device/device.h"
 #include "planner/formats/png_file.h"
 #include "planner/path_planner.h"
-#include "planner/publisher.h"
-#include "planner/sources.h"
 #include "record/map_recorder.h"
 #include "record/rates_note.h"
 #include "record/recorder.h"
 #include "record/run_folder.h"
 #include "session/session.h"
-#include "sim/terrain_view.h"
-#include "sim/timing.h"
 
 namespace navvy::cli {
 namespace {
@@ -46,8 +43,7 @@ struct RunOptions {
   std::string snapshot;
   double snapshot_at = -1;
   double hash_every = 0;
-  std::string publish, publish_layers;
-  double publish_rate = 10;
+  PublishOptions publish;
   bool energy = false;
   bool quiet = false;
   std::vector<std::string> command;  ///< the whole command line, for the run's folder
@@ -76,41 +72,6 @@ class ProgressLine {
   bool on_;
   bool shown_ = false;
   Stopwatch watch_;
-};
-
-/// The run's map for other processes, as often as asked for.
-class PublishedMap {
- public:
-  PublishedMap(const RunOptions& options, const sim::World& world)
-      : world_(world), rate_(options.publish_rate), layers_(layers_of(options)), feed_(map_options(layers_, world)) {
-    publisher_.emplace(feed_, options.publish, layers_);
-    if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));
-    feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
-  }
-  /// Called after each step. @throws FileError for what ended the writing.
-  void observe() {
-    if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return;
-    feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
-    if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);
-  }
-
- private:
-  static std::vector<planner::Layer> layers_of(const RunOptions& options) {
-    return options.publish_layers.empty() ? planner::all_layers() : planner::layers_named(options.publish_layers);
-  }
-  static planner::MapOptions map_options(const std::vector<planner::Layer>& layers, const sim::World& world) {
-    planner::MapOptions out;
-    out.layers = layers;
-    out.limits = planner::limits_for(world.description());
-    planner::take_design(world.description(), world.ground(), out);
-    return out;
-  }
-
-  const sim::World& world_;
-  double rate_;
-  std::vector<planner::Layer> layers_;
-  planner::UpdateFeed feed_;
-  std::optional<planner::Publisher> publisher_;
 };
 
 /// Named by the scene and not by its file: a scene read from a run's folder goes back there.
@@ -268,7 +229,7 @@ int run(const RunOptions& options) {
   if (!options.snapshot.empty()) require_writable(options.snapshot);
   record::Recorder recorder(session, record_options, std::move(folder));
   std::optional<PublishedMap> published;
-  if (!options.publish.empty()) published.emplace(options, session.world());
+  if (!options.publish.place.empty()) published.emplace(options.publish, session);
   const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
   // Readers get the last map before the program goes.
   published.reset();
@@ -314,16 +275,16 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
                    "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
       ->check(above_zero);
   command->add_option(
-      "--publish", options->publish,
+      "--publish", options->publish.place,
       "the map as it changes, for other processes: tcp:PORT (on 127.0.0.1), tcp:HOST:PORT, or a new folder");
-  command->add_option("--publish-rate", options->publish_rate, "updates per simulated second (10)")
+  command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
       ->check(CLI::Range(0.001, 1e4))
       ->needs("--publish");
-  command->add_option("--publish-layers", options->publish_layers, "names separated by commas (all)")
+  command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
       ->needs("--publish");
   command->add_flag(
       "--energy", options->energy,
-      "also tell in the summary where the soil's energy came from and went; takes two to four times as long");
+      "also tell in the summary where the soil's energy came from and went; takes up to three times as long");
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
   command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

@@ -10,8 +10,6 @@
 namespace navvy::coupling {
 namespace {
 
-// Fastest sinking of a rut [m/s]: a tyre falling at it adds a tenth to its load; at 1 m/s it passes 0.4 m in the time
-// it takes to sink 0.08 m.
 constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/error.h"
+#include "heightfield/span_text.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/import_design.h"
 #endif
@@ -43,12 +43,6 @@ float& value(DesignSurface& design, int ix, int iy) {
   const CellRect& r = design.rect;
   return design.z[static_cast<std::size_t>(iy - r.y0) * static_cast<std::size_t>(r.x1 - r.x0) +
                   static_cast<std::size_t>(ix - r.x0)];
-}
-
-std::string span(const Vec2& low, const Vec2& high) {
-  char text[160];
-  std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(), high.y());
-  return text;
 }
 
 // --- Triangles.
@@ -104,9 +98,9 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   const Vec2 swapped_low(low.y(), low.x()), swapped_high(high.y(), high.x());
   const bool swapped =
       (swapped_low.array() < (corner + size).array()).all() && (swapped_high.array() > corner.array()).all();
-  fail(tin.file, 0, span(low.head<2>(), high.head<2>()),
+  fail(tin.file, 0, span_text(low.head<2>(), high.head<2>()),
        "the surface '" + tin.name + "' covers no column of the site, which reaches over " +
-           span(corner, corner + size) + " [m]",
+           span_text(corner, corner + size) + " [m]",
        swapped ? "northing and easting are swapped: LandXML's points are northing easting elevation"
                : "give both in the same coordinates and check the unit; a procedural site counts in W");
 }
@@ -178,9 +172,9 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
   for (const Vec2& corner : area.polygon) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
   const Vec2i first = site.column_at(area.polygon[0].x(), area.polygon[0].y());
   if (!site.contains(first.x(), first.y()))
-    fail(file, area.line, span(low, high),
+    fail(file, area.line, span_text(low, high),
          "the first corner, where depth_m counts from, is off the site, which reaches over " +
-             span(site.origin(), site.origin() + site.cell() * Vec2(site.nx(), site.ny())),
+             span_text(site.origin(), site.origin() + site.cell() * Vec2(site.nx(), site.ny())),
          "begin the polygon with a corner on the site");
   const double floor = site.start_height(first.x(), first.y()) - area.depth;
   // How far sides reach depends on the ground there: look farther until they end.

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
-#include "heightfield/design.h"
 #include "heightfield/site.h"
 
 namespace navvy::planner {
@@ -45,8 +45,6 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
       "a run's folder holds both: scene.sdf and terrain_end.tif"});
 }
 
-}  // namespace
-
 TraversabilityLimits limits_for(const scene::Scene& scene) {
   TraversabilityLimits out;
   for (const scene::MachineInWorld& placed : scene.machines) {
@@ -56,29 +54,33 @@ TraversabilityLimits limits_for(const scene::Scene& scene) {
   return out;
 }
 
-void take_design(const scene::Scene& scene, const heightfield::Terrain& site, MapOptions& options) {
+}  // namespace
+
+MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site, std::vector<Layer> layers,
+                       const heightfield::DesignSurface* design) {
+  MapOptions out{std::move(layers), limits_for(scene), {}};
   const auto wants = [&](Layer layer) {
-    return std::find(options.layers.begin(), options.layers.end(), layer) != options.layers.end();
+    return std::find(out.layers.begin(), out.layers.end(), layer) != out.layers.end();
   };
   // A float a column: only where somebody looks at it.
-  if (!options.target.empty() || !(wants(Layer::kTarget) || wants(Layer::kCutFill))) return;
-  if (const auto design = heightfield::make_design(scene, site)) options.target = design->over(site.nx(), site.ny());
+  if (!wants(Layer::kTarget) && !wants(Layer::kCutFill)) return out;
+  std::optional<heightfield::DesignSurface> made;
+  if (design == nullptr && (made = heightfield::make_design(scene, site))) design = &*made;
+  if (design != nullptr) out.target = design->over(site.nx(), site.ny());
+  return out;
 }
 
-TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& wanted) {
-  const Ground ground = heightfield::make_ground(scene);
-  MapOptions options = wanted;
-  take_design(scene, ground, options);
-  MapMaker maker(std::move(options));
-  maker.update(ground.view());
+TerrainMap map_of_site(const Ground& site, const MapOptions& options) {
+  MapMaker maker(options);
+  maker.update(site.view());
   return maker.map();
 }
 
-TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end, const MapOptions& wanted) {
+TerrainMap map_of_run(const scene::Scene& scene, const Ground& start, const std::string& terrain_end,
+                      const MapOptions& options) {
   if (!std::filesystem::is_regular_file(terrain_end))
     throw FileError("cannot read '" + terrain_end +
                     "': no such file; a run writes it at its end, until then there are snapshots (--snapshot)");
-  Ground start = heightfield::make_ground(scene);
   const Ground end = reread(scene, start, terrain_end);
   // W's zero of a site from a file is one of the file's heights, and those have changed.
   const double shift = end.setup().height_offset - start.setup().height_offset;
@@ -91,10 +93,8 @@ TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end,
     const double rounding = static_cast<double>(std::nextafter(std::abs(as_written), INFINITY) - std::abs(as_written));
     return std::abs(now - z) <= rounding * unit + kQuanta ? z : now;
   };
-  MapOptions options = wanted;
-  take_design(scene, start, options);
   // Of a ground that was never another: only its heights are looked at.
-  MapMaker maker(std::move(options));
+  MapMaker maker(options);
   maker.update(Ground(setup).view(std::nan("")));
   TerrainMap out = maker.map();
   const std::vector<float> unknown(static_cast<std::size_t>(out.rect().area()), kUnknown);

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of what is not running: a site, and what a run left.
+// What maps of a scene hold, and maps of what is not running: a site, and what a run left.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "heightfield/design.h"
+#include "heightfield/ground.h"
 #include "planner/map_maker.h"
 #include "scene/scene.h"
 
 namespace navvy::planner {
 
-/// Limits of the first machine of the scene that gives some (navvy:traversability), else the defaults.
-TraversabilityLimits limits_for(const scene::Scene& scene);
+/// Options of maps with `layers`: the limits of the first machine of the scene that gives some (navvy:traversability),
+/// else the defaults; where a layer asks for it the scene's design surface on the columns of `site`, made here unless
+/// somebody has it already. @throws InputError as heightfield::make_design.
+MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site, std::vector<Layer> layers,
+                       const heightfield::DesignSurface* design = nullptr);
 
-/// Gives `options` the scene's design surface on the columns of `site`, where a layer asks for one and there is none
-/// yet. @throws InputError as heightfield::make_design.
-void take_design(const scene::Scene& scene, const heightfield::Terrain& site, MapOptions& options);
+/// A site that nobody has touched. Needs no OpenCL device.
+TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
 
-// Both with the scene's design; limits are those of `options`.
-/// The untouched site of a scene. Needs no OpenCL device.
-/// @throws InputError as heightfield::make_ground and make_design.
-TerrainMap map_of_site(const scene::Scene& scene, const MapOptions& options);
-
-/// The ground at the end of a run of `scene`, from the heights that the run wrote (`terrain_end.tif`): elevation and
-/// what follows from it, elevation_start, and target. The file tells neither soil nor density, nor what lies loose or
-/// when it changed: those are unknown. Columns that did not change have the start's very heights; others are rounded as
-/// the file rounds them. The time is unknown, NaN.
+/// The ground at the end of a run of `scene` that began on `start`, from the heights that the run wrote
+/// (`terrain_end.tif`): elevation and what follows from it, elevation_start, and target. The file tells neither soil
+/// nor density, nor what lies loose or when it changed: those are unknown. Columns that did not change have the start's
+/// very heights; others are rounded as the file rounds them. The time is unknown, NaN.
 /// @throws FileError when the file is missing, InputError when it is no map of that site.
-TerrainMap map_of_run(const scene::Scene& scene, const std::string& terrain_end, const MapOptions& options);
+TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& start, const std::string& terrain_end,
+                      const MapOptions& options);
 
 }  // namespace navvy::planner

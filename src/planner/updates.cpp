@@ -6,8 +6,9 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <cstdio>
 #include <utility>
+
+#include "planner/formats/json_text.h"
 
 namespace navvy::planner {
 namespace {
@@ -42,13 +43,6 @@ std::int64_t area_of(const std::vector<CellRect>& rects) {
   std::int64_t area = 0;
   for (const CellRect& rect : rects) area += rect.area();
   return area;
-}
-
-std::string number(double value) {
-  char text[40];
-  if (value != value) return "null";
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
 }
 
 }  // namespace
@@ -108,7 +102,7 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
     if (known && step.sequence > seen)
       for (const CellRect& rect : step.rects) all.add(rect);
   out.rects = all.rects();
-  // Columns that changed more than once count once a time: an upper bound is not told, the rectangles are.
+  // A column may have changed in several of them: what is told is an upper bound.
   out.changed = known ? std::min(area_of(out.rects), out.map.rect().area()) : out.map.rect().area();
   out.merged = known;
   return std::make_shared<const MapUpdate>(std::move(out));
@@ -151,12 +145,13 @@ bool UpdateFeed::closed() const {
 std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>& wanted) {
   const TerrainMap& map = update.map;
   std::string head = "{\"format\": 1, \"since\": " + std::to_string(update.since) +
-                     ", \"sequence\": " + std::to_string(update.sequence) + ", \"time_s\": " + number(update.time) +
-                     ", \"nx\": " + std::to_string(map.nx()) + ", \"ny\": " + std::to_string(map.ny()) +
-                     ", \"cell_m\": " + number(map.cell()) + ", \"origin_m\": [" + number(map.origin().x()) + ", " +
-                     number(map.origin().y()) + "], \"changed\": " + std::to_string(update.changed) +
+                     ", \"sequence\": " + std::to_string(update.sequence) +
+                     ", \"time_s\": " + json_number(update.time) + ", \"nx\": " + std::to_string(map.nx()) +
+                     ", \"ny\": " + std::to_string(map.ny()) + ", \"cell_m\": " + json_number(map.cell()) +
+                     ", \"origin_m\": [" + json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
+                     "], \"changed\": " + std::to_string(update.changed) +
                      ", \"merged\": " + (update.merged ? "true" : "false") + ", \"layers\": [";
-  for (std::size_t i = 0; i < wanted.size(); ++i) head += (i > 0 ? ", \"" : "\"") + info(wanted[i]).name + "\"";
+  for (std::size_t i = 0; i < wanted.size(); ++i) head += (i > 0 ? ", " : "") + json_string(info(wanted[i]).name);
   head += "], \"rects\": [";
   for (std::size_t i = 0; i < update.rects.size(); ++i) {
     const CellRect& r = update.rects[i];

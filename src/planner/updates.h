@@ -20,8 +20,11 @@ struct MapUpdate {
   std::uint64_t sequence = 0;                ///< of `map`, from 1 on, by one each
   double time = 0;                           ///< simulated, of `map` [s]
   std::vector<heightfield::CellRect> rects;  ///< at most 64, hold every column with a changed value; may overlap
-  std::int64_t changed = 0;                  ///< columns with a changed value
-  bool merged = false;                       ///< `rects` hold more than twice the columns that changed
+  /// Columns with a changed value. Of several updates united nobody counts them: then the area of `rects`, at most the
+  /// site's, which is as many or more.
+  std::int64_t changed = 0;
+  /// Whether `rects` hold many columns that did not change: more than twice `changed`, or several updates united.
+  bool merged = false;
   TerrainMap map;
 };
 
@@ -73,7 +76,7 @@ class UpdateFeed {
   bool closed_ = false;
 };
 
-/// An update as bytes for other processes (src/planner/README.md, "Patches"): magic "NAVVYMAP", the length of the
+/// An update as bytes for other processes (src/planner/README.md, "Updates"): magic "NAVVYMAP", the length of the
 /// header (32 bits, little-endian), the header as JSON, and for each rectangle and each layer its float32 rows, least y
 /// first.
 std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>& layers);

@@ -79,13 +79,11 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : s
   std::vector<Fault> faults = check_records(scene);
   if (!faults.empty()) throw InputError(std::move(faults));
   for (const scene::MapRecord& record : scene.records) {
-    planner::MapOptions options;
-    options.layers = layers_of(record);
     // Pictures and points need the surface.
-    options.layers.push_back(Layer::kElevation);
-    options.limits = planner::limits_for(scene);
-    planner::take_design(scene, session.world().ground(), options);
-    Stream& stream = *streams_.emplace_back(std::make_unique<Stream>(record, std::move(options)));
+    std::vector<Layer> layers = layers_of(record);
+    layers.push_back(Layer::kElevation);
+    Stream& stream = *streams_.emplace_back(std::make_unique<Stream>(
+        record, planner::options_for(scene, session.world().ground(), std::move(layers), session.design())));
     if (record.format == "mcap") stream.bag = planner::ros::make_mcap(folder.path(record.name + ".mcap"));
     if (record.format == "bag") {
       // Both files are the run's before they are there.

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,7 +33,6 @@ struct Recorder::State {
         frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
-    design = heightfield::make_design(s.world().description(), s.world().ground());
   }
 
   // Telemetry is written at checkpoints, pictures and hashes at once.
@@ -47,7 +45,6 @@ struct Recorder::State {
   std::unique_ptr<render::Renderer> renderer, drawer;  // of frames; without those, of pictures that somebody asks for
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
-  std::optional<heightfield::DesignSurface> design;
   RunStatus status;
   Stopwatch total, since_checkpoint;
   bool finished = false;
@@ -61,9 +58,7 @@ struct Recorder::State {
   void map_when_due();
   void checkpoint(bool force);
   void write_summary(bool with_hash);
-  std::string summary(bool with_hash) const {
-    return summary_json(session, status, with_hash, design ? &*design : nullptr);
-  }
+  std::string summary(bool with_hash) const { return summary_json(session, status, with_hash); }
   void write_start();
 };
 

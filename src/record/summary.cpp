@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "heightfield/design.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
 #include "sim/terrain_view.h"
@@ -35,15 +36,9 @@ json time_shares(const session::Session& session, const RunStatus& status) {
 
 /// What `now` has over `before` (null: nothing), term by term.
 json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
-  static const std::pair<const char*, double sim::SoilEnergy::*> terms[] = {
-      {"tools", &sim::SoilEnergy::tools},         {"gravity", &sim::SoilEnergy::gravity},
-      {"exchanged", &sim::SoilEnergy::exchanged}, {"kinetic", &sim::SoilEnergy::kinetic},
-      {"elastic", &sim::SoilEnergy::elastic},     {"plastic", &sim::SoilEnergy::plastic},
-      {"viscous", &sim::SoilEnergy::viscous},     {"contact", &sim::SoilEnergy::contact},
-      {"transfer", &sim::SoilEnergy::transfer},   {"mixing", &sim::SoilEnergy::mixing},
-      {"apart", &sim::SoilEnergy::apart},         {"residual", &sim::SoilEnergy::residual}};
   json out;
-  for (const auto& [name, term] : terms) out[name] = now.*term - (before != nullptr ? before->*term : 0);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    out[now[i].name] = now[i].joule - (before != nullptr ? before->at(i).joule : 0);
   return out;
 }
 
@@ -124,8 +119,7 @@ json design_figures(const sim::World& world, const sim::AwakePlaces& awake, cons
 }  // namespace
 
 /// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
-std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash,
-                         const heightfield::DesignSurface* design) {
+std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
   const sim::AwakePlaces awake = sim::awake_places(world);
   const Earthwork earth = measure_earthwork(world, awake.lying);
@@ -162,7 +156,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
     out["earthwork"].push_back({{"soil", world.description().soils[i].name},
                                 {"dug_kg", earth.soils[i].dug},
                                 {"spoil_kg", earth.soils[i].spoil}});
-  if (design != nullptr) out["design"] = design_figures(world, awake, *design);
+  if (const heightfield::DesignSurface* design = session.design())
+    out["design"] = design_figures(world, awake, *design);
   // Of all machines together.
   out["energy_j"] = session.energy();
   // Of the awake soil, when its account is kept.

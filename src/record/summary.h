@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "heightfield/design.h"
 #include "record/earthwork.h"
 #include "session/session.h"
 
@@ -25,9 +24,8 @@ struct RunStatus {
   int frames = 0;
 };
 
-/// The file's text: JSON, keys sorted, SI units in the names. With a design the ground is held against it.
-/// The hash costs a pass over the whole state; without it `state_hash` is null.
-std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash = true,
-                         const heightfield::DesignSurface* design = nullptr);
+/// The file's text: JSON, keys sorted, SI units in the names. Where the scene has a design the ground is held against
+/// it. The hash costs a pass over the whole state; without it `state_hash` is null.
+std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash = true);
 
 }  // namespace navvy::record

@@ -17,12 +17,6 @@ using Kind = scene::Geometry::Kind;
 
 constexpr const char* kDensity = "navvy:density_kg_per_m3";
 
-const Element* named(const Element& parent, const char* kind, const std::string& name) {
-  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
-    if (attribute(*child, "name") == name) return child;
-  return nullptr;
-}
-
 const char* word_for(Kind kind) {
   switch (kind) {
     case Kind::kBox:
@@ -67,12 +61,12 @@ bool may_collide(const Element& visual, const scene::Geometry& shape, bool moves
 void derive_collisions(const Element& model, scene::Machine& machine, Faults& faults) {
   for (std::size_t l = 0; l < machine.links.size(); ++l) {
     scene::Link& link = machine.links[l];
-    const Element* element = named(model, "link", link.name);
+    const Element* element = named_child(model, "link", link.name);
     if (element == nullptr || touches_otherwise(machine, l)) continue;
     const bool moves = l > 0 || !machine.fixed_base;
     std::string told;
     for (const scene::Visual& visual : link.visuals) {
-      const Element* from = named(*element, "visual", visual.name);
+      const Element* from = named_child(*element, "visual", visual.name);
       if (from == nullptr || !may_collide(*from, visual.geometry, moves, faults)) continue;
       scene::Collision shape;
       shape.name = visual.name;
@@ -140,7 +134,7 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
   geometry::SolidProperties sum;
   // Collisions are what a link is made of; visuals are often thinner than the thing or hollow.
   const auto add = [&](const char* kind, const std::string& name, const scene::Geometry& shape, const Pose& X_LS) {
-    const Element* of = named(element, kind, name);
+    const Element* of = named_child(element, kind, name);
     double density = whole;
     if (of != nullptr && read_density(*of, density, faults)) any = true;
     geometry::SolidProperties solid;
@@ -179,7 +173,7 @@ void derive_parts(const Element& model, scene::Machine& machine, Faults& faults)
                                  [](const scene::Link& link) { return !link.collisions.empty(); });
   if (wanted && !given && !machine.kinematic) derive_collisions(model, machine, faults);
   for (scene::Link& link : machine.links)
-    if (const Element* element = named(model, "link", link.name)) weigh(*element, link, machine, faults);
+    if (const Element* element = named_child(model, "link", link.name)) weigh(*element, link, machine, faults);
 }
 
 }  // namespace navvy::scene_io

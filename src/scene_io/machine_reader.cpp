@@ -89,8 +89,7 @@ void check_planes(const Element& model, const scene::Machine& machine, Faults& f
   for (std::size_t l = 0; l < machine.links.size(); ++l)
     for (const scene::Collision& collision : machine.links[l].collisions) {
       if (collision.geometry.kind != scene::Geometry::Kind::kPlane) continue;
-      const Element* link = model.FirstChildElement("link");
-      while (link && attribute(*link, "name") != machine.links[l].name) link = link->NextSiblingElement("link");
+      const Element* link = named_child(model, "link", machine.links[l].name);
       const Element& at = link ? *link : model;
       if (l > 0 || !machine.fixed_base)
         faults.error(at, collision.name, "a plane cannot move: it is the rock under the ground",

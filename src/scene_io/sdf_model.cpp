@@ -26,12 +26,6 @@ Pose to_pose(const ignition::math::Pose3d& p) {
 
 Vec3 to_vec3(const ignition::math::Vector3d& v) { return Vec3(v.X(), v.Y(), v.Z()); }
 
-const Element* named_child(const Element& parent, const char* kind, const std::string& name) {
-  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
-    if (attribute(*child, "name") == name) return child;
-  return nullptr;
-}
-
 // The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf has reported it).
 void copy_used(const Element& from, Element& to) {
   for (const auto* at = from.FirstAttribute(); at; at = at->Next()) to.SetAttribute(at->Name(), at->Value());

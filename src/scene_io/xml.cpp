@@ -182,6 +182,12 @@ std::string element_path(const Element& element) {
   return path;
 }
 
+const Element* named_child(const Element& parent, const char* kind, const std::string& name) {
+  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
+    if (attribute(*child, "name") == name) return child;
+  return nullptr;
+}
+
 std::string text_of(const Element& element) {
   std::string text;
   // Text may come in pieces, around comments and elements.

@@ -95,6 +95,8 @@ class Document {
 
 /// "world/navvy:soil[loam]/cohesion_pa": names in brackets, or the 1-based place among equal siblings.
 std::string element_path(const Element& element);
+/// The first child <kind> whose attribute `name` is this; null when there is none.
+const Element* named_child(const Element& parent, const char* kind, const std::string& name);
 /// All text directly inside the element, trimmed.
 std::string text_of(const Element& element);
 /// Text of a child element, trimmed; empty when there is none.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -42,6 +43,7 @@ struct Session::State {
   SeenSurface surface;
   std::string device_name;
   std::vector<sim::ToolHandle> tools;  ///< all of the world
+  std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
   // What programs came to.
@@ -116,7 +118,7 @@ Session::Session(scene::Scene description, device::Device& device, const control
   X_WB.reserve(s.world.description().machines.size());
   for (int m = 0; m < s.world.machine_count(); ++m) X_WB.push_back(s.world.machine(m).link(0).pose());
   // A design that cannot be laid on this site is told now and not by the first who looks at it.
-  heightfield::make_design(s.world.description(), s.world.ground());
+  s.design = heightfield::make_design(s.world.description(), s.world.ground());
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB, planners);
   // Bodies within each other would be thrown apart in the first step.
@@ -211,6 +213,7 @@ bool Session::fell_short() const {
 
 const sim::World& Session::world() const { return state_->world; }
 const std::string& Session::device_name() const { return state_->device_name; }
+const heightfield::DesignSurface* Session::design() const { return state_->design ? &*state_->design : nullptr; }
 
 /// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {

@@ -13,6 +13,10 @@
 #include "session/reports.h"
 #include "sim/world.h"
 
+namespace navvy::heightfield {
+struct DesignSurface;
+}
+
 namespace navvy::session {
 
 /// A world and the operators that run the programs of its scene. A client of World like any other.
@@ -52,6 +56,8 @@ class Session {
 
   /// As the driver names it.
   const std::string& device_name() const;
+  /// The scene's design on the columns of its site; null where it has none.
+  const heightfield::DesignSurface* design() const;
   /// What the operator of this machine is at (control::Operator::phase); "idle" for a machine without a program,
   /// "inputs" once it was taken from it.
   std::string phase(int machine) const;

@@ -20,6 +20,7 @@ constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
 constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]
+constexpr double kOffPlates = 1.1;      // least way from a drawn lump's middle to steel, in its radius
 
 /// OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
@@ -186,8 +187,9 @@ void FrameBuilder::add_particles() {
     out.soil.push_back(static_cast<std::uint8_t>(p.soil));
     out.id.push_back(p.id);
   }
-  // Lumps differ in size by chance: twice the radius holds the largest.
-  out.room = plates_->of(particles, 2 * out.radius);
+  // Lumps differ in size by chance: twice the radius holds the largest. What lies on steel is drawn beside it and not
+  // shrunk to the dust that would fit: a load's outermost layer would show as a lattice of crumbs.
+  plates_->keep_off(out, kOffPlates * out.radius, 2 * out.radius);
 }
 
 scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {

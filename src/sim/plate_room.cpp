@@ -5,9 +5,33 @@
 #include <cmath>
 
 #include "geometry/pieces.h"
-#include "sim/world_parts.h"
 
 namespace navvy::sim {
+namespace {
+
+/// In the corner of two plates a particle goes off the one, then off the other.
+constexpr int kPushes = 4;
+
+/// `p` off the faces of one shell. Where they leave less room than `gap` it ends as far off as it got on its own side.
+Vec3 pushed(const soil::ShellGeometry& geometry, Vec3 p, double gap, int& closest) {
+  const double half = geometry.shell().half_thickness;
+  soil::ShellGeometry::Nearest at = geometry.nearest(p, closest);
+  const double side = at.distance < 0 ? -1 : 1;
+  Vec3 best = p;
+  double farthest = std::abs(at.distance);
+  for (int i = 0; i < kPushes && std::abs(at.distance) - half < gap; ++i) {
+    Vec3 away = p - at.place;
+    // On the plate's very middle there is no way but the normal.
+    if (!(away.norm() > 1e-9)) away = side * at.normal;
+    p = at.place + (half + gap) * away.normalized();
+    at = geometry.nearest(p, closest);
+    if (at.distance * side < 0) break;
+    if (std::abs(at.distance) > farthest) best = p, farthest = std::abs(at.distance);
+  }
+  return best;
+}
+
+}  // namespace
 
 PlateRoom::PlateRoom(const World& world) : world_(world) {
   for (std::size_t m = 0; m < world.description().machines.size(); ++m) {
@@ -17,11 +41,9 @@ PlateRoom::PlateRoom(const World& world) : world_(world) {
   }
 }
 
-std::vector<float> PlateRoom::of(std::span<const soil::Particle> particles, double reach) const {
-  const auto far = static_cast<float>(reach);
-  std::vector<float> out(particles.size(), far);
-  const double cell = world_.ground().cell();
-  const Vec3 origin = parts(world_).soil.grid_origin();
+void PlateRoom::keep_off(scene::FrameParticles& particles, double gap, double reach) const {
+  const std::size_t count = particles.position.size() / 3;
+  particles.room.assign(count, static_cast<float>(reach));
   for (const Tool& tool : tools_) {
     const Pose X_WT = world_.machine(tool.machine).link(tool.link).pose(), X_TW = X_WT.inverse();
     // Most particles are far from any tool: a ball about the shell's box answers for them.
@@ -30,20 +52,19 @@ std::vector<float> PlateRoom::of(std::span<const soil::Particle> particles, doub
     const double radius = 0.5 * (box.high - box.low).norm() + reach;
     const double half = tool.geometry.shell().half_thickness;
     int closest = 0;  // triangle of the particle before: neighbours in memory are neighbours in space
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      Vec3 grid;
-      for (int a = 0; a < 3; ++a)
-        grid[a] = soil::kBlockCells * particles[i].block[a] + static_cast<double>(particles[i].x[a]);
-      const Vec3 p_W = origin + cell * grid;
+    for (std::size_t i = 0; i < count; ++i) {
+      float* place = &particles.position[3 * i];
+      const Vec3 p_W = particles.origin + Eigen::Map<const Eigen::Vector3f>(place).cast<double>();
       if ((p_W - centre).squaredNorm() > radius * radius) continue;
       const Vec3 p_T = X_TW * p_W;
       // The box itself leaves out soil below an empty bucket's ball.
       if ((p_T.array() < box.low.array() - reach).any() || (p_T.array() > box.high.array() + reach).any()) continue;
-      const double room = std::abs(tool.geometry.distance(p_T, closest)) - half;
-      out[i] = std::min(out[i], static_cast<float>(std::max(0.0, room)));
+      const Vec3 moved = pushed(tool.geometry, p_T, gap, closest);
+      const double room = std::abs(tool.geometry.distance(moved, closest)) - half;
+      particles.room[i] = std::min(particles.room[i], static_cast<float>(std::max(0.0, room)));
+      if (moved != p_T) Eigen::Map<Eigen::Vector3f>{place} = (X_WT * moved - particles.origin).cast<float>();
     }
   }
-  return out;
 }
 
 }  // namespace navvy::sim

@@ -185,9 +185,9 @@ void World::keep_soil_energy() {
 std::optional<SoilEnergy> World::soil_energy() const {
   const soil::EnergyAccount* account = parts_->soil.energy();
   if (account == nullptr) return std::nullopt;
-  return SoilEnergy{account->tools,    account->gravity, account->exchanged, account->kinetic,
-                    account->elastic,  account->plastic, account->viscous,   account->contact,
-                    account->transfer, account->mixing,  account->apart,     account->residual()};
+  SoilEnergy out;
+  soil::tell_energy(*account, [&](const char* name, double joule) { out.push_back({name, joule}); });
+  return out;
 }
 
 /// Recounted from columns and particles at each call: it proves, it does not remember.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/math.h"
@@ -20,13 +21,15 @@ struct SoilCounts {
   std::uint64_t shell_crossings = 0;      ///< particles found on the wrong side of a shell
 };
 
-/// Where the energy of awake soil came from and went [J]: soil::EnergyAccount for readers that know no solver.
-struct SoilEnergy {
-  double tools = 0, gravity = 0, exchanged = 0;                                       ///< supplied
-  double kinetic = 0, elastic = 0;                                                    ///< kept
-  double plastic = 0, viscous = 0, contact = 0, transfer = 0, mixing = 0, apart = 0;  ///< spent; `apart` is beside it
-  double residual = 0;                                                                ///< supplied - kept - spent
+/// One line of an account of energy.
+struct EnergyTerm {
+  std::string name;  ///< as soil::tell_energy calls it
+  double joule = 0;
 };
+
+/// Where the energy of awake soil came from and went [docs/soil.md, energy], for readers that know no solver: always
+/// the same terms in the same order, the residual last.
+using SoilEnergy = std::vector<EnergyTerm>;
 
 /// Where the soil's mass is, one entry per soil of the scene, in units of kMassQuantum. Recounted when asked.
 struct MassLedger {

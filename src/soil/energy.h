@@ -28,8 +28,6 @@ struct EnergyAccount {
   /// What the sums do not explain: stresses and velocities of a step are not of one moment.
   double residual() const { return supplied() - kinetic - elastic - dissipated(); }
 
-  /// Of the time between an earlier account and this one; what is kept becomes its change.
-  EnergyAccount since(const EnergyAccount& before) const;
   /// Two soils' accounts together.
   EnergyAccount& operator+=(const EnergyAccount& other);
 };
@@ -50,10 +48,11 @@ void each_energy(const Visit& visit) {
   visit("apart", &EnergyAccount::apart);
 }
 
-inline EnergyAccount EnergyAccount::since(const EnergyAccount& before) const {
-  EnergyAccount out = *this;
-  each_energy([&](const char*, double EnergyAccount::*member) { out.*member -= before.*member; });
-  return out;
+/// The account as people and files get it: tell(name, [J]) for every member, then for the residual.
+template <class Tell>
+void tell_energy(const EnergyAccount& account, const Tell& tell) {
+  each_energy([&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
+  tell("residual", account.residual());
 }
 
 inline EnergyAccount& EnergyAccount::operator+=(const EnergyAccount& other) {

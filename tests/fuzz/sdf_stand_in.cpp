@@ -15,12 +15,6 @@ namespace navvy::scene_io {
 
 namespace {
 
-const Element* named_child(const Element& parent, const char* kind, const std::string& name) {
-  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
-    if (attribute(*child, "name") == name) return child;
-  return nullptr;
-}
-
 /// The link that a link or frame hangs on; empty when there is none.
 std::string link_of(const Element& model, std::string name) {
   for (int hops = 0; hops < 8; ++hops) {

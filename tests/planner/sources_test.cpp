@@ -30,11 +30,28 @@ scene::Scene pit() {
 
 TEST(MapOfSite, IsTheScenesUntouchedGround) {
   const scene::Scene scene = pit();
-  const TerrainMap map = map_of_site(scene, {});
   const heightfield::Ground ground = heightfield::make_ground(scene);
+  const TerrainMap map = map_of_site(ground, options_for(scene, ground, all_layers()));
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix)
       ASSERT_EQ(map.at(Layer::kElevation, ix, iy), static_cast<float>(ground.height(ix, iy)));
+}
+
+TEST(MapOptionsOfAScene, HaveItsDesignOnlyWhereALayerAsksForIt) {
+  scene::Scene scene = pit();
+  scene.design.areas.push_back({});
+  scene.design.areas.back().polygon = {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
+  scene.design.areas.back().depth = 0.4;
+  const heightfield::Ground ground = heightfield::make_ground(scene);
+  EXPECT_TRUE(options_for(scene, ground, {Layer::kElevation}).target.empty());
+  const MapOptions made = options_for(scene, ground, {Layer::kCutFill});
+  const heightfield::DesignSurface design = heightfield::make_design(scene, ground).value();
+  const MapOptions given = options_for(scene, ground, {Layer::kTarget}, &design);
+  ASSERT_EQ(made.target.size(), 80u * 48u);
+  const auto middle = static_cast<std::size_t>(24 * 80 + 40);
+  EXPECT_EQ(made.target[middle], design.at(40, 24));
+  EXPECT_EQ(given.target[middle], design.at(40, 24));
+  EXPECT_LT(given.target[middle], static_cast<float>(ground.height(40, 24)));
 }
 
 #ifdef NAVVY_WITH_GDAL
@@ -46,8 +63,8 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   for (int iy = 30; iy < 40; ++iy)
     for (int ix = 28; ix < 50; ++ix) ground.take_above(ix, iy, -0.9 - 0.01 * ix, taken);
   heightfield::write_geotiff(ground, folder / "terrain_end.tif");
-  const TerrainMap map = map_of_run(scene, folder / "terrain_end.tif", {});
   const heightfield::Ground start = heightfield::make_ground(scene);
+  const TerrainMap map = map_of_run(scene, start, folder / "terrain_end.tif", {});
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       // A float's ulp at a metre, and a quantum of mass.
@@ -63,12 +80,13 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
 
 TEST(MapOfRun, RefusesAFileThatIsMissingOrOfAnotherSite) {
   const test::Folder folder;
-  EXPECT_THROW(map_of_run(pit(), folder / "none.tif", {}), FileError);
+  const heightfield::Ground start = heightfield::make_ground(pit());
+  EXPECT_THROW(map_of_run(pit(), start, folder / "none.tif", {}), FileError);
   scene::Scene elsewhere = pit();
   elsewhere.ground.has_origin = true;
   elsewhere.ground.origin = Vec2(100, 200);
   heightfield::write_geotiff(heightfield::make_ground(elsewhere), folder / "other.tif");
-  EXPECT_THROW(map_of_run(pit(), folder / "other.tif", {}), InputError);
+  EXPECT_THROW(map_of_run(pit(), start, folder / "other.tif", {}), InputError);
 }
 #endif
 

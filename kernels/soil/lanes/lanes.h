@@ -59,8 +59,8 @@ typedef float4 columns;
 #define STORE_MANY(NAME, member, count, rest) \
   for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
-// Asks for a field of the pack four packs on: 27 arrays are more streams than a processor follows by itself. Nothing
-// where the compiler does not know how.
+// Asks for a field of the pack four packs on: thirty arrays are more streams than a processor follows by itself.
+// Nothing where the compiler does not know how.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
 #define SOON(field) \

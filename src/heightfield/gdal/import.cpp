@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "heightfield/gdal/map_file_private.h"
 #include "heightfield/site.h"
+#include "heightfield/span_text.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -30,12 +31,8 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
   const bool inside =
       ((corner + slack).array() >= 0).all() && ((corner + size - slack).array() <= extent.array()).all();
   if (!inside) {
-    const auto span = [](const Vec2& low, const Vec2& high) {
-      return "x " + number_text(low.x(), "%.3f") + " .. " + number_text(high.x(), "%.3f") + ", y " +
-             number_text(low.y(), "%.3f") + " .. " + number_text(high.y(), "%.3f");
-    };
-    map.fail("at", span(report.site_min, report.site_max),
-             "the site is off the map, which reaches over " + span(report.file_min, report.file_max) + " (" +
+    map.fail("at", span_text(report.site_min, report.site_max),
+             "the site is off the map, which reaches over " + span_text(report.file_min, report.file_max) + " (" +
                  number_text(extent.x()) + " x " + number_text(extent.y()) + " m)",
              "move --at inside (local:X,Y counts metres from the map's lower-left corner) or make --size smaller");
   }

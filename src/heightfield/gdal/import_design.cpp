@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "heightfield/gdal/map_file_private.h"
+#include "heightfield/span_text.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -65,13 +66,9 @@ DesignSurface import_design(const scene::Design& design, const Terrain& site) {
   const Vec2 size = setup.cell * Vec2(setup.nx, setup.ny);
   const Vec2 low = corner.cwiseMax(0), high = extent.cwiseMin(corner + size);
   if (!((high - low).array() > 0).all()) {
-    const auto span = [](const Vec2& from, const Vec2& to) {
-      return "x " + number_text(from.x(), "%.3f") + " .. " + number_text(to.x(), "%.3f") + ", y " +
-             number_text(from.y(), "%.3f") + " .. " + number_text(to.y(), "%.3f");
-    };
     const Vec2 at(setup.easting, setup.northing);
-    map.fail("", span(report.file_min, report.file_max),
-             "does not overlap the site, which reaches over " + span(at, at + size / report.metres),
+    map.fail("", span_text(report.file_min, report.file_max),
+             "does not overlap the site, which reaches over " + span_text(at, at + size / report.metres),
              "give both in the same coordinates; a procedural site counts in W");
   }
   const HeightRaster raster = read_heights(map, low, high - low);

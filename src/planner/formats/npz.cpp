@@ -2,20 +2,18 @@
 // NPZ is a ZIP archive of NPY files (NumPy's format 1.0). Entries are stored, not compressed: float layers of dug
 // ground hardly shrink, and readers can map them.
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "planner/formats/formats.h"
+#include "planner/formats/json_text.h"
+#include "planner/formats/npy_file.h"
 
 namespace navvy::planner {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "floats are written as they lie in memory");
 
 /// As every ZIP has it: polynomial 0xEDB88320, reflected.
 std::uint32_t crc32(const std::string& bytes) {
@@ -73,74 +71,37 @@ class Zip {
   }
 
  private:
+  /// Little-endian, as all of ZIP.
   static void put(std::string& to, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xFF);
   }
-  /// Little-endian, as all of ZIP.
   // Entries one after the other, and the directory that comes behind them.
   std::string out_, directory_;
   unsigned entries_ = 0;
 };
 
-std::string npy(const std::vector<float>& values, int nx, int ny) {
-  // A dictionary as Python prints it.
-  std::string dict =
-      "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(ny) + ", " + std::to_string(nx) + "), }";
-  // Magic, version and length count too; the data begin at a multiple of 64.
-  dict.append(63 - (10 + dict.size()) % 64, ' ');
-  dict += '\n';
-  std::string out("\x93NUMPY\x01\x00", 8);
-  out += static_cast<char>(dict.size() & 0xFF);
-  out += static_cast<char>(dict.size() >> 8);
-  out += dict;
-  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-  return out;
-}
-
-/// A string of JSON.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      out += code;
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
-/// With all the digits a double has; JSON knows no NaN.
-std::string number(double value) {
-  char text[40];
-  if (value != value) return "null";
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 std::string header(const TerrainMap& map, const std::vector<Layer>& layers) {
   const heightfield::GroundSetup& s = map.setup();
   std::string out = "{\n  \"format_version\": 1,\n  \"nx\": " + std::to_string(map.nx()) +
-                    ",\n  \"ny\": " + std::to_string(map.ny()) + ",\n  \"cell_m\": " + number(map.cell()) +
-                    ",\n  \"origin_m\": [" + number(map.origin().x()) + ", " + number(map.origin().y()) +
+                    ",\n  \"ny\": " + std::to_string(map.ny()) + ",\n  \"cell_m\": " + json_number(map.cell()) +
+                    ",\n  \"origin_m\": [" + json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
                     "],\n  \"order\": \"array[iy, ix]; row 0 has least y, column 0 least x; origin_m is the lower-left "
                     "corner of [0, 0]\",\n  \"time_s\": " +
-                    number(map.time()) + ",\n  \"sequence\": " + std::to_string(map.sequence()) + ",\n  \"layers\": {";
+                    json_number(map.time()) + ",\n  \"sequence\": " + std::to_string(map.sequence()) +
+                    ",\n  \"layers\": {";
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const LayerInfo& each = info(layers[i]);
-    out += (i > 0 ? ",\n    " : "\n    ") + quoted(each.name) + ": {\"unit\": " + quoted(each.unit) +
-           ", \"meaning\": " + quoted(each.meaning) + "}";
+    out += (i > 0 ? ",\n    " : "\n    ") + json_string(each.name) + ": {\"unit\": " + json_string(each.unit) +
+           ", \"meaning\": " + json_string(each.meaning) + "}";
   }
   out += "\n  },\n  \"soils\": [";
-  for (std::size_t i = 0; i < s.soils.size(); ++i) out += (i > 0 ? ", " : "") + quoted(s.soils[i].name);
+  for (std::size_t i = 0; i < s.soils.size(); ++i) out += (i > 0 ? ", " : "") + json_string(s.soils[i].name);
   // File coordinates = easting + x / metres_per_unit, from origin_m; file heights = (z + offset) / metres_per_unit.
-  return out + "],\n  \"georeference\": {\"easting\": " + number(s.easting) + ", \"northing\": " + number(s.northing) +
-         ", \"metres_per_unit\": " + number(s.file_unit) + ", \"height_offset_m\": " + number(s.height_offset) +
-         ", \"metres_per_height_unit\": " + number(s.file_height_unit) + ", \"crs_wkt\": " + quoted(s.crs_wkt) +
-         "}\n}\n";
+  return out + "],\n  \"georeference\": {\"easting\": " + json_number(s.easting) +
+         ", \"northing\": " + json_number(s.northing) + ", \"metres_per_unit\": " + json_number(s.file_unit) +
+         ", \"height_offset_m\": " + json_number(s.height_offset) +
+         ", \"metres_per_height_unit\": " + json_number(s.file_height_unit) +
+         ", \"crs_wkt\": " + json_string(s.crs_wkt) + "}\n}\n";
 }
 
 }  // namespace
@@ -155,7 +116,7 @@ void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const st
   // The header first: a reader of the stream knows what comes.
   Zip zip;
   zip.add("header.json", header(map, layers));
-  for (const Layer layer : layers) zip.add(info(layer).name + ".npy", npy(map.copy(layer), map.nx(), map.ny()));
+  for (const Layer layer : layers) zip.add(info(layer).name + ".npy", npy_bytes(map.copy(layer), map.nx(), map.ny()));
   write_file_atomically(path, zip.bytes());
 }
 

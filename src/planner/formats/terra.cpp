@@ -8,24 +8,10 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "planner/formats/formats.h"
+#include "planner/formats/npy_file.h"
 
 namespace navvy::planner {
 namespace {
-
-/// An NPY of version 1; row 0 has least y.
-std::vector<char> npy(const std::string& descr, const void* data, std::size_t bytes, const TerrainMap& map) {
-  std::string head = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (" + std::to_string(map.ny()) + ", " +
-                     std::to_string(map.nx()) + "), }";
-  head.append(63 - (10 + head.size()) % 64, ' ');
-  head += '\n';
-  std::vector<char> out = {'\x93', 'N', 'U', 'M', 'P', 'Y', 1, 0};
-  out.push_back(static_cast<char>(head.size() & 0xFF));
-  out.push_back(static_cast<char>(head.size() >> 8));
-  out.insert(out.end(), head.begin(), head.end());
-  const char* first = static_cast<const char*>(data);
-  out.insert(out.end(), first, first + bytes);
-  return out;
-}
 
 /// Along one line: for each place i the least of (i - k)^2 + f[k] [Felzenszwalb 2012].
 void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
@@ -102,17 +88,17 @@ void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const 
     dumpable.push_back(aim >= 0 && good[k] > 0 ? 1 : 0);
   }
   const std::vector<float> distance = distances(dig, map.nx(), map.ny(), map.cell());
-  const auto write = [&](const char* folder, const std::string& descr, const void* data, std::size_t bytes) {
+  const auto write = [&](const char* folder, const auto& values) {
     const std::filesystem::path place = std::filesystem::path(path) / folder;
     std::error_code failed;
     std::filesystem::create_directories(place, failed);
     if (failed) throw FileError("cannot make '" + place.string() + "': " + failed.message());
-    write_file_atomically((place / "img_1.npy").string(), npy(descr, data, bytes, map));
+    write_file_atomically((place / "img_1.npy").string(), npy_bytes(values, map.nx(), map.ny()));
   };
-  write("images", "|i1", target.data(), target.size());
-  write("occupancy", "|i1", occupied.data(), occupied.size());
-  write("dumpability", "|i1", dumpable.data(), dumpable.size());
-  write("distance", "<f4", distance.data(), distance.size() * sizeof(float));
+  write("images", target);
+  write("occupancy", occupied);
+  write("dumpability", dumpable);
+  write("distance", distance);
 }
 
 }  // namespace navvy::planner

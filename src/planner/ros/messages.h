@@ -26,6 +26,8 @@ const std::string& definition(Kind kind);
 /// The frame that all of W is in.
 inline constexpr const char* kFrame = "map";
 
+// Times are simulated ones from the start of the run [ns]; lengths are in metres, angles in radians.
+
 /// grid_map: pose is the map's centre; a layer's numbers begin at greatest x and greatest y and run first towards
 /// least x. `elevation` is the basic layer where it is asked for.
 Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns);
@@ -47,7 +49,9 @@ Bytes odometry(const BodyState& body, std::int64_t time_ns);
 
 struct JointStates {
   std::vector<std::string> names;
-  std::vector<double> positions, velocities, efforts;  ///< [rad] or [m], and so on
+  std::vector<double> positions;   ///< [rad|m]
+  std::vector<double> velocities;  ///< [rad/s|m/s]
+  std::vector<double> efforts;     ///< [N m|N]
 };
 Bytes joint_state(const JointStates& joints, std::int64_t time_ns);
 /// Every body as a child of W's frame.

@@ -25,14 +25,15 @@ struct Point : LawState {
   Vec3 moved = Vec3::Zero();
   double mass = 0;  ///< [kg]
   int soil = 0;
-  /// Home block: that of the base node floor(x - 0.5) at the start. Cells are mixed within a home, as in the kernels.
+  /// Home block: that of the base node floor(x - 0.5) when the point was made, and kept. Cells are mixed within a home,
+  /// as in the kernels, which sort anew.
   std::array<int, 3> home{};
 };
 
 Point from_particle(const Particle& particle);
 
-/// MLS-MPM with quadratic B-splines [Hu 2018], APIC
-/// transfer, the law of kernels/soil/law.h. No tools of its own. Slow: a map from node to momentum.
+/// MLS-MPM with quadratic B-splines [Hu 2018], APIC, the law of kernels/soil/law.h. Several steps are one transfer, as
+/// in the kernels [docs/soil.md, transfer]. No tools of its own. Slow: a map from node to momentum.
 class ReferenceSolver {
  public:
   /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to soil::kHeldMargin
@@ -52,9 +53,11 @@ class ReferenceSolver {
  private:
   /// Mean opening of each point's cell, 0 where none of it is open.
   std::vector<double> openings() const;
-  void scatter(double dt,
-               bool hold);  ///< mixing and law, then mass and momentum to the nodes; held, the stress's alone
-  /// Velocity, gravity, contact, resting ground; a node lighter than a quantum is empty.
+  // `hold`: the step goes on with the transfer under way.
+  /// Mixing and law, then mass and momentum to the nodes; held, of the momentum only what stress gives.
+  void scatter(double dt, bool hold);
+  /// Velocity (held, on top of the node's own), gravity, contact, resting ground; a node lighter than a quantum is
+  /// empty.
   void update_grid(double dt, bool hold);
   void gather(double dt);  ///< back to the points, which move
   struct Node {
@@ -63,7 +66,7 @@ class ReferenceSolver {
   };
   std::vector<scene::Soil> soils_;
   double cell_;
-  double transfer_length_;  ///< [s]
+  double transfer_length_;  ///< of one transfer [s]
   TransferInterval interval_;
   double fastest_ = 0;  ///< component of the ways in the last step [m/s]
   Vec3 gravity_;

@@ -26,10 +26,10 @@ namespace navvy::soil {
 /// Lengths in cells [docs/tools.md, contact shares].
 struct ContactSettings {
   double band = 2.5;          ///< how far from a shell particles keep a side
-  double reach = 1.0;         ///< h: nodes closer than this to the plate's face act
-  double ramp = 1.0;          ///< over which their share falls to zero
-  double edge = 0.6;          ///< nodes closer than this to a free edge do not act
-  double edge_ramp = 1.0;     ///< over which their share falls along the plate
+  double reach = 1.0;         ///< h: the share of nodes this far from the plate's face is a half,
+  double ramp = 1.0;          ///< and falls from 1 to 0 over this length about it
+  double edge = 0.6;          ///< the same along the plate, by the way to its free edge: squared,
+  double edge_ramp = 1.0;     ///< from 1 inside to 0 over this length about `edge`
   double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
   double longest_push = 0.2;  ///< position correction per step
   int sweeps = 3;             ///< of the two-way solve
@@ -41,8 +41,8 @@ struct ContactSettings {
 /// plates with corners, at most 2.
 double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
 
-/// Contact of all tools with the soil, two nodal fields, shares of the plate's speed, any number of
-/// tools.
+/// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with its share of the
+/// plate's speed [docs/tools.md, contact shares]. Any number of tools.
 class Contact {
  public:
   Contact(device::Device& device, double cell, const Vec3& origin_W);

@@ -119,13 +119,15 @@ double ShellGeometry::distance(const Vec3& p) const {
   return distance(p, closest);
 }
 
-double ShellGeometry::distance(const Vec3& p, int& closest) const {
-  double best = 1e300, sign = 1;
+ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const {
+  double best = 1e300;
+  Nearest out;
   const auto offer = [&](const Vec3& c, const Vec3& normal, int triangle) {
     const double d2 = (p - c).squaredNorm();
     if (d2 >= best) return;
     best = d2;
-    sign = (p - c).dot(normal) >= 0 ? 1 : -1;
+    out.place = c;
+    out.normal = normal;
     closest = triangle;
   };
   const auto look = [&](int n) {
@@ -149,7 +151,8 @@ double ShellGeometry::distance(const Vec3& p, int& closest) const {
   look(guess);
   for (int n = 0; n < static_cast<int>(triangles_.size()); ++n)
     if (n != guess) look(n);
-  return sign * std::sqrt(best);
+  out.distance = ((p - out.place).dot(out.normal) >= 0 ? 1 : -1) * std::sqrt(best);
+  return out;
 }
 
 bool ShellGeometry::holds(const Vec3& p) const {

@@ -40,7 +40,14 @@ class ShellGeometry {
   /// query.
   double distance(const Vec3& p) const;
   /// The same, faster when `closest` names a triangle that is likely the closest; becomes the one that is.
-  double distance(const Vec3& p, int& closest) const;
+  double distance(const Vec3& p, int& closest) const { return nearest(p, closest).distance; }
+  /// The place of the plate that is closest to a point, in T.
+  struct Nearest {
+    double distance = 0;  ///< signed, as `distance` has it [m]
+    Vec3 place = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();  ///< pseudo-normal there, to the front; no unit
+  };
+  Nearest nearest(const Vec3& p, int& closest) const;
   /// Inside the hull (raised over the mouth to hold a heap) and in front.
   bool holds(const Vec3& p) const;
   bool holds(const Vec3& p, int& closest) const;

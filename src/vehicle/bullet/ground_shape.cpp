@@ -30,7 +30,10 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVect
   const int nx = x1 - x0 + 1;
   height_.clear();
   for (int iy = y0; iy <= y1; ++iy)
-    for (int ix = x0; ix <= x1; ++ix) height_.push_back(ground_->height(place(ix, iy).x(), place(ix, iy).y()));
+    for (int ix = x0; ix <= x1; ++ix) {
+      const Vec2 p = place(ix, iy);
+      height_.push_back(ground_->height(p.x(), p.y()));
+    }
   const auto node = [&](int ix, int iy) {
     const Vec2 p = place(ix, iy);
     return btVector3(p.x(), p.y(), height_[static_cast<std::size_t>((iy - y0) * nx + ix - x0)]);

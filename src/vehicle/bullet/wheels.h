@@ -16,20 +16,22 @@ struct MachineWheel {
   double spin_inertia = 1;       // [kg m2]
   Vec3 axis_C = Vec3::UnitY();   // spin axis in the carrier
   Vec3 center_C = Vec3::Zero();  // in the carrier [m]
-                                 // Memory and outcome of the tyre's law, then the brake's hold.
+
+  // Memory and outcome of the tyre's law, then the brake's hold.
   terramechanics::TyreState tyre;
   terramechanics::TyreForce force;  // of the last step
   double held_spin = 0;             // angle at which the brake holds [rad]
   bool braked = false;
-  Vec3 body_W = Vec3::Zero();  // force of bodies in the last step [N]; TyreBodies saves it
-                               // Grip on bodies: stretch of the two tracks [m].
+
+  // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
+  Vec3 body_W = Vec3::Zero();
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
 
   void visit(Archive& a);
 };
 
-/// Tyres push on the tree once a step, by terramechanics' law; the tree's links are rigid, their contacts with the
-/// ground patch are not wheels.
+/// Tyres push on the tree once a step, by terramechanics' law of the ground under them. What they meet of bodies is
+/// TyreBodies'; collision shapes of other links touch the ground in the engine's solver and are no wheels.
 class MachineWheels {
  public:
   /// @throws InputError for a wheel whose joint is missing, is not revolute or hangs on the world. Machine and tree

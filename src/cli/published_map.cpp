@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/published_map.h"
+
+#include "core/error.h"
+#include "core/log.h"
+#include "planner/sources.h"
+#include "sim/terrain_view.h"
+#include "sim/timing.h"
+
+namespace navvy::cli {
+
+PublishedMap::PublishedMap(const PublishOptions& options, const session::Session& session)
+    : world_(session.world()),
+      rate_(options.rate),
+      layers_(options.layers.empty() ? planner::all_layers() : planner::layers_named(options.layers)),
+      feed_(planner::options_for(world_.description(), world_.ground(), layers_, session.design())) {
+  publisher_.emplace(feed_, options.place, layers_);
+  if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));
+  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+}
+
+void PublishedMap::observe() {
+  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return;
+  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+  if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);
+}
+
+}  // namespace navvy::cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run's map for other processes: what `navvy run --publish` asks for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/publisher.h"
+#include "session/session.h"
+
+namespace navvy::cli {
+
+/// What the command line says of it.
+struct PublishOptions {
+  std::string place;   ///< as planner::Publisher takes it; empty: nothing is published
+  std::string layers;  ///< names separated by commas; empty: all
+  double rate = 10;    ///< updates per simulated second
+};
+
+/// Publishes the map of a session as often as asked for, from its making on. Readers get the last map before it goes.
+class PublishedMap {
+ public:
+  /// The session must outlive it. @throws InputError for layers or a place that are none, FileError as the Publisher.
+  PublishedMap(const PublishOptions& options, const session::Session& session);
+  /// Called after each step. @throws FileError for what ended the writing.
+  void observe();
+
+ private:
+  const sim::World& world_;
+  double rate_;
+  std::vector<planner::Layer> layers_;
+  planner::UpdateFeed feed_;
+  std::optional<planner::Publisher> publisher_;
+};
+
+}  // namespace navvy::cli

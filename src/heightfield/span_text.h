@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rectangle of coordinates as text, for messages.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "core/math.h"
+
+namespace navvy::heightfield {
+
+/// "x 0.000 .. 12.500, y -3.000 .. 4.000".
+inline std::string span_text(const Vec2& low, const Vec2& high) {
+  // Room for four numbers as long as a double may be.
+  char text[1400];
+  std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(), high.y());
+  return text;
+}
+
+}  // namespace navvy::heightfield
