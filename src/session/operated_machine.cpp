@@ -27,11 +27,16 @@ const heightfield::Terrain& SeenSurface::terrain() const {
   return *view_;
 }
 
-OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs)
+heightfield::TerrainView SeenSurface::mapped() const {
+  return sim::terrain_view(world_, heightfield::SurfaceKind::kMapped);
+}
+
+OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
+                                 const control::MakePathPlanner& planners)
     : world_(world),
       machine_(world.machine(machine)),
       base_(machine_.link(0)),
-      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name()) {
+      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(), planners) {
   const scene::Machine& description = machine_.description();
   // A machine digs with its first bucket and tips its first bed; the others are passive.
   if (!description.buckets.empty()) bucket_.emplace(machine_, description.buckets[0]);
@@ -146,7 +151,7 @@ bool OperatedMachine::take() {
 }
 
 ProgramReport OperatedMachine::report() const {
-  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports()};
+  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports(), op_.paths()};
   // A program that has ended stands in its last report already.
   if (op_.ended()) return out;
   // What was seen last is a step old, and nothing at all after a snapshot was loaded.

@@ -23,6 +23,8 @@ class SeenSurface final : public control::SurfaceView {
   /// `world` must outlive it.
   explicit SeenSurface(const sim::World& world) : world_(world) {}
   const heightfield::Terrain& terrain() const override;
+  /// A view of its own each time.
+  heightfield::TerrainView mapped() const override;
   /// The next question takes a new view.
   void forget() { view_.reset(); }
 
@@ -38,7 +40,8 @@ class OperatedMachine {
   using Programs = std::map<std::string, control::ProgramProgress>;
 
   /// What operators see beside their own machine is shared; all references must outlive it.
-  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs);
+  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
+                  const control::MakePathPlanner& planners);
 
   int index() const { return machine_.index(); }
   const std::string& name() const { return machine_.name(); }

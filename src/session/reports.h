@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/outcome.h"
+#include "control/path.h"
 #include "core/archive.h"
 
 namespace navvy::session {
@@ -54,6 +55,8 @@ struct ProgramReport {
   bool taken = false;  ///< by inputs, which drive the machine since then
   /// Of every step that is over, and of the one that runs: its state is that of the program.
   std::vector<control::StepReport> list;
+  /// Every path planned so far, in the order in which they were.
+  std::vector<control::PlannedPath> paths;
 
   /// The step that the program is at, or ended with.
   const control::StepReport& last() const { return list.back(); }

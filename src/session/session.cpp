@@ -118,22 +118,17 @@ void Session::State::visit(Archive& a) {
   });
 }
 
-Session::Session(scene::Scene description, device::Device& device)
+Session::Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // Reach depends on where the machines stand on this very ground.
   X_WB.reserve(s.world.description().machines.size());
-  for (int m = 0; m < s.world.machine_count(); ++m) {
-    // Machines without a program have no operator; inputs drive them.
-    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
-      s.operated.emplace_back(s.world, m, s.surface, s.programs);
-    X_WB.push_back(s.world.machine(m).link(0).pose());
-  }
+  for (int m = 0; m < s.world.machine_count(); ++m) X_WB.push_back(s.world.machine(m).link(0).pose());
   // A design that cannot be laid on this site is told now and not by the first who looks at it.
   s.design = heightfield::make_design(s.world.description(), s.world.ground());
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
-  std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
+  std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB, planners);
   // Bodies within each other would be thrown apart in the first step.
   for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB)) faults.push_back(std::move(fault));
   for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
@@ -141,6 +136,10 @@ Session::Session(scene::Scene description, device::Device& device)
   const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
+  // Only sound programs get their operators. Machines without a program have none; inputs drive them.
+  for (int m = 0; m < s.world.machine_count(); ++m)
+    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
+      s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
 }
 
 Session::~Session() = default;
