@@ -29,6 +29,8 @@ class TreeBody {
   /// Bullet's link of a joint; -1: none (a joint of the base to the world).
   int bullet_of_joint(int joint) const { return bullet_of_joint_[index(joint)]; }
   int bullet_of_link(int link) const { return bullet_of_link_[index(link)]; }
+  /// The link of a number of Bullet's; its base is -1.
+  int link_of_bullet(int bullet) const { return bullet < 0 ? 0 : link_of_bullet_[index(bullet)]; }
   /// Pose of Bullet's frame of a link in the link.
   const Pose& inertial_frame(int link) const { return X_LI_[index(link)]; }
 

@@ -37,6 +37,8 @@ class BulletEngine final : public Engine {
         dispatcher_(&configuration_),
         broadphase_(kMostShapes),
         world_(&dispatcher_, &broadphase_, &configuration_) {
+    // A plate's flat face or a hull's bears on more than the one point that Bullet finds deepest.
+    configuration_.setConvexConvexMultipointIterations();
     ground_.setCollisionShape(&ground_shape_);
     ground_.setWorldTransform(btTransform::getIdentity());
     ground_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
@@ -54,13 +56,12 @@ class BulletEngine final : public Engine {
   ~BulletEngine() override {
     // The world keeps bare pointers: they leave it before their owners go.
     for (const auto& machine : machines_)
-      for (const auto& collider : machine->colliders())
-        if (collider) world_.removeCollisionObject(collider.get());
+      for (btMultiBodyLinkCollider* collider : machine->all_colliders()) world_.removeCollisionObject(collider);
     world_.removeCollisionObject(&ground_);
   }
 
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
-    if (world_.getNumCollisionObjects() + static_cast<int>(machine.links.size()) > kMostShapes)
+    if (world_.getNumCollisionObjects() + static_cast<int>(machine.links.size() + machine.shells.size()) > kMostShapes)
       refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
              "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
@@ -70,6 +71,11 @@ class BulletEngine final : public Engine {
       const bool stands = l == 0 && machines_.back()->tree().fixed_base();
       world_.addCollisionObject(colliders[l].get(), stands ? kStandingGroup : kMachineGroup,
                                 stands ? kMachineGroup : kGroundGroup | kMachineGroup | kStandingGroup);
+    }
+    for (const auto& plates : machines_.back()->steel()) {
+      const bool stands = plates->m_link < 0 && machines_.back()->tree().fixed_base();
+      world_.addCollisionObject(plates.get(), stands ? kStandingGroup : kMachineGroup,
+                                stands ? kMachineGroup : kMachineGroup | kStandingGroup);
     }
     // The order in which rows are given to the solver is part of the result: joints, then rock, machine by machine.
     for (const auto& servo : machines_.back()->servos())

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/refuse.h"
 
 namespace navvy::vehicle {
@@ -21,6 +22,8 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
       drive_(machine_, tree_, joints_, wheels_) {
   add_colliders();
   add_rock();
+  add_steel();
+  place_colliders();
 }
 
 void BulletMachine::add_colliders() {
@@ -31,13 +34,7 @@ void BulletMachine::add_colliders() {
     const int link = static_cast<int>(i), k = tree_.bullet_of_link(link);
     shapes_[i] = make_link_shape(machine_.links[i], tree_.inertial_frame(link).inverse(), i == 0 && tree_.fixed_base());
     if (!shapes_[i].compound) continue;
-    auto collider = std::make_unique<btMultiBodyLinkCollider>(&tree_.multibody(), k);
-    collider->setCollisionShape(shapes_[i].compound.get());
-    collider->setFriction(shapes_[i].friction);
-    collider->setRestitution(0);
-    // Firm but not rigid: ground that was raised under a body must not launch it.
-    collider->setContactStiffnessAndDamping(kContactStiffness, kContactDamping);
-    collider->setActivationState(DISABLE_DEACTIVATION);
+    auto collider = make_collider(shapes_[i], link);
     // The tree and the world both point at it; it is owned here.
     if (k < 0)
       tree_.multibody().setBaseCollider(collider.get());
@@ -45,7 +42,39 @@ void BulletMachine::add_colliders() {
       tree_.multibody().getLink(k).m_collider = collider.get();
     colliders_[i] = std::move(collider);
   }
+}
+
+std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const LinkShape& shape, int link) {
+  auto collider = std::make_unique<btMultiBodyLinkCollider>(&tree_.multibody(), tree_.bullet_of_link(link));
+  collider->setCollisionShape(shape.compound.get());
+  collider->setFriction(shape.friction);
+  collider->setRestitution(0);
+  // Firm but not rigid: ground that was raised under a body must not launch it.
+  collider->setContactStiffnessAndDamping(kContactStiffness, kContactDamping);
+  collider->setActivationState(DISABLE_DEACTIVATION);
+  return collider;
+}
+
+void BulletMachine::add_steel() {
+  for (const scene::Shell& shell : machine_.shells) {
+    plates_.push_back(make_steel(shell));
+    steel_.push_back(make_collider(plates_.back(), machine_.link_index(shell.link)));
+  }
+}
+
+std::vector<btMultiBodyLinkCollider*> BulletMachine::all_colliders() const {
+  std::vector<btMultiBodyLinkCollider*> out;
+  for (const auto* list : {&colliders_, &steel_})
+    for (const auto& collider : *list)
+      if (collider) out.push_back(collider.get());
+  return out;
+}
+
+// The tree moves its links' own colliders; the plates of shells are beside them.
+void BulletMachine::place_colliders() {
   tree_.place_colliders();
+  for (const auto& plates : steel_)
+    plates->setWorldTransform(to_bt(tree_.link(tree_.link_of_bullet(plates->m_link)).X_WL));
 }
 
 void BulletMachine::add_rock() {
@@ -93,7 +122,7 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
   }
   // Rows are read before positions change: their impulses belong to the poses of the step's start.
   tree_.step_positions(dt);
-  tree_.place_colliders();
+  place_colliders();
   joints_.end_step(dt);
 }
 
@@ -117,6 +146,7 @@ void BulletMachine::visit(Archive& a) {
             "pushes", "the machine has no such link");
   a("ground_impulse", ground_impulse_);
   a("external_impulse", external_impulse_);
+  if (a.loading()) place_colliders();
 }
 
 }  // namespace navvy::vehicle

@@ -34,6 +34,10 @@ class BulletMachine {
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
   std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }  ///< by link
+  /// The shells' plates, which meet bodies and no ground: soil is in their way there. By shell.
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }
+  /// All of both that there are.
+  std::vector<btMultiBodyLinkCollider*> all_colliders() const;
   MachineWheels& wheels() { return wheels_; }
 
   /// Takes the joint from the drive until the drive's next command.
@@ -71,9 +75,12 @@ class BulletMachine {
     Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
     void visit(Archive& a);
   };
-  /// Collision shapes of the links, and a contact of every shell with the rock.
+  /// Collision shapes of the links, plates of the shells, and a contact of every shell with the rock.
   void add_colliders();
+  void add_steel();
   void add_rock();
+  std::unique_ptr<btMultiBodyLinkCollider> make_collider(const LinkShape& shape, int link);
+  void place_colliders();
 
   // In the order in which each needs the ones before it.
   scene::Machine machine_;
@@ -84,6 +91,8 @@ class BulletMachine {
   std::vector<std::unique_ptr<RockContact>> rock_;  // by shell
   std::vector<LinkShape> shapes_;                   // by link
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  std::vector<LinkShape> plates_;  // by shell
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> steel_;
   std::vector<Push> pushes_;  // for the next step
                               // [N s]; the tyres' part belongs to the present step only.
   Vec3 ground_impulse_ = Vec3::Zero(), tyre_impulse_ = Vec3::Zero(), external_impulse_ = Vec3::Zero();
