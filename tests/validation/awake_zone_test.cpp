@@ -39,12 +39,13 @@ Drag drag(const std::string& zone) {
 
 TEST(AwakeZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
-  const char* source = "the awake zone does not show [docs/validation.md, Awake zone]";
+  const char* source = "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
   print_value("mean draft of the drag [N]", usual.force, "not gated", source);
   expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98, 1.02, source);
   expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02, source);
   print_value("particle-steps, zone twice as large / as usual",
-              static_cast<double>(twice.particle_steps) / static_cast<double>(usual.particle_steps), "the cost", source);
+              static_cast<double>(twice.particle_steps) / static_cast<double>(usual.particle_steps), "the cost",
+              source);
 }
 
 }  // namespace

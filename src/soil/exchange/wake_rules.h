@@ -18,11 +18,12 @@ namespace navvy::soil {
 struct ToolZone {
   heightfield::CellRect box;   ///< columns under the tool's box
   heightfield::CellRect near;  ///< and those within kToolGuard of it
-  heightfield::CellRect zone;  ///< columns to wake: two dig depths ahead, one to the sides, times the scene's awake zone
-  double low = 0, high = 0;    ///< of the box [cells above datum]
-  double scale = 1;            ///< the scene's awake zone
-  double speed = 0;            ///< [m/s]
-  bool engaged = false;        ///< some column of the zone, with the soil on it, reaches up to it
+  heightfield::CellRect
+      zone;                  ///< columns to wake: two dig depths ahead, one to the sides, times the scene's awake zone
+  double low = 0, high = 0;  ///< of the box [cells above datum]
+  double scale = 1;          ///< the scene's awake zone
+  double speed = 0;          ///< [m/s]
+  bool engaged = false;      ///< some column of the zone, with the soil on it, reaches up to it
 
   /// Under the box in plan; says nothing about heights.
   bool touches(int ix, int iy) const { return contains(box, ix, iy); }
