@@ -18,6 +18,7 @@
 #include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
+#include "planner/path_planner.h"
 #include "record/map_recorder.h"
 #include "scene_io/loader.h"
 #include "session/program_check.h"
@@ -77,7 +78,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
-      for (Fault& fault : session::check_programs(*world)) faults.push_back(std::move(fault));
+      for (Fault& fault : session::check_programs(*world, planner::path_planners())) faults.push_back(std::move(fault));
     if (world)
       for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
     // And what its machines do in their first second.

@@ -20,6 +20,7 @@
 #include "heightfield/site.h"
 #include "planner/formats/formats.h"
 #include "planner/map_maker.h"
+#include "planner/path_planner.h"
 #include "planner/sources.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
@@ -73,7 +74,7 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const std::vector<pla
                                 : find_scene(options.scene);
   // Particles are restored as a run would go on from them.
   device::Device device(options.device);
-  session::Session session(load(scene), device);
+  session::Session session(load(scene), device, planner::path_planners());
   session.load(options.from);
   const sim::World& world = session.world();
   planner::MapMaker maker(map_options(options, layers, world.description(), world.ground(), session.design()));

@@ -23,6 +23,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "planner/formats/png_file.h"
+#include "planner/path_planner.h"
 #include "record/map_recorder.h"
 #include "record/rates_note.h"
 #include "record/recorder.h"
@@ -216,7 +217,7 @@ int run(const RunOptions& options) {
   record_options.render = description.recording.render;
   record_options.hash_every = options.hash_every;
   // The session builds the world; from here on errors leave a folder behind.
-  session::Session session(description, device);
+  session::Session session(description, device, planner::path_planners());
   // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume, options.resume_anyway);
   require_times(options, session);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "control/arm.h"
 #include "control/observation.h"
 #include "control/outcome.h"
+#include "control/path_planner.h"
 #include "core/archive.h"
 #include "core/log.h"
 #include "scene/machine.h"
@@ -42,12 +44,26 @@ struct Workplace {
   explicit Workplace(const scene::Machine& machine_in) : machine(machine_in) {}
 
   const scene::Machine machine;  ///< its joints in the order of Observation and Command
-  std::optional<Arm> arm;        ///< in every program with a step that needs one
+  /// In every program with a step that needs one.
+  std::unique_ptr<PathPlanner> planner;
+  std::vector<PlannedPath> paths;  ///< of all steps, in the order in which they were planned
+  std::optional<Arm> arm;          ///< in every program with a step that needs one
   Handover handover;
   std::string label = "operator";  ///< who speaks in messages: "'truck', step 2 (tip)"; derived, no state
+  std::int64_t step = 1;           ///< number of the running step; derived
+  double now = 0;                  ///< of this control step, simulated [s]; derived
 
   /// Tells the user what does not go as asked, and that the step goes on.
   void warn(const std::string& text) const { log_warning(label + ": " + text); }
+  /// The same of what is as it should be.
+  void note(const std::string& text) const { log_info(label + ": " + text); }
+  /// Shows the planner the ground as it is seen.
+  void look(const Observation& seen) const {
+    if (seen.surface != nullptr)
+      planner->look(*seen.surface);
+    else if (seen.ground != nullptr)
+      planner->look(GroundSurface(*seen.ground));
+  }
 
   /// Index in Machine::joints of axis 0..3: swing, boom, stick, bucket.
   std::size_t joint(std::size_t axis) const {

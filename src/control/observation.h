@@ -42,6 +42,6 @@ struct Command {
 };
 
 /// Moments of a digging cycle and of a tip, told once each.
-enum class CycleEvent { kNone, kScoopStart, kLiftOut, kDumpStart, kCycleEnd, kTipStart, kTipEnd };
+enum class CycleEvent { kNone, kScoopStart, kCurlStart, kLiftOut, kDumpStart, kCycleEnd, kTipStart, kTipEnd };
 
 }  // namespace navvy::control

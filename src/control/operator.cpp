@@ -12,7 +12,8 @@
 namespace navvy::control {
 
 struct Operator::State {
-  State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in);
+  State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
+        const MakePathPlanner& planners);
 
   // Activities refer to the steps and to the workplace: all three keep their addresses, as the state does not move.
   const scene::Program program;
@@ -33,6 +34,7 @@ struct Operator::State {
   bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
   const Step& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
+  void plan_ahead(const Observation& seen);
   void watch_over(const Observation& seen, double time, double dt);
   void finish(StepState state, const std::string& reason, const Observation& seen, double time);
   StepReport report(StepState state, const std::string& reason, const Observation& seen, double time) const;
@@ -42,7 +44,8 @@ struct Operator::State {
   void note(const Command& out);
 };
 
-Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in)
+Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
+                       const MakePathPlanner& planners)
     : program(program_in),
       name(name_in.empty() ? machine.name : name_in),
       place(machine),
@@ -51,6 +54,13 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
   // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the machine drives.
   const auto needs_arm = [](const Step* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
+  for (const Step* one : steps) {
+    if (!one->needs_planner() || place.planner) continue;
+    if (!planners)
+      throw InputError(Fault{Fault::Severity::kError, machine.file, 0, name + "/navvy:program/" + one->element(), "",
+                             "nobody plans paths here", "hand a planner to the operator, or use drive_to"});
+    place.planner = planners(place.machine);
+  }
   // Told before anything moves, not when the step's turn comes.
   for (const Step* one : steps) one->check_machine(place.machine);
 }
@@ -58,7 +68,27 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
 void Operator::State::make_activity() {
   place.label = "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
   // The description makes what carries it out; its memory is new every time.
+  place.step = step + 1;
   active = present().activity(place);
+}
+
+/// Of all steps at once, on the ground as it lies when the program begins.
+void Operator::State::plan_ahead(const Observation& seen) {
+  if (!place.planner) return;
+  place.look(seen);
+  const GroundSurface resting(*seen.ground);
+  const SurfaceView& surface = seen.surface != nullptr ? *seen.surface : resting;
+  Pose X_WB = seen.X_WB;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (const std::optional<PathQuery> query = steps[i]->path_ahead(plane_pose(X_WB))) {
+      if (std::optional<Path> path = place.planner->plan(*query))
+        place.paths.push_back({static_cast<std::int64_t>(i) + 1, place.now, *std::move(path)});
+      else
+        log_warning("'" + name + "', step " + std::to_string(i + 1) + " (" + steps[i]->element() +
+                    "): no path on the ground as it lies when the program begins; it will look again then");
+    }
+    if (const std::optional<Pose> next = steps[i]->station(place.machine, X_WB, surface)) X_WB = *next;
+  }
 }
 
 StepReport Operator::State::report(StepState state, const std::string& reason, const Observation& seen,
@@ -123,8 +153,9 @@ void Operator::State::note(const Command& out) {
   if (out.drive) steer = out.drive->steer;
 }
 
-Operator::Operator(const scene::Machine& machine, const scene::Program& program, std::string name)
-    : state_(std::make_unique<State>(machine, program, std::move(name))) {}
+Operator::Operator(const scene::Machine& machine, const scene::Program& program, std::string name,
+                   const MakePathPlanner& planners)
+    : state_(std::make_unique<State>(machine, program, name, planners)) {}
 Operator::~Operator() = default;
 Operator::Operator(Operator&&) noexcept = default;
 
@@ -142,6 +173,7 @@ ProgramProgress Operator::progress() const {
 }
 CycleEvent Operator::event() const { return state_->event; }
 const std::vector<StepReport>& Operator::reports() const { return state_->reports; }
+const std::vector<PlannedPath>& Operator::paths() const { return state_->place.paths; }
 
 StepReport Operator::present(const Observation& seen, double time) const {
   const State& s = *state_;
@@ -156,8 +188,10 @@ Command Operator::update(const Observation& seen, double time, double dt) {
   s.event = CycleEvent::kNone;
   if (s.failed()) return out;
   if (s.place.arm) s.read_arm(seen);
+  s.place.now = time;
   if (!s.done()) {
     if (!s.active) {
+      if (s.step == 0) s.plan_ahead(seen);
       s.make_activity();
       s.started = time;
       s.active->begin(seen);
@@ -200,6 +234,8 @@ void Operator::visit(Archive& a) {
     // As many as the scene's machine has joints.
     a.fixed("commanded", s.commanded);
     a("steer", s.steer);
+    // Only programs that ask for paths have any.
+    if (s.place.planner) a("paths", s.place.paths);
     // The running step's name, so that a snapshot of another program is refused instead of misread. Between steps there
     // is no activity, and nothing of the last one is left.
     std::string running;

@@ -8,6 +8,7 @@
 
 #include "control/observation.h"
 #include "control/outcome.h"
+#include "control/path_planner.h"
 #include "control/reach.h"
 #include "core/archive.h"
 #include "scene/machine.h"
@@ -22,9 +23,11 @@ namespace navvy::control {
 /// uses the arm holds the arm all the time, also while the machine drives or waits.
 class Operator {
  public:
-  /// `name` is what messages call the machine: that of the instance in the scene; empty: the model's.
-  /// @throws InputError when the machine lacks what the program needs.
-  Operator(const scene::Machine& machine, const scene::Program& program, std::string name = "");
+  /// `name` is what messages call the machine: that of the instance in the scene; empty: the model's. `planners` is
+  /// asked where a step needs paths.
+  /// @throws InputError when the machine lacks what the program needs, or nobody plans the paths it asks for.
+  Operator(const scene::Machine& machine, const scene::Program& program, std::string name = "",
+           const MakePathPlanner& planners = {});
   ~Operator();
   Operator(Operator&&) noexcept;
 
@@ -41,6 +44,9 @@ class Operator {
   /// "curl", "lift", "swing", "dump", "look"; "idle" between steps and after the last; after a step that fell short its
   /// state ("blocked").
   std::string phase() const;
+  /// Every path planned so far. When the program begins one is planned for each step that will want one, from where the
+  /// machine is to stand then; where there is none on the ground as it lies a warning says so.
+  const std::vector<PlannedPath>& paths() const;
   /// What became of the steps that are over, in their order; the last one may have fallen short. A machine that tips
   /// over, or is buried, after its last step has a second report of that step.
   const std::vector<StepReport>& reports() const;

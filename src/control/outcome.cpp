@@ -7,8 +7,8 @@ namespace navvy::control {
 
 const char* name_of(StepState state) {
   // In the order of the enum; a style of its own is never needed, so files and messages share these.
-  static constexpr std::array<const char*, 8> names = {"running", "done",         "blocked",     "stalled",
-                                                       "tipped",  "out_of_reach", "out_of_time", "buried"};
+  static constexpr std::array<const char*, 9> names = {"running",      "done",        "blocked", "stalled", "tipped",
+                                                       "out_of_reach", "out_of_time", "buried",  "no_path"};
   return names.at(static_cast<std::size_t>(state));
 }
 
@@ -21,7 +21,7 @@ void StepReport::visit(Archive& a) {
   a("step", step);
   a("element", element);
   // A state beyond the last has no name.
-  a.ranged("state", state, StepState::kRunning, StepState::kBuried);
+  a.ranged("state", state, StepState::kRunning, StepState::kNoPath);
   a("reason", reason);
   a("start", start);
   a("end", end);

@@ -21,6 +21,7 @@ enum class StepState : std::uint8_t {
   kOutOfReach,  ///< the target cannot be reached from where the machine stands
   kOutOfTime,   ///< its patience, or the run's duration, was over first
   kBuried,      ///< the machine has sunk into the ground, or lies under soil
+  kNoPath,      ///< there is no way to where it shall go
 };
 
 /// As files and messages call it: "out_of_reach".

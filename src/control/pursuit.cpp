@@ -48,10 +48,12 @@ double Pursuit::steer(const PlanePose& at) const {
   return std::clamp(std::atan(wheelbase * curvature), -most_steer, most_steer);
 }
 
-double Pursuit::speed_limit(const PlanePose& at) const {
+double stopping_speed(double left) {
   // v^2 = 2 a s; creeping to the end, where the root would never arrive.
-  return std::max(kCreep, std::sqrt(2 * kDriveAcceleration * std::max(0.0, left(at) - kStopShort)));
+  return std::max(kCreep, std::sqrt(2 * kDriveAcceleration * std::max(0.0, left - kStopShort)));
 }
+
+double Pursuit::speed_limit(const PlanePose& at) const { return stopping_speed(left(at)); }
 
 PlanePose Pursuit::end_from(PlanePose at, double steer_rate) const {
   constexpr double kStep = 0.02;  // [s]

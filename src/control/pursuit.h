@@ -50,5 +50,7 @@ PlanePose plane_pose(const Pose& X_WB);
 
 inline constexpr double kDriveAcceleration = 0.5;  ///< [m/s^2]
 inline constexpr double kStopShort = 0.02;         ///< the brake goes on this far ahead of the target [m]
+/// Largest speed [m/s, > 0] from which a machine still stops after `left` [m].
+double stopping_speed(double left);
 
 }  // namespace navvy::control

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/reach.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -26,13 +27,20 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 }
 
 ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-                       const SurfaceView& surface_in, std::string file, const std::string& name)
+                       const SurfaceView& surface_in, std::string file, const std::string& name,
+                       const MakePathPlanner& planners)
     : machine(machine_in),
       surface(surface_in),
       X_WB(X_WB_at_start),
       program_(program),
       file_(std::move(file)),
-      name_(name.empty() ? machine_in.name : name) {}
+      name_(name.empty() ? machine_in.name : name) {
+  const auto asks = [](const scene::ProgramStep& step) { return step_of(step).needs_planner(); };
+  if (!planners || std::none_of(program.steps.begin(), program.steps.end(), asks)) return;
+  std::unique_ptr<PathPlanner> made = planners(machine);
+  made->look(surface);
+  planner = std::move(made);
+}
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
@@ -46,10 +54,26 @@ std::vector<Fault> ReachCheck::run() {
 
 void ReachCheck::fault(const std::string& element, const std::string& value, const std::string& rule,
                        const std::string& remedy) {
+  add(Fault::Severity::kError, element, value, rule, remedy);
+}
+
+void ReachCheck::warn(const std::string& element, const std::string& value, const std::string& rule,
+                      const std::string& remedy) {
+  add(Fault::Severity::kWarning, element, value, rule, remedy);
+}
+
+bool ReachCheck::after_digging() const {
+  const auto end = program_.steps.begin() + static_cast<std::ptrdiff_t>(index_);
+  return std::any_of(program_.steps.begin(), end,
+                     [](const scene::ProgramStep& step) { return step_of(step).dump_point().has_value(); });
+}
+
+void ReachCheck::add(Fault::Severity severity, const std::string& element, const std::string& value,
+                     const std::string& rule, const std::string& remedy) {
   // Programs built in C++ have no lines.
   const int line = index_ < program_.lines.size() ? program_.lines[index_] : 0;
-  faults_.push_back({Fault::Severity::kError, file_, line,
-                     name_ + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element, value, rule, remedy});
+  faults_.push_back({severity, file_, line, name_ + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element,
+                     value, rule, remedy});
 }
 
 void ReachCheck::require_swing(const Arm& arm, const char* element, double swing, const char* remedy) {
@@ -62,8 +86,9 @@ void ReachCheck::require_swing(const Arm& arm, const char* element, double swing
 }
 
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const SurfaceView& surface, const std::string& file, const std::string& name) {
-  return ReachCheck(machine, program, X_WB, surface, file, name).run();
+                               const SurfaceView& surface, const std::string& file, const std::string& name,
+                               const MakePathPlanner& planners) {
+  return ReachCheck(machine, program, X_WB, surface, file, name, planners).run();
 }
 
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,

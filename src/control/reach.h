@@ -2,10 +2,12 @@
 // Looks over a program before the run: what cannot be reached is told at once.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "control/arm.h"
+#include "control/path_planner.h"
 #include "control/surface.h"
 #include "core/error.h"
 #include "core/math.h"
@@ -23,21 +25,30 @@ class ReachCheck {
   /// `file`, the program's lines and the machine's `name` in the scene are for messages. The machine stands at
   /// `X_WB_at_start`.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-             const SurfaceView& surface_in, std::string file, const std::string& name);
+             const SurfaceView& surface_in, std::string file, const std::string& name, const MakePathPlanner& planners);
 
   const scene::Machine& machine;  ///< whose program it is
   const SurfaceView& surface;     ///< what digs and drives look at
-  Pose X_WB;                      ///< base link, when the step begins
+  /// Has looked at the surface; null where nobody plans, or no step asks for it.
+  std::unique_ptr<const PathPlanner> planner;
+  Pose X_WB;  ///< base link, when the step begins
 
   /// Asks every step in turn, moving X_WB on from station to station.
   std::vector<Fault> run();
 
   /// An error of the present step. `element` is the step's, or a part of it: "dig/far end".
   void fault(const std::string& element, const std::string& value, const std::string& rule, const std::string& remedy);
+  /// The same as a warning: what may be otherwise by then.
+  void warn(const std::string& element, const std::string& value, const std::string& rule, const std::string& remedy);
+  /// Whether a step before the present one changes the ground.
+  bool after_digging() const;
   /// Tells of an angle [rad] beyond the swing joint's limits.
   void require_swing(const Arm& arm, const char* element, double swing, const char* remedy);
 
  private:
+  void add(Fault::Severity severity, const std::string& element, const std::string& value, const std::string& rule,
+           const std::string& remedy);
+
   // Index of the present step, for messages.
   const scene::Program& program_;
   std::string file_, name_;
@@ -57,9 +68,10 @@ std::string held_text(const scene::Joint& joint, const vehicle::JointState& stat
 
 /// Every target of the program that cannot be reached from where the machine will then stand: needed and possible
 /// distances. `X_WB` is the base link's pose at the start, `surface` the ground that digs and drives look at.
-/// Messages call it `name`, as the scene does; empty: by its model.
+/// Messages call it `name`, as the scene does; empty: by its model. `planners` is asked where a step needs paths.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const SurfaceView& surface, const std::string& file, const std::string& name = "");
+                               const SurfaceView& surface, const std::string& file, const std::string& name = "",
+                               const MakePathPlanner& planners = {});
 
 /// Poses of the base link where a program makes the machine stand: `X_WB` at the start, then the end of every drive.
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "control/path_planner.h"
 #include "control/surface.h"
 #include "core/math.h"
 #include "scene/machine.h"
@@ -36,6 +37,10 @@ class Step : public scene::Step {
   virtual bool needs_arm() const { return false; }
   /// @throws InputError when the machine lacks what the step needs; programs built in C++ have met no reader.
   virtual void check_machine(const scene::Machine&) const {}
+  /// Whether it asks for paths; the operator then brings a planner.
+  virtual bool needs_planner() const { return false; }
+  /// What to plan before the program begins, for a machine that will stand at `from` when the step's turn comes.
+  virtual std::optional<PathQuery> path_ahead(const PlanePose& /*from*/) const { return std::nullopt; }
   /// A new activity that carries the step out. Step and workplace must outlive it.
   virtual std::unique_ptr<Activity> activity(Workplace& place) const = 0;
 

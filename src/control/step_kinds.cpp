@@ -4,6 +4,7 @@
 #include "control/activities/dig/dig.h"
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
+#include "control/activities/go_to.h"
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
@@ -15,8 +16,9 @@ namespace navvy::control {
 const scene::StepKinds& step_kinds() {
   // The one place that names every step. Messages list them in this order.
   static const scene::StepKinds kinds = {
-      scene::step_kind<DriveTo>(), scene::step_kind<Dig>(), scene::step_kind<Swing>(),   scene::step_kind<Dump>(),
-      scene::step_kind<Wait>(),    scene::step_kind<Tip>(), scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(),
+      scene::step_kind<DriveTo>(), scene::step_kind<Dig>(),        scene::step_kind<Swing>(),
+      scene::step_kind<Dump>(),    scene::step_kind<Wait>(),       scene::step_kind<Tip>(),
+      scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(), scene::step_kind<GoTo>(),
   };
   return kinds;
 }

@@ -2,7 +2,8 @@
 // The surface an operator looks at.
 #pragma once
 
-#include "heightfield/terrain.h"
+#include "heightfield/ground.h"
+#include "heightfield/terrain_view.h"
 
 namespace navvy::control {
 
@@ -13,19 +14,22 @@ class SurfaceView {
   virtual ~SurfaceView() = default;
   /// What can be seen from the cab now; valid until the world steps on.
   virtual const heightfield::Terrain& terrain() const = 0;
+  /// The same instant as maps have it, without what buckets and beds hold; stays as it is. For planners.
+  virtual heightfield::TerrainView mapped() const = 0;
   /// Its height at W (x, y) [m].
   double height(double x, double y) const { return terrain().sample(x, y); }
 };
 
-/// A terrain that is at hand: a ground's resting columns, or a view.
+/// The resting columns of a ground that is at hand.
 class GroundSurface final : public SurfaceView {
  public:
-  /// `terrain` must outlive it.
-  explicit GroundSurface(const heightfield::Terrain& terrain) : terrain_(terrain) {}
-  const heightfield::Terrain& terrain() const override { return terrain_; }
+  /// `ground` must outlive it.
+  explicit GroundSurface(const heightfield::Ground& ground) : ground_(ground) {}
+  const heightfield::Terrain& terrain() const override { return ground_; }
+  heightfield::TerrainView mapped() const override { return ground_.view(); }
 
  private:
-  const heightfield::Terrain& terrain_;
+  const heightfield::Ground& ground_;
 };
 
 }  // namespace navvy::control

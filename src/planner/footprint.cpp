@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "sim/collision_box.h"
 
 namespace navvy::planner {
 namespace {
@@ -61,6 +62,34 @@ void require_valid(const Footprint& f, double x, double y, double yaw, double ra
 }
 
 }  // namespace
+
+Footprint footprint_of(const scene::Machine& machine) {
+  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  const auto extend = [&](const Pose& X_BO, const Vec3& half) {
+    const Vec3 reach = X_BO.linear().cwiseAbs() * half;
+    low = low.cwiseMin(X_BO.translation() - reach);
+    high = high.cwiseMax(X_BO.translation() + reach);
+  };
+  if (!machine.links.empty()) {
+    const Pose X_BM = machine.links[0].X_ML.inverse();
+    for (const scene::Collision& collision : machine.links[0].collisions)
+      if (const auto box = sim::box_of(collision)) extend(box->X_WO, box->half);
+    for (const scene::Wheel& wheel : machine.wheels) {
+      const int joint = machine.joint_index(wheel.joint);
+      if (joint < 0) continue;
+      // A wheel turns about y.
+      const auto link = static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
+      const double width = wheel.width + wheel.twin_spacing;
+      extend(X_BM * machine.links[link].X_ML, Vec3(wheel.radius, width / 2, wheel.radius));
+    }
+  }
+  if (!(low.x() <= high.x()))
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name, "",
+                           "a machine without wheels and collision shapes of its base has no footprint",
+                           "add a <collision> to its base link"});
+  // The reference point need not lie inside, but a rectangle round it is all that is asked for.
+  return {std::max(0.0, high.x()), std::max(0.0, -low.x()), std::max(0.0, high.y()), std::max(0.0, -low.y())};
+}
 
 double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw, double range,
                  float least) {

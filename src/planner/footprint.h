@@ -4,6 +4,7 @@
 
 #include "core/math.h"
 #include "planner/terrain_map.h"
+#include "scene/machine.h"
 
 namespace navvy::planner {
 
@@ -11,6 +12,10 @@ namespace navvy::planner {
 struct Footprint {
   double front = 0, rear = 0, left = 0, right = 0;
 };
+
+/// Of a machine, round its base link's origin: the rectangle about its wheels, straight ahead, and the collision shapes
+/// of its base. What swings above them is left out. @throws InputError for a machine without either.
+Footprint footprint_of(const scene::Machine& machine);
 
 /// Distance from the footprint, its reference point at W (x, y) and its x turned by `yaw` [rad] from W's, to the
 /// nearest column that is not traversable [m]: to the column's square, exactly. 0 when they overlap, `range` when there

@@ -48,12 +48,15 @@ json cycle_list(const session::Session& session) {
   for (const session::Cycle& cycle : session.cycles())
     cycles.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
                       {"start_s", cycle.start},
+                      {"curl_s", cycle.curl},
                       {"lift_out_s", cycle.lift_out},
                       {"dump_start_s", cycle.dump_start},
                       {"end_s", cycle.end},
                       {"payload_at_lift_out_kg", cycle.payload_lift_out},
                       {"payload_at_dump_kg", cycle.payload_dump},
-                      {"force_peak_n", cycle.force_peak}});
+                      {"force_peak_n", cycle.force_peak},
+                      {"draft_peak_n", cycle.draft_peak},
+                      {"uplift_peak_n", cycle.uplift_peak}});
   // From the end of the cycle before, or from the start: together they are the run's up to the last one's end.
   const auto& ends = session.energy_at_ends();
   for (std::size_t i = 0; i < std::min(ends.size(), cycles.size()); ++i)
@@ -164,6 +167,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   if (const auto energy = world.soil_energy()) out["soil_energy_j"] = soil_energy(*energy, nullptr);
   // Forces over all steps, not over telemetry's rows.
   out["bucket_force_peak_n"] = session.force().peak;
+  out["bucket_draft_peak_n"] = session.force().draft_peak;
   out["bucket_force_mean_n"] = session.force().mean();
   out["rock_force_peak_n"] = session.force().rock_peak;
   out["momentum_residual_max"] = session.force().residual_max;

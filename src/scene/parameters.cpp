@@ -85,11 +85,12 @@ void put(const Writer& w, const Soil& soil) {
 void put(const Writer& w, const SolverSettings& solver) {
   // The control rate acts through the base step alone, which the state holds: left out, so that a plain run's snapshot
   // can be gone on from under a controller.
-  const auto& [cell, courant, max_step, control_rate, max_particles, exchange] = solver;
+  const auto& [cell, courant, max_step, control_rate, max_particles, awake_zone, exchange] = solver;
   w("cell", cell);
   w("courant", courant);
   w("max_step", max_step);
   w("max_particles", max_particles);
+  w("awake_zone", awake_zone);
   w("exchange", exchange);
 }
 

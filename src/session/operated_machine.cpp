@@ -27,14 +27,19 @@ const heightfield::Terrain& SeenSurface::terrain() const {
   return *view_;
 }
 
-OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs)
+heightfield::TerrainView SeenSurface::mapped() const {
+  return sim::terrain_view(world_, heightfield::SurfaceKind::kMapped);
+}
+
+OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
+                                 const control::MakePathPlanner& planners)
     : world_(world),
       machine_(world.machine(machine)),
       base_(machine_.link(0)),
-      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name()) {
+      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(), planners) {
   const scene::Machine& description = machine_.description();
   // A machine digs with its first bucket and tips its first bed; the others are passive.
-  if (!description.buckets.empty()) bucket_ = machine_.tool(description.buckets[0].shell);
+  if (!description.buckets.empty()) bucket_.emplace(machine_, description.buckets[0]);
   if (!description.beds.empty()) bed_ = machine_.tool(description.beds[0].shell);
   for (std::size_t j = 0; j < description.joints.size(); ++j) joints_.push_back(machine_.joint(static_cast<int>(j)));
   for (std::size_t w = 0; w < description.wheels.size(); ++w) wheels_.push_back(machine_.wheel(static_cast<int>(w)));
@@ -48,7 +53,7 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
 void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {
   if (taken_) return;
   const bool well = !op_.ended() || op_.done();
-  observe(seen_);
+  load_ = observe(seen_);
   // Time and step go in: operators have no clock of their own.
   send(op_.update(seen_, world_.time(), world_.dt()));
   note_cycle(cycles);
@@ -58,7 +63,7 @@ void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips
 }
 
 /// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
-void OperatedMachine::observe(control::Observation& seen) const {
+BucketLoad OperatedMachine::observe(control::Observation& seen) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
   // The base link stands for the machine, as in programs' coordinates.
   const vehicle::LinkState base = base_.state();
@@ -75,10 +80,12 @@ void OperatedMachine::observe(control::Observation& seen) const {
     if (world_.ground().sample(top.x(), top.y()) > top.z()) seen.wheels_under += 1.0 / double(wheels_.size());
   }
   // A machine without a bucket carries no load that a gauge would show.
-  if (!bucket_) return;
+  if (!bucket_) return {};
   // Low-passed: an operator reacts to the push, not to single particles.
-  seen.force = bucket_->smooth_force().norm();
-  if (world_.steps() % kPayloadInterval == 0) seen.payload = bucket_->payload();
+  const BucketLoad load = bucket_->load();
+  seen.force = load.whole;
+  if (world_.steps() % kPayloadInterval == 0) seen.payload = bucket_->tool().payload();
+  return load;
 }
 
 /// A joint without a new command keeps its last one: operators speak only when something changes.
@@ -114,14 +121,17 @@ void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
   }
   // Without a bucket nothing is ever opened: only digs tell of scoops.
   if (!open_ || !bucket_) return;
-  // The peak of the low-passed force is what a cylinder would feel.
-  open_->force_peak = std::max(open_->force_peak, seen_.force);
+  // Peaks of the low-passed force are what a cylinder would feel.
+  open_->force_peak = std::max(open_->force_peak, load_.whole);
+  open_->draft_peak = std::max(open_->draft_peak, load_.draft);
+  if (event == CycleEvent::kCurlStart) open_->curl = world_.time();
+  if (open_->curl > 0) open_->uplift_peak = std::max(open_->uplift_peak, load_.uplift);
   if (event == CycleEvent::kLiftOut) {
     open_->lift_out = world_.time();
-    open_->payload_lift_out = bucket_->payload();
+    open_->payload_lift_out = bucket_->tool().payload();
   } else if (event == CycleEvent::kDumpStart) {
     open_->dump_start = world_.time();
-    open_->payload_dump = bucket_->payload();
+    open_->payload_dump = bucket_->tool().payload();
   } else if (event == CycleEvent::kCycleEnd) {
     open_->end = world_.time();
     cycles.push_back(*open_);
@@ -141,7 +151,7 @@ bool OperatedMachine::take() {
 }
 
 ProgramReport OperatedMachine::report() const {
-  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports()};
+  ProgramReport out{index(), op_.progress().steps, taken_, op_.reports(), op_.paths()};
   // A program that has ended stands in its last report already.
   if (op_.ended()) return out;
   // What was seen last is a step old, and nothing at all after a snapshot was loaded.

@@ -10,6 +10,7 @@
 #include "control/operator.h"
 #include "core/archive.h"
 #include "heightfield/terrain_view.h"
+#include "session/bucket_gauge.h"
 #include "session/reports.h"
 #include "sim/world.h"
 
@@ -22,6 +23,8 @@ class SeenSurface final : public control::SurfaceView {
   /// `world` must outlive it.
   explicit SeenSurface(const sim::World& world) : world_(world) {}
   const heightfield::Terrain& terrain() const override;
+  /// A view of its own each time.
+  heightfield::TerrainView mapped() const override;
   /// The next question takes a new view.
   void forget() { view_.reset(); }
 
@@ -37,7 +40,8 @@ class OperatedMachine {
   using Programs = std::map<std::string, control::ProgramProgress>;
 
   /// What operators see beside their own machine is shared; all references must outlive it.
-  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs);
+  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
+                  const control::MakePathPlanner& planners);
 
   int index() const { return machine_.index(); }
   const std::string& name() const { return machine_.name(); }
@@ -57,7 +61,8 @@ class OperatedMachine {
   void visit(Archive& a);
 
  private:
-  void observe(control::Observation& seen) const;
+  /// Returns what the soil does to the bucket in more detail than an operator sees.
+  BucketLoad observe(control::Observation& seen) const;
   void send(const control::Command& command);
   void note_cycle(std::vector<Cycle>& cycles);
   void note_tip(std::vector<BedTip>& tips);
@@ -67,10 +72,12 @@ class OperatedMachine {
   sim::LinkHandle base_;
   std::vector<sim::JointHandle> joints_;
   std::vector<sim::WheelHandle> wheels_;
-  std::optional<sim::ToolHandle> bucket_, bed_;
+  std::optional<BucketGauge> bucket_;
+  std::optional<sim::ToolHandle> bed_;
   // The operator's own memory is in it; what it saw last is beside it.
   control::Operator op_;
   control::Observation seen_;
+  BucketLoad load_;
   // Begun and not yet ended.
   std::optional<Cycle> open_;
   std::optional<BedTip> open_tip_;

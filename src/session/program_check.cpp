@@ -89,13 +89,13 @@ class BedCheck {
 }  // namespace
 
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
-                                  const std::vector<Pose>& X_WB) {
+                                  const std::vector<Pose>& X_WB, const control::MakePathPlanner& planners) {
   std::vector<Fault> faults;
   // Errors first: a dig out of reach is worse than one that drops its load too low.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     for (Fault& fault :
-         control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file, placed.name))
+         control::check_reach(placed.machine, placed.program, X_WB.at(m), surface, world.file, placed.name, planners))
       faults.push_back(std::move(fault));
   }
   BedCheck beds(world, surface, X_WB);
@@ -105,12 +105,12 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 }
 
 /// Lays the ground as a run would, but looks at columns alone: before a run no soil lies loose.
-std::vector<Fault> check_programs(const scene::Scene& world) {
+std::vector<Fault> check_programs(const scene::Scene& world, const control::MakePathPlanner& planners) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
     sim::check_awake(world, ground);
     heightfield::make_design(world, ground);
-    return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground));
+    return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground), planners);
   } catch (const InputError& error) {
     // A ground that cannot be laid is itself the answer.
     return error.faults();

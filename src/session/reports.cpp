@@ -9,12 +9,15 @@ namespace navvy::session {
 void Cycle::visit(Archive& a) {
   a("machine", machine);
   a("start", start);
+  a("curl", curl);
   a("lift_out", lift_out);
   a("dump_start", dump_start);
   a("end", end);
   a("payload_lift_out", payload_lift_out);
   a("payload_dump", payload_dump);
   a("force_peak", force_peak);
+  a("draft_peak", draft_peak);
+  a("uplift_peak", uplift_peak);
 }
 
 void BedTip::visit(Archive& a) {
@@ -27,6 +30,7 @@ void BedTip::visit(Archive& a) {
 
 void ForceStatistics::visit(Archive& a) {
   a("peak", peak);
+  a("draft_peak", draft_peak);
   a("sum", sum);
   a("steps", steps);
   a("rock_peak", rock_peak);

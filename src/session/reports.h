@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/outcome.h"
+#include "control/path.h"
 #include "core/archive.h"
 
 namespace navvy::session {
@@ -15,9 +16,11 @@ namespace navvy::session {
 /// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
 struct Cycle {
   int machine = 0;  ///< as in scene::Scene::machines
-  double start = 0, lift_out = 0, dump_start = 0, end = 0;
+  double start = 0, curl = 0, lift_out = 0, dump_start = 0, end = 0;
   double payload_lift_out = 0, payload_dump = 0;
-  double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
+  double force_peak = 0;   ///< largest low-passed soil force on the bucket [N]
+  double draft_peak = 0;   ///< largest of it against the lip's motion: what digging takes [N]
+  double uplift_peak = 0;  ///< largest of it upward since the curl began: the heel or back bears on the ground [N]
 
   void visit(Archive& a);
 };
@@ -34,8 +37,9 @@ struct BedTip {
 /// Soil force on buckets over all steps in contact.
 /// Beds do not count: what lies in them is a load.
 struct ForceStatistics {
-  double peak = 0;  ///< of the low-passed force [N]
-  double sum = 0;   ///< of |force| x steps in contact
+  double peak = 0;        ///< of the low-passed force [N]
+  double draft_peak = 0;  ///< of its part against the motion of a bucket's lip [N]
+  double sum = 0;         ///< of |force| x steps in contact
   std::uint64_t steps = 0;
   double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
   double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
@@ -51,6 +55,8 @@ struct ProgramReport {
   bool taken = false;  ///< by inputs, which drive the machine since then
   /// Of every step that is over, and of the one that runs: its state is that of the program.
   std::vector<control::StepReport> list;
+  /// Every path planned so far, in the order in which they were.
+  std::vector<control::PlannedPath> paths;
 
   /// The step that the program is at, or ended with.
   const control::StepReport& last() const { return list.back(); }

@@ -16,6 +16,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "heightfield/design.h"
+#include "session/bucket_gauge.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
@@ -36,13 +37,18 @@ struct Session::State {
         surface(world),
         device_name(device.info().name),
         // Tools never change in number or order.
-        tools(world.tools()) {}
+        tools(world.tools()) {
+    for (int m = 0; m < world.machine_count(); ++m)
+      for (const scene::Bucket& bucket : world.machine(m).description().buckets)
+        buckets.emplace_back(world.machine(m), bucket);
+  }
 
   // World, surface and handles are built in this order and refer to what stands above.
   sim::World world;
   SeenSurface surface;
   std::string device_name;
   std::vector<sim::ToolHandle> tools;  ///< all of the world
+  std::vector<BucketGauge> buckets;    ///< of all machines
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
@@ -81,6 +87,7 @@ void Session::State::note_forces() {
       force.residual_max =
           std::max(force.residual_max, balance.residual_moment.cwiseAbs().maxCoeff() / balance.scale_moment);
   }
+  for (const BucketGauge& bucket : buckets) force.draft_peak = std::max(force.draft_peak, bucket.load().draft);
 }
 
 void Session::State::take_over(int machine) {
@@ -91,8 +98,9 @@ void Session::State::take_over(int machine) {
 
 /// What is not the world's: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
-  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports.
-  a.section("session", 5, [&] {
+  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports;
+  // 6: peaks of draft and back.
+  a.section("session", 6, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -110,22 +118,17 @@ void Session::State::visit(Archive& a) {
   });
 }
 
-Session::Session(scene::Scene description, device::Device& device)
+Session::Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // Reach depends on where the machines stand on this very ground.
   X_WB.reserve(s.world.description().machines.size());
-  for (int m = 0; m < s.world.machine_count(); ++m) {
-    // Machines without a program have no operator; inputs drive them.
-    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
-      s.operated.emplace_back(s.world, m, s.surface, s.programs);
-    X_WB.push_back(s.world.machine(m).link(0).pose());
-  }
+  for (int m = 0; m < s.world.machine_count(); ++m) X_WB.push_back(s.world.machine(m).link(0).pose());
   // A design that cannot be laid on this site is told now and not by the first who looks at it.
   s.design = heightfield::make_design(s.world.description(), s.world.ground());
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
-  std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB);
+  std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB, planners);
   // Bodies within each other would be thrown apart in the first step.
   for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB)) faults.push_back(std::move(fault));
   for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
@@ -133,6 +136,10 @@ Session::Session(scene::Scene description, device::Device& device)
   const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
+  // Only sound programs get their operators. Machines without a program have none; inputs drive them.
+  for (int m = 0; m < s.world.machine_count(); ++m)
+    if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
+      s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
 }
 
 Session::~Session() = default;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "control/path_planner.h"
 #include "core/archive.h"
 #include "session/reports.h"
 #include "sim/world.h"
@@ -24,9 +25,10 @@ namespace navvy::session {
 /// inputs alone, for good. Machines without a program are driven by inputs from the start. Not thread-safe.
 class Session {
  public:
+  /// `planners` is asked for paths by programs with a step that needs them, as a rule planner::path_planners().
   /// @throws InputError listing every target of a program that is out of reach and all machines that overlap, before
   /// anything moves; device::DeviceError for the device.
-  Session(scene::Scene description, device::Device& device);
+  Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

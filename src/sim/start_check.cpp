@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "coupling/settling.h"
-#include "geometry/obj/read_obj.h"
 #include "geometry/oriented_box.h"
-#include "geometry/triangle_mesh.h"
 #include "heightfield/site.h"
+#include "sim/collision_box.h"
 #include "sim/placing.h"
 #include "vehicle/kinematics.h"
 
@@ -30,40 +29,6 @@ std::string text(const char* format, double value) {
   std::array<char, 48> out{};
   std::snprintf(out.data(), out.size(), format, value);
   return out.data();
-}
-
-/// The box round a collision shape in its link's frame; none for planes, which are ground of their own, and for meshes
-/// that cannot be read, of which the loader has told.
-std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
-  const scene::Geometry& g = collision.geometry;
-  geometry::OrientedBox box{collision.X_LC, Vec3::Zero()};
-  switch (g.kind) {
-    case scene::Geometry::Kind::kBox:
-      box.half = 0.5 * g.size;
-      return box;
-    case scene::Geometry::Kind::kCylinder:
-    case scene::Geometry::Kind::kCone:
-      box.half = Vec3(g.radius, g.radius, 0.5 * g.length);
-      return box;
-    case scene::Geometry::Kind::kCapsule:
-      box.half = Vec3(g.radius, g.radius, 0.5 * g.length + g.radius);
-      return box;
-    case scene::Geometry::Kind::kSphere:
-      box.half = Vec3::Constant(g.radius);
-      return box;
-    case scene::Geometry::Kind::kPlane:
-      return std::nullopt;
-    case scene::Geometry::Kind::kMesh:
-      break;
-  }
-  try {
-    const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
-    box.X_WO = collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
-    box.half = 0.5 * (round.high - round.low).cwiseProduct(g.scale.cwiseAbs());
-    return box;
-  } catch (const Error&) {
-    return std::nullopt;
-  }
 }
 
 std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X_WB) {

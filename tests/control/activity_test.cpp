@@ -14,6 +14,7 @@
 
 #include "control/activities/drive_to.h"
 #include "control/activities/dump.h"
+#include "control/activities/go_to.h"
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
@@ -42,6 +43,16 @@ scene::Machine able_machine() {
   return machine;
 }
 
+/// Straight ahead on ground that is good everywhere.
+class StraightPlanner final : public PathPlanner {
+ public:
+  void look(const SurfaceView&) override {}
+  double clearance(const PlanePose&, double range) const override { return range; }
+  std::optional<Path> plan(const PathQuery& query) const override {
+    return Path(query.start, {{(query.goal.p - query.start.p).norm(), 0}});
+  }
+};
+
 /// One step's activity, begun, with nothing round it but a workplace and what it sees.
 class Alone {
  public:
@@ -54,6 +65,7 @@ class Alone {
     programs["other"] = {0, 3};
     seen.programs = &programs;
     if (step_of(step).needs_arm()) place.arm.emplace(place.machine);
+    if (step_of(step).needs_planner()) place.planner = std::make_unique<StraightPlanner>();
     for (std::size_t i = 0; place.arm && i < 4; ++i) place.handover.q[i] = seen.joints[place.joint(i)].position;
     activity = step_of(step).activity(place);
     activity->begin(seen);
@@ -120,8 +132,14 @@ DriveTo ahead() {
 }
 
 /// A step of every kind but the dig, which has tests of its own.
+GoTo there() {
+  GoTo step;
+  step.target = Vec2(3, 0);
+  return step;
+}
+
 std::vector<scene::ProgramStep> one_of_each() {
-  return {ahead(), Swing(0.8), Dump(0.5), Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2), path()};
+  return {ahead(), Swing(0.8), Dump(0.5), Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2), path(), there()};
 }
 
 TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
@@ -133,12 +151,13 @@ TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
 }
 
 TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {
-  const std::map<std::string, std::string> names = {{"drive_to", "drive"}};
+  const std::map<std::string, std::set<std::string>> names = {{"drive_to", {"drive"}},
+                                                              {"go_to", {"plan", "turn", "drive", "stop"}}};
   for (const scene::ProgramStep& step : one_of_each()) {
     Alone alone(step);
     EXPECT_LT(alone.run(60), 20) << step->element();
     const auto name = names.find(step->element());
-    EXPECT_EQ(alone.phases, std::set<std::string>{name == names.end() ? step->element() : name->second});
+    EXPECT_EQ(alone.phases, name == names.end() ? std::set<std::string>{step->element()} : name->second);
   }
 }
 

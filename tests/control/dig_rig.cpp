@@ -85,7 +85,10 @@ Observation DigRig::look() const {
 
 bool DigRig::against_rock(const Command& command) const {
   const Vec3 tip = engine->link(0, machine_.link_index("bucket")).X_WL * machine_.buckets[0].p_tip;
-  if (tip.x() < rock_from || tip.x() > rock_to || tip.z() > rock_top) return false;
+  const bool rock = tip.x() >= rock_from && tip.x() <= rock_to && tip.z() <= rock_top;
+  // The slice is the uncut ground just ahead of the lip, which goes towards the machine.
+  const bool strong = ground.sample(tip.x() - 0.2, tip.y()) - tip.z() > thickest_slice;
+  if (!rock && !strong) return false;
   // Up is free, anything else is held.
   const Arm arm(machine_);
   ArmAngles q;
@@ -113,6 +116,9 @@ void DigRig::step() {
   engine->step(kStep, Plane());
   time += kStep;
   const Pose X_WB = engine->link(0, machine_.link_index("bucket")).X_WL;
+  // The link's origin is the pin.
+  if (!std::exchange(curling_, op.phase() == "curl")) pin_ = X_WB.translation().z();
+  if (curling_) deepest_curl = std::max(deepest_curl, pin_ - X_WB.translation().z());
   sweep(X_WB);
   pour(X_WB);
   leak(X_WB);

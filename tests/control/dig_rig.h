@@ -44,6 +44,10 @@ class DigRig {
   /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
   double rock_from = 0, rock_to = 0, rock_top = -100;
   bool hit_rock = false;
+  /// Soil so strong that a thicker slice holds the bucket as rock does [m].
+  double thickest_slice = 100;
+  /// How far the bucket's pin sank in a curl, at most [m].
+  double deepest_curl = 0;
   /// Until then [s] the operator sees the machine stand level, and as it stands from then on: ground that gave way.
   double settled_at = 0;
   /// What the bucket loses while it is lifted, and how long after the start of the lift.
@@ -69,6 +73,8 @@ class DigRig {
   bool stalled_ = false;
   bool carrying_ = false;
   bool lifting_ = false;
+  bool curling_ = false;
+  double pin_ = 0;  // height of the bucket's pin before the last curl [m]
 };
 
 /// Ground now minus ground at the start, against the design.

@@ -130,6 +130,25 @@ TEST(Dig, GivesWayToRockAndFinishesTheRest) {
   for (const DigRig::Cycle& cycle : rig.cycles) EXPECT_LT(cycle.end - cycle.start, 60);
 }
 
+TEST(Dig, CurlsAboutTheBucketsPinAndNotOnItsHeel) {
+  // About the lip the pin would sink by 0.42 m and press the heel on the floor.
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(rig.run(400)) << rig.op.phase();
+  std::printf("the pin sinks by %.3f m\n", rig.deepest_curl);
+  EXPECT_LT(rig.deepest_curl, 0.35);
+}
+
+TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
+  Lines log;
+  DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  rig.thickest_slice = 0.12;
+  ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
+  const TrenchMeasure measured = measure(rig.ground, trench());
+  report(rig, measured);
+  EXPECT_NE(log.text().find("the soil holds the bucket: slices of"), std::string::npos) << log.text();
+  expect_good(measured);
+}
+
 TEST(Dig, EndsWhenScoopsBringNothing) {
   // The whole line is rock at the surface: nothing can be dug, and the operator does not try for ever.
   Lines log;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/activities/drive_to.h"
+#include "control/bicycle.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
 #include "control/pursuit.h"
@@ -13,27 +14,7 @@
 namespace navvy::control::testing {
 namespace {
 
-constexpr double kStep = 0.005;  // [s]
-
-struct Bicycle {
-  PlanePose at;
-  double speed = 0, steer = 0;
-  bool braked = false;
-  double fastest = 0;  // [m/s]
-  double most_acceleration = 0;
-
-  void step(const vehicle::DriveInput& input) {
-    constexpr double kLag = 0.2;  // of the drive [s]
-    const double before = speed;
-    speed += ((input.brake ? 0 : input.speed) - speed) * kStep / (input.brake ? 0.05 : kLag);
-    most_acceleration = std::max(most_acceleration, input.brake ? 0.0 : std::abs(speed - before) / kStep);
-    steer += std::clamp(input.steer - steer, -radians(30) * kStep, radians(30) * kStep);
-    at.p += speed * kStep * Vec2(std::cos(at.yaw), std::sin(at.yaw));
-    at.yaw += speed * kStep * std::tan(steer) / 2.8;
-    fastest = std::max(fastest, std::abs(speed));
-    braked = input.brake;
-  }
-};
+constexpr double kStep = Bicycle::kStep;
 
 struct Arrival {
   bool done = false;

@@ -207,7 +207,7 @@ TEST(NewStep, CanWaitForOthersAndCirclesAreFound) {
 }
 
 TEST(NewStep, IsUnknownWithoutItsRow) {
-  expect_in("known here: drive_to, dig, swing, dump, wait, tip, wait_for, trajectory",
+  expect_in("known here: drive_to, dig, swing, dump, wait, tip, wait_for, trajectory, go_to",
             failure("<nod><times>2</times></nod>", kWait, step_kinds()));
   expect_in("did you mean 'nod'?", failure("<nodd><times>2</times></nodd>", kWait, kinds_with_nod()));
 }

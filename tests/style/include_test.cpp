@@ -87,6 +87,7 @@ const std::vector<Library>& libraries() {
       {"libpng", {"png.h"}, {"src/render", "src/record", "src/planner/formats"}},
       {"Fast-CDR", {"fastcdr/"}, {"src/planner/ros"}},
       {"SQLite", {"sqlite3.h"}, {"src/planner/ros"}},
+      {"OMPL", {"ompl/"}, {"src/planner/ompl"}},
       {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
       {"spdlog", {"spdlog/"}, {"src/cli"}},
@@ -300,6 +301,9 @@ TEST(Includes, OfAWrongKindAreFound) {
   EXPECT_EQ(violations("src/sim/a.cpp", "#include \"common/portable.h\"\n"), 1u);
   EXPECT_EQ(violations("src/sim/a.cpp", "#include \"control/operator.h\"\n"), 1u);
   EXPECT_EQ(violations("src/session/a.cpp", "#include \"control/operator.h\"\n"), 0u);
+  EXPECT_EQ(violations("src/control/a.cpp", "#include <ompl/config.h>\n"), 1u);
+  EXPECT_EQ(violations("src/planner/a.cpp", "#include <ompl/config.h>\n"), 1u);
+  EXPECT_EQ(violations("src/planner/ompl/a.cpp", "#include <ompl/config.h>\n"), 0u);
   EXPECT_EQ(violations("src/sensor/a.cpp", "#include \"render/renderer.h\"\n"), 1u);
   EXPECT_EQ(violations("src/sensor/camera/a.cpp", "#include \"render/renderer.h\"\n"), 0u);
   EXPECT_EQ(violations("src/attic/a.cpp", ""), 1u);

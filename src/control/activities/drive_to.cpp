@@ -7,42 +7,26 @@
 #include <string>
 
 #include "control/activity.h"
+#include "control/headway.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
 
-constexpr double kStandTime = 0.5;    // [s] at rest with the brake on
-constexpr double kStandSpeed = 0.02;  // [m/s]
-// A machine that has moved by less than this within the patience does not get on. The patience is that of a driver who
-// sees nothing happen, longer for drives so slow that they need it.
-constexpr double kMoved = 0.05, kTurned = radians(2);  // [m], [rad]
-constexpr double kPatience = 5;                        // [s]
-// Tyres that push sideways with this share of the weight push against something: on any slope, with nothing else in
-// touch, their forces add up to the weight's opposite, which is upright.
-constexpr double kPush = 0.03;
-
 struct Memory {
   double speed = 0;     // commanded [m/s], without its sign
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
   double way = 0;       // to the target at the start [m]
-  // Since the machine last got on: where that was, how long ago [s], how far its wheels have rolled [m], and the sum of
-  // the tyres' force over time [N s].
-  Vec3 anchor = Vec3::Zero();  // x, y [m], yaw [rad]
-  double stuck = 0, rolled = 0;
-  Vec3 push = Vec3::Zero();
+  Headway headway;
 
   void visit(Archive& a) {
     a("speed", speed);
     a("heading", heading);
     a("standing", standing);
     a("way", way);
-    a("anchor", anchor);
-    a("stuck", stuck);
-    a("rolled", rolled);
-    a("push", push);
+    headway.visit(a);
   }
 };
 
@@ -56,7 +40,7 @@ class Driving final : public ActivityWith<Memory> {
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // Patience is a matter of the whole way, not of what is left.
     m.way = (step_.target - at.p).norm();
-    m.anchor = Vec3(at.p.x(), at.p.y(), at.yaw);
+    m.headway.begin(at);
   }
 
  private:
@@ -81,7 +65,10 @@ class Driving final : public ActivityWith<Memory> {
                           "it stands " + metres(miss) + " from the target; allowed are " + metres(step_.tolerance));
       return true;
     }
-    if (gets_nowhere(seen, at, dt)) return true;
+    std::string held;
+    const double way = (step_.target - at.p).norm();
+    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, way, dt, held);
+    if (headway != StepState::kRunning) return fall_short(headway, held);
     // Up along the ramp, down along the curve that stops at the target.
     m.speed = std::min({std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
     const double speed = pursuit.sense() * m.speed;
@@ -89,38 +76,6 @@ class Driving final : public ActivityWith<Memory> {
     const scene::Drive& drive = place_.machine.drive;
     out.drive = vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
     return false;
-  }
-
-  /// Whether the machine has stood for the whole patience although it drives; ends the step then.
-  bool gets_nowhere(const Observation& seen, const PlanePose& at, double dt) {
-    const bool moved = (at.p - m.anchor.head<2>()).norm() > kMoved ||
-                       std::abs(std::remainder(at.yaw - m.anchor.z(), 2 * kPi)) > kTurned;
-    if (moved) {
-      m.anchor = Vec3(at.p.x(), at.p.y(), at.yaw);
-      m.stuck = m.rolled = 0;
-      m.push.setZero();
-    }
-    m.stuck += dt;
-    m.push += dt * seen.tyre_force;
-    // Of the fastest driven wheel: an open differential turns one side alone.
-    double fastest = 0, weight = 0;
-    for (const scene::Wheel& wheel : place_.machine.wheels) {
-      const int joint = wheel.driven ? place_.machine.joint_index(wheel.joint) : -1;
-      if (joint >= 0)
-        fastest = std::max(fastest, wheel.radius * std::abs(seen.joints[static_cast<std::size_t>(joint)].velocity));
-    }
-    m.rolled += dt * fastest;
-    if (m.stuck < std::max(kPatience, 4 * kMoved / std::abs(step_.speed))) return false;
-    for (const scene::Link& link : place_.machine.links) weight += link.mass * kGravity;
-    const double push = m.push.head<2>().norm() / m.stuck;
-    const std::string where = ", " + metres((step_.target - at.p).norm()) + " from the target";
-    const std::string stood = "it has stood for " + number_text(m.stuck, "s") + where;
-    if (push > kPush * weight)
-      return fall_short(StepState::kBlocked,
-                        stood + ": something holds it while its tyres push with " + number_text(push / 1000, "kN"));
-    if (m.rolled > kMoved)
-      return fall_short(StepState::kStalled, stood + ": its wheels have spun for " + metres(m.rolled));
-    return fall_short(StepState::kStalled, stood + ": the drive does not turn its wheels");
   }
 
   const DriveTo& step_;

@@ -50,6 +50,7 @@ struct Exchange::State {
         scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
+        awake_zone(world.solver.awake_zone),
         seen(ground_in.sequence()) {}
 
   // Whether the motion rule must leave a column alone, because its block was booked back within the last second. Where
@@ -73,6 +74,7 @@ struct Exchange::State {
   SlumpScan scan;
   Slump slump;
   std::size_t max_particles;
+  double awake_zone;
 
   // What lasts from check to check. It is saved and hashed, together with `standing` and `slump`; the rest follows from
   // the scene.
@@ -270,7 +272,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   Result result;
   result.removed.assign(particles.size(), 0);
   const ColumnIndex index(particles, s.ground, s.grid);
-  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools);
+  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.awake_zone);
 
   // The plan collects all three rules before anything changes. One column may be asked for by several; the deepest
   // counts.

@@ -49,11 +49,12 @@ double mean_surface(const heightfield::Ground& ground, const ColumnIndex& index,
 }  // namespace
 
 std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const ColumnIndex& index,
-                                 std::span<const ToolRegion> tools) {
+                                 std::span<const ToolRegion> tools, double scale) {
   std::vector<ToolZone> zones;
   const double cell = ground.cell();
   for (const ToolRegion& tool : tools) {
     ToolZone out;
+    out.scale = scale;
     const Vec2 low = tool.min.head<2>(), high = tool.max.head<2>();
     out.low = (tool.min.z() - ground.datum()) / cell;
     out.high = (tool.max.z() - ground.datum()) / cell;
@@ -68,8 +69,8 @@ std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const Column
     Vec2 ahead = Vec2::Zero();
     const Vec2 v = tool.velocity.head<2>();
     // A tool that hardly moves has no ahead; it wakes the same distance to all sides.
-    if (v.norm() > kSlowTool) ahead = v * (kAhead * depth * cell / v.norm());
-    const Vec2 sides = Vec2::Constant(kSides * depth * cell);
+    if (v.norm() > kSlowTool) ahead = v * (scale * kAhead * depth * cell / v.norm());
+    const Vec2 sides = Vec2::Constant(scale * kSides * depth * cell);
     // The box grows towards the motion by two depths, elsewhere by one, per axis, so that a tool that moves aslant gets
     // both.
     const Vec2 zone_low = low - sides.cwiseMax(-ahead), zone_high = high + sides.cwiseMax(ahead);
@@ -95,8 +96,8 @@ void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const Tool
     if (!tool.engaged) continue;
     for (int iy = tool.zone.y0; iy < tool.zone.y1; ++iy)
       for (int ix = tool.zone.x0; ix < tool.zone.x1; ++ix)
-        if (height_in_cells(ground, ix, iy) > tool.low - 1 + kCutError)
-          plan_wake(plan, ix, iy, std::floor(tool.low) - 1);
+        if (height_in_cells(ground, ix, iy) > tool.low - tool.scale + kCutError)
+          plan_wake(plan, ix, iy, std::floor(tool.low) - std::round(tool.scale));
   }
 }
 
@@ -130,7 +131,7 @@ bool wakes_beside(const heightfield::Ground& ground, std::span<const ToolZone> z
   // A tool pulls soil along under it; without this end every check would wake a cell more.
   for (const ToolZone& tool : zones)
     if (tool.engaged && ToolZone::contains(tool.zone, ix, iy))
-      bottom = std::max(bottom, std::floor(tool.low) - kDeepest);
+      bottom = std::max(bottom, std::floor(tool.low) - std::round(tool.scale * kDeepest));
   // Columns that end more than a cell below the motion are not touched by it.
   return h > cell - 1 + kCutError && h > bottom + kCutError;
 }

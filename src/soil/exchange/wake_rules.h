@@ -18,8 +18,9 @@ namespace navvy::soil {
 struct ToolZone {
   heightfield::CellRect box;   ///< columns under the tool's box
   heightfield::CellRect near;  ///< and those within kToolGuard of it
-  heightfield::CellRect zone;  ///< columns to wake: two dig depths ahead, one to the sides
+  heightfield::CellRect zone;  ///< columns to wake: two dig depths ahead, one to the sides, times the scene's awake zone
   double low = 0, high = 0;    ///< of the box [cells above datum]
+  double scale = 1;            ///< the scene's awake zone
   double speed = 0;            ///< [m/s]
   bool engaged = false;        ///< some column of the zone, with the soil on it, reaches up to it
 
@@ -34,11 +35,13 @@ struct ToolZone {
 /// particles come in its order.
 using WakePlan = std::map<PlanKey, double>;
 
-/// Where every tool is. Costs the columns of the zones. In the order of `tools`; no rule depends on that order.
+/// Where every tool is, its zone `scale` times as large as usual. Costs the columns of the zones. In the order of
+/// `tools`; no rule depends on that order.
 std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const ColumnIndex& index,
-                                 std::span<const ToolRegion> tools);
+                                 std::span<const ToolRegion> tools, double scale);
 
-/// Rule A: columns of the zone that reach within a cell of the tool's lowest point wake to one or two cells below it.
+/// Rule A: columns of the zone that reach within a cell (times the scale) of the tool's lowest point wake to one or two
+/// cells below it.
 /// That a whole zone wakes, not what a tool touches alone, is because soil fails ahead of a blade in a wedge as long as
 /// it digs deep or longer [docs/exchange.md, wake].
 void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const ToolZone> zones, WakePlan& plan);

@@ -12,6 +12,8 @@ constexpr double kSample = 0.1;      // along the line [m]
 constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
 constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;   // a load may be larger than a full bucket by this share of it
+constexpr double kThinner = 0.7;     // a slice after one that held the bucket, of that one
+constexpr double kThinnest = 0.1;    // what the soil's cells still resolve [m]
 constexpr double kWorth = 0.5;       // a slice's rest below this share of a bucket waits for the next slice
 constexpr double kWorthLast = 0.15;  // that of the last slice stays
 
@@ -96,6 +98,12 @@ void DigPlan::refuse(const SurfaceView& surface, double s) {
     const auto k = static_cast<std::size_t>(i);
     deepest_[k] = std::min(deepest_[k], start_[k] - height(surface, at(i)));
   }
+}
+
+bool DigPlan::thin() {
+  if (dig_.pass_depth <= kThinnest) return false;
+  dig_.pass_depth = std::max(kThinnest, kThinner * dig_.pass_depth);
+  return true;
 }
 
 double DigPlan::piece_above(const SurfaceView& surface, int i, double level) const {

@@ -48,6 +48,10 @@ class DigPlan {
   Scoop next(const SurfaceView& surface) const;
   /// The soil where a scoop from `s` brought nothing is taken as undiggable below what it is now, and left.
   void refuse(const SurfaceView& surface, double s);
+  /// Soil that holds the bucket is dug in thinner slices from now on. False: they are as thin as they get.
+  bool thin();
+  /// Thickness of a slice at most [m].
+  double pass_depth() const { return dig_.pass_depth; }
   /// A pass along the whole floor.
   Scoop clean_up() const { return {length_, 0, dig_.depth, true}; }
   /// Soil above depth `level` over the trench's width [m3].

@@ -18,6 +18,7 @@ namespace {
 // drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
 constexpr double kFill = 0.45;
 constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
+constexpr double kHeldUp = 0.4;       // of a slice: raised by more on the whole drag's mean, the next slice is thinner
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
 constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
@@ -172,6 +173,12 @@ void Digging::start_dump(const Observation& seen) {
   enter(kDump);
 }
 
+void Digging::thin_slices() {
+  // A boulder raises the path for a part of the drag, soil that is too strong for all of it.
+  if (m.cleaning != 0 || m.held_up <= kHeldUp * plan_.pass_depth() * (m.scoop_start - m.s)) return;
+  if (plan_.thin()) place_.warn("the soil holds the bucket: slices of " + metres(plan_.pass_depth()) + " from now on");
+}
+
 bool Digging::dump(const Observation& seen) {
   // When the opening is over the shaking has the bucket's joint: the move must not take it back.
   const bool open = phase_time() > m.move.duration() || move(seen);
@@ -278,7 +285,10 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
       penetrate(seen, dt);
       break;
     case kDrag:
-      if (drag(seen, dt)) enter(kCurl);
+      if (!drag(seen, dt)) break;
+      thin_slices();
+      tell(CycleEvent::kCurlStart);
+      enter(kCurl);
       break;
     case kCurl:
       if (curl(seen, dt)) start_lift(seen);
@@ -327,6 +337,8 @@ void DiggingMemory::visit(Archive& a) {
   a("curl_z", curl_z);
   a("scoop_volume", scoop_volume);
   a("full_mass", full_mass);
+  a("lift_before", lift_before);
+  a("held_up", held_up);
   a("held", held);
   a("held_since", held_since);
 }

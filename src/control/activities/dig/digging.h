@@ -25,6 +25,8 @@ struct DiggingMemory {
   double progress = 0;                                     ///< of the curl, 0..1
   double curl_angle = 0, curl_z = 0;                       ///< of the tip path when the curl began [rad], [m]
   double scoop_volume = 0, full_mass = 0;                  ///< of a full bucket: bank volume [m3], mass [kg]
+  double lift_before = 0;                                  ///< of the tip path when the drag began [m]
+  double held_up = 0;               ///< what soil has raised it by since, over the length of the drag [m2]
   double held = 0, held_since = 0;  ///< payload after the lift when it last fell [kg], and when [s]
 
   void visit(Archive& a);
@@ -57,6 +59,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   void go_to_scoop(Phase next, const Observation& seen);
   /// To the next scoop, or to a look round before the end.
   void go_on(Phase next, const Observation& seen);
+  /// After a drag that the soil held up: the next slices are thinner.
+  void thin_slices();
   /// Level and up, clear of the trench's edges.
   void start_lift(const Observation& seen);
   /// Whether the lifted bucket still loses soil over the trench.

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+// The go_to step: plan, turn the wheels, drive a leg, stop; look at the ground on the way meanwhile.
+#include "control/activities/go_to.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "control/activity.h"
+#include "control/headway.h"
+#include "control/path_follower.h"
+#include "control/reach.h"
+#include "vehicle/drive/drive_line.h"
+
+namespace navvy::control {
+namespace {
+
+constexpr double kLook = 0.25;                                   // [s] between looks at the ground on the way
+constexpr double kSettle = 0.3;                                  // [s] at a cusp, and for wheels that have been turned
+constexpr double kOffPath = 0.25, kOffTurn = radians(20);        // beside the path: it plans anew [m], [rad]
+constexpr double kElsewhere = 0.1, kElsewhereTurn = radians(3);  // from the start of a path that was planned ahead
+constexpr double kRange = 1;                                     // clearances are told up to this [m]
+constexpr int kMostCorrections = 3;                              // new plans since the last one ended beside the goal
+constexpr int kMostPlans = 100;                                  // nothing may go on for ever
+
+enum Phase : std::int64_t { kPlan, kTurn, kDrive, kStop, kNoPath };
+
+/// What comes when the machine stands.
+enum class Then : std::uint8_t { kNextLeg, kPlanAnew };
+
+struct Memory {
+  Path path;
+  std::int64_t leg = 0;
+  double s = 0;         // on the path [m]
+  double speed = 0;     // commanded [m/s], without its sign
+  double steer = 0;     // bicycle angle commanded last [rad]
+  double turn = 0;      // [s] that the wheels need to be turned
+  double standing = 0;  // [s]
+  double unseen = 0;    // [s] since the last look
+  double driven = 0;    // [m] by paths that are left
+  double clearance = kRange;
+  std::int64_t plans = 0, failed = 0, corrections = 0, cusps = 0;
+  Then then = Then::kNextLeg;
+  Headway headway;
+
+  void visit(Archive& a) {
+    a("path", path);
+    // The path's own number of legs is asked for below.
+    a("leg", leg);
+    a.require(leg >= 0 && leg <= static_cast<std::int64_t>(path.legs().size()), "leg", "the path has no such leg");
+    a("s", s);
+    a("speed", speed);
+    a("steer", steer);
+    a("turn", turn);
+    a("standing", standing);
+    a("unseen", unseen);
+    a("driven", driven);
+    a("clearance", clearance);
+    a("plans", plans);
+    a("failed", failed);
+    a("corrections", corrections);
+    a("cusps", cusps);
+    a.ranged("then", then, Then::kNextLeg, Then::kPlanAnew);
+    headway.visit(a);
+  }
+};
+
+class Going final : public ActivityWith<Memory> {
+ public:
+  Going(Workplace& place, const GoTo& step) : ActivityWith(place), step_(step), law_(place.machine.drive) {}
+
+  const char* phase() const override {
+    switch (phase_index()) {
+      case kTurn:
+        return "turn";
+      case kDrive:
+        return "drive";
+      case kStop:
+        return "stop";
+      case kNoPath:
+        return "no_path";
+      default:
+        return "plan";
+    }
+  }
+
+  void begin(const Observation& seen) override {
+    look(seen);
+    const PlanePose at = plane_pose(seen.X_WB);
+    // Of the plans of this step so far there is at most one: that of the program's beginning.
+    for (const PlannedPath& ahead : place_.paths)
+      if (ahead.step == place_.step) m.path = ahead.path, m.plans = 1;
+    if (m.plans == 0 || arrived(at)) return;
+    const PlanePose& from = m.path.start();
+    const double aside = (at.p - from.p).norm(), turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
+    if (!way_is_clear(0))
+      place_.note("the ground on its way has changed since its program began: it plans anew");
+    else if (aside > kElsewhere || turned > kElsewhereTurn)
+      place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
+    else
+      start_path(at);
+  }
+
+  std::vector<Figure> account(const Observation& seen) const override {
+    const PlanePose at = plane_pose(seen.X_WB);
+    return {{"plans", static_cast<double>(m.plans)},
+            {"cusps", static_cast<double>(m.cusps)},
+            {"driven_m", m.driven + m.s},
+            {"path_m", m.path.length()},
+            {"goal_miss_m", miss(at)},
+            {"goal_miss_deg", degrees(turn_miss(at))},
+            {"least_clearance_m", m.clearance}};
+  }
+
+ private:
+  bool update(const Observation& seen, double dt, Command& out) override {
+    const PlanePose at = plane_pose(seen.X_WB);
+    // Standing unless it drives: brake on, wheels as they are.
+    out.drive = vehicle::DriveInput{0, steer_input(0), true};
+    m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : 0;
+    switch (phase_index()) {
+      case kPlan:
+        return arrived(at) ? true : plan(seen, at);
+      case kTurn:
+        if (phase_time() >= m.turn) drive_leg(at);
+        return false;
+      case kDrive:
+        return drive(seen, at, dt, out);
+      case kStop:
+        return m.standing >= kSettle && stand(at);
+      default:
+        if (phase_time() >= step_.retry) enter(kPlan);
+        return false;
+    }
+  }
+
+  // Goal.
+  double miss(const PlanePose& at) const { return (at.p - step_.target).norm(); }
+  double turn_miss(const PlanePose& at) const { return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi)); }
+  bool arrived(const PlanePose& at) const {
+    return miss(at) <= step_.tolerance && turn_miss(at) <= step_.turn_tolerance;
+  }
+
+  // Ground.
+  void look(const Observation& seen) {
+    m.unseen = 0;
+    place_.look(seen);
+    m.clearance = std::min(m.clearance, place_.planner->clearance(plane_pose(seen.X_WB), kRange));
+  }
+  bool way_is_clear(double s) const {
+    return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >= step_.clearance;
+  }
+
+  /// Plans from where the machine stands; true when the step is over.
+  bool plan(const Observation& seen, const PlanePose& at) {
+    look(seen);
+    if (m.plans >= kMostPlans)
+      return fall_short(StepState::kOutOfTime, "not there after " + std::to_string(kMostPlans) + " plans, " +
+                                                   metres(miss(at)) + " from the target");
+    const std::optional<Path> path = place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
+    if (path) {
+      ++m.plans;
+      m.failed = 0;
+      m.path = *path;
+      place_.paths.push_back({place_.step, place_.now, *path});
+      start_path(at);
+      return false;
+    }
+    ++m.failed;
+    const std::string why = no_path(at);
+    if (m.failed >= step_.tries) return fall_short(StepState::kNoPath, why);
+    place_.warn(why + "; it tries again in " + number_text(step_.retry, "s"));
+    enter(kNoPath);
+    return false;
+  }
+
+  std::string no_path(const PlanePose& at) const {
+    std::string out = "no path from " + place_text(at.p) + " to " + place_text(step_.target) + " that keeps " +
+                      metres(step_.clearance) + " from ground it cannot drive on: ";
+    const double here = place_.planner->clearance(at, step_.clearance);
+    const double there = place_.planner->clearance({step_.target, step_.heading}, step_.clearance);
+    if (here < step_.clearance)
+      out += "it stands " + metres(here) + " from some";
+    else if (there < step_.clearance)
+      out += "the goal lies " + metres(there) + " from some";
+    else
+      out += std::to_string(step_.iterations) + " iterations found none";
+    return out + (m.failed > 1 ? ", try " + std::to_string(m.failed) + " of " + std::to_string(step_.tries) : "");
+  }
+
+  // Path.
+  void start_path(const PlanePose& at) {
+    m.leg = 0;
+    m.s = m.speed = 0;
+    begin_leg(at);
+  }
+  const PathLeg& leg() const { return m.path.legs()[static_cast<std::size_t>(m.leg)]; }
+  bool past_last() const { return m.leg >= static_cast<std::int64_t>(m.path.legs().size()); }
+
+  /// Turns the wheels to where the leg begins, while the machine stands; there may be no leg.
+  void begin_leg(const PlanePose& at) {
+    const double angle = past_last() ? 0 : law_.steer_at_start(m.path, leg());
+    // A differential drive turns nothing.
+    m.turn = std::abs(angle - m.steer) / law_.steer_rate() + kSettle;
+    m.steer = angle;
+    m.headway.begin(at);
+    enter(kTurn);
+  }
+  void drive_leg(const PlanePose& at) {
+    m.speed = 0;
+    m.headway.begin(at);
+    enter(past_last() ? kStop : kDrive);
+  }
+
+  bool drive(const Observation& seen, const PlanePose& at, double dt, Command& out) {
+    const PathPlace place = law_.place(m.path, leg(), at, m.s);
+    m.s = place.s;
+    const double left = leg().end - m.s;
+    if (left < kStopShort) {
+      // A cusp, or the end.
+      stop(Then::kNextLeg);
+      return false;
+    }
+    m.unseen += dt;
+    if (m.unseen >= kLook) {
+      look(seen);
+      if (!way_is_clear(m.s)) {
+        place_.note("the ground on its way has changed: it plans anew");
+        stop(Then::kPlanAnew);
+        return false;
+      }
+    }
+    if (std::abs(place.aside) > kOffPath || std::abs(place.turned) > kOffTurn) {
+      place_.note("it is " + metres(std::abs(place.aside)) + " off its path: it plans anew");
+      stop(Then::kPlanAnew);
+      return false;
+    }
+    std::string held;
+    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, miss(at), dt, held);
+    if (headway != StepState::kRunning) return fall_short(headway, held);
+    if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
+      return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) + " took longer than " +
+                                                   number_text(phase_time(), "s"));
+    // Up along the ramp, down along the curves that end in a bend's speed or at the leg's end.
+    m.speed = std::min({step_.speed, m.speed + kDriveAcceleration * dt, law_.speed_limit(m.path, leg(), m.s)});
+    m.steer = law_.steer(m.path, leg(), place);
+    const double speed = leg().sense * m.speed;
+    out.drive = vehicle::DriveInput{speed, steer_input(speed), false};
+    return false;
+  }
+
+  void stop(Then then) {
+    m.then = then;
+    m.standing = 0;
+    enter(kStop);
+  }
+
+  /// The machine has come to a stand; true when the step is over.
+  bool stand(const PlanePose& at) {
+    const bool anew = m.then == Then::kPlanAnew;
+    if (!anew) ++m.leg;
+    if (!anew && !past_last()) {
+      ++m.cusps;
+      begin_leg(at);
+      return false;
+    }
+    m.driven += std::exchange(m.s, 0);
+    enter(kPlan);
+    if (anew || arrived(at)) return !anew;
+    if (++m.corrections > kMostCorrections)
+      return fall_short(StepState::kOutOfReach, "it stands " + metres(miss(at)) + " and " +
+                                                    number_text(degrees(turn_miss(at)), "deg") +
+                                                    " from the goal after " + std::to_string(m.plans) + " plans");
+    place_.note("it stands " + metres(miss(at)) + " and " + number_text(degrees(turn_miss(at)), "deg") +
+                " from the goal: it plans anew");
+    return false;
+  }
+
+  double steer_input(double speed) const { return vehicle::steer_command(place_.machine.drive, m.steer, speed); }
+
+  const GoTo& step_;
+  const PathFollower law_;
+};
+
+}  // namespace
+
+GoTo GoTo::read(const scene::StepSource& source) {
+  GoTo step;
+  source.fields.vec2("target_m", step.target, {-1e6, 1e6})
+      .required("target_m")
+      .number("heading_deg", step.heading, {-360, 360}, scene::kDegree)
+      .required("heading_deg")
+      .number("speed_m_per_s", step.speed, {0.05, 20})
+      .number("tolerance_m", step.tolerance, {0.05, 5})
+      .number("tolerance_deg", step.turn_tolerance, {0.5, 180}, scene::kDegree)
+      .number("clearance_m", step.clearance, {0, 10})
+      .number("retry_s", step.retry, {0, 1e5})
+      .whole("tries", step.tries, {1, 1000})
+      .whole("iterations", step.iterations, {1, 1e6})
+      .whole("seed", step.seed, {1, 1e9})
+      .finish();
+  source.require(source.machine && source.machine->has_drive, "go_to needs a machine with <navvy:drive>");
+  source.on_site("target_m", step.target);
+  return step;
+}
+
+PathQuery GoTo::query(const PlanePose& from, int plan) const {
+  return {from, {target, heading}, clearance, iterations, static_cast<std::uint32_t>(seed + plan)};
+}
+
+std::unique_ptr<Activity> GoTo::activity(Workplace& place) const { return std::make_unique<Going>(place, *this); }
+
+void GoTo::check_reach(ReachCheck& check) const {
+  if (!check.planner) {
+    check.fault("go_to", "", "nobody plans paths here",
+                "build with -DNAVVY_WITH_OMPL=ON (Debian package libompl-dev), or use drive_to");
+    return;
+  }
+  const double there = check.planner->clearance({target, heading}, clearance);
+  if (there >= clearance) return;
+  const std::string rule = "the machine would stand " + metres(there) +
+                           " from ground that it cannot drive on, as it lies at the start; needed are " +
+                           metres(clearance);
+  const std::string remedy =
+      "choose another goal or a smaller <clearance_m>; navvy map --layers traversability shows "
+      "the ground";
+  if (check.after_digging())
+    check.warn("go_to/target", place_text(target), rule, remedy);
+  else
+    check.fault("go_to/target", place_text(target), rule, remedy);
+}
+
+std::optional<Pose> GoTo::station(const scene::Machine&, const Pose& X_WB, const SurfaceView& surface) const {
+  const Vec3 from = X_WB.translation();
+  // The base link keeps its height over the ground; slopes are left to the run.
+  const double rise = from.z() - surface.height(from.x(), from.y());
+  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0, heading);
+}
+
+}  // namespace navvy::control

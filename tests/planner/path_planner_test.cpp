@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths round what an excavator cannot drive on. Skipped, visibly, in a build without OMPL.
+#include "planner/path_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "control/path_follower.h"
+#include "core/random.h"
+#include "core/saved_state.h"
+#include "planner/footprint.h"
+#include "planner/obstacle_index.h"
+#include "planner/sites.h"
+#include "values.h"
+
+namespace navvy::planner {
+namespace {
+
+using control::GroundSurface;
+using control::Path;
+using control::PathQuery;
+using testing::dig;
+using testing::excavator;
+using testing::level_site;
+
+constexpr double kClearance = 0.3;  // [m]
+
+PathQuery query(double x0, double x1, double yaw1 = 0) {
+  PathQuery out;
+  out.start = {Vec2(x0, 0), 0};
+  out.goal = {Vec2(x1, 0), yaw1};
+  out.clearance = kClearance;
+  return out;
+}
+
+std::uint64_t digest(Path path) { return hash_of(path).digest(); }
+
+/// Looked at every 2 cm on a map that is computed whole.
+double least_clearance(const heightfield::Ground& ground, const Path& path) {
+  MapOptions options;
+  options.layers = {Layer::kTraversability};
+  MapMaker maker(options);
+  maker.update(ground.view());
+  const TerrainMap map = maker.map();
+  const Footprint footprint = footprint_of(excavator());
+  double least = 10;
+  for (double s = 0; s <= path.length() + 0.02; s += 0.02) {
+    const control::PlanePose at = path.at(s);
+    least = std::min(least, clearance(map, footprint, at.p.x(), at.p.y(), at.yaw, 1));
+  }
+  return least;
+}
+
+void expect_drivable(const Path& path, const PathQuery& asked) {
+  const control::PlanePose end = path.at(path.length());
+  EXPECT_LT((end.p - asked.goal.p).norm(), 1e-6);
+  EXPECT_LT(std::abs(std::remainder(end.yaw - asked.goal.yaw, 2 * kPi)), 1e-6);
+  const double tightest = control::PathFollower(excavator().drive).least_radius();
+  for (const control::PathPiece& piece : path.pieces()) EXPECT_LT(std::abs(piece.curvature), 1 / (1.15 * tightest));
+}
+
+TEST(Footprint, OfTheExcavatorIsThatOfItsFile) {
+  const Footprint f = footprint_of(excavator());
+  EXPECT_NEAR(f.front, 1.5 + 2.3, 1e-9);                // the chassis' body
+  EXPECT_NEAR(f.rear, 2.3 - 1.5, 1e-9);                 //
+  EXPECT_NEAR(f.left, 0.97 + (0.28 + 0.32) / 2, 1e-9);  // twin tyres
+  EXPECT_NEAR(f.right, f.left, 1e-9);
+}
+
+TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
+  heightfield::Ground ground = level_site();
+  dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
+  dig(ground, Vec2(6, 6), Vec2(6.2, 6.2));
+  MapOptions options;
+  options.layers = {Layer::kTraversability};
+  MapMaker maker(options);
+  maker.update(ground.view());
+  const TerrainMap map = maker.map();
+  const ObstacleIndex index(map);
+  const Footprint footprint = footprint_of(excavator());
+  Random random(3);
+  int clear = 0, told = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform() * 40 - 20, y = random.uniform() * 28 - 14, yaw = random.uniform() * 7;
+    const bool is = clearance(map, footprint, x, y, yaw, 0.4) >= 0.4;
+    const bool says = index.surely_clear(footprint, x, y, yaw, 0.4);
+    ASSERT_TRUE(is || !says) << x << " " << y << " " << yaw;
+    clear += is, told += says;
+  }
+  // What it leaves open is asked of the map itself: few enough to be worth it.
+  print_value("share of clear places that the index tells", static_cast<double>(told) / clear, "> 0.6", "20 000 poses");
+  EXPECT_GT(told, 0.6 * clear);
+}
+
+class PathPlanner : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!path_planners()) GTEST_SKIP() << "no OMPL in this build: install libompl-dev and build with NAVVY_WITH_OMPL";
+    planner_ = path_planners()(excavator());
+  }
+  std::optional<Path> plan(const heightfield::Ground& ground, const PathQuery& asked) {
+    planner_->look(GroundSurface(ground));
+    return planner_->plan(asked);
+  }
+  std::unique_ptr<control::PathPlanner> planner_;
+};
+
+TEST_F(PathPlanner, GoesStraightWhereNothingLiesInTheWay) {
+  const heightfield::Ground ground = level_site();
+  const auto path = plan(ground, query(-8, 9));
+  ASSERT_TRUE(path);
+  EXPECT_NEAR(path->length(), 17, 1e-9);
+  EXPECT_EQ(path->cusps(), 0);
+}
+
+TEST_F(PathPlanner, GoesRoundATrenchAndTurnsInANarrowPlace) {
+  heightfield::Ground ground = level_site();
+  dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
+  for (const double yaw : {0.0, kPi, -kPi / 2}) {
+    const PathQuery asked = query(-8, 9, yaw);
+    const auto path = plan(ground, asked);
+    ASSERT_TRUE(path) << yaw;
+    expect_drivable(*path, asked);
+    const double least = least_clearance(ground, *path);
+    print_value("least clearance of a path round a trench [m]", least, ">= 0.3", "asked for");
+    print_value("its length [m], cusps", path->length(), std::to_string(path->cusps()), "17 m straight");
+    EXPECT_GE(least, kClearance);
+    EXPECT_LT(path->length(), 60);
+  }
+}
+
+TEST_F(PathPlanner, AnswersTheSameToTheBitWhateverWasAskedBefore) {
+  heightfield::Ground ground = level_site();
+  const PathQuery asked = query(-8, 9);
+  plan(ground, asked);
+  dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
+  PathQuery other = asked;
+  other.seed = 99;
+  const auto elsewhere = plan(ground, other);
+  const auto again = plan(ground, asked);
+  const auto fresh = path_planners()(excavator());
+  fresh->look(GroundSurface(ground));
+  const auto first = fresh->plan(asked);
+  ASSERT_TRUE(elsewhere && again && first);
+  EXPECT_EQ(digest(*first), digest(*again));
+  EXPECT_NE(digest(*elsewhere), digest(*again)) << "the seed changes nothing";
+}
+
+TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
+  heightfield::Ground ground = level_site();
+  dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
+  std::vector<std::uint64_t> alone, beside(4);
+  const auto one = [&ground](std::uint32_t seed) {
+    const auto planner = path_planners()(excavator());
+    planner->look(GroundSurface(ground));
+    PathQuery asked = query(-8, 9);
+    asked.seed = seed;
+    const auto path = planner->plan(asked);
+    return path ? digest(*path) : 0;
+  };
+  for (std::uint32_t i = 0; i < 4; ++i) alone.push_back(one(i + 1));
+  std::vector<std::thread> threads;
+  for (std::uint32_t i = 0; i < 4; ++i) threads.emplace_back([&, i] { beside[i] = one(i + 1); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(alone, beside);
+}
+
+TEST_F(PathPlanner, FindsNothingWhereThereIsNoWay) {
+  heightfield::Ground ground = level_site();
+  dig(ground, Vec2(-1, -13), Vec2(1.5, 13));
+  PathQuery across = query(-8, 9);
+  across.iterations = 300;
+  EXPECT_FALSE(plan(ground, across));
+  // The goal in the trench, and beyond the edge.
+  EXPECT_FALSE(plan(ground, query(-8, 0)));
+  EXPECT_FALSE(plan(ground, query(-8, 17)));
+  EXPECT_EQ(planner_->clearance({Vec2(17, 0), 0}, 1), 0);
+  // What ends the search are iterations: with one alone no way round is found.
+  heightfield::Ground open = level_site();
+  dig(open, Vec2(-1, -2), Vec2(1.5, 5));
+  PathQuery hasty = query(-8, 9);
+  hasty.iterations = 1;
+  EXPECT_FALSE(plan(open, hasty));
+}
+
+}  // namespace
+}  // namespace navvy::planner

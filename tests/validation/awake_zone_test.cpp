@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Soil that sleeps must not be felt: a bucket on a prescribed path, with the soil that it wakes as far as usual and
+// twice as far around and below.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "validation/report.h"
+#include "validation/scenes.h"
+
+namespace navvy::validation {
+namespace {
+
+struct Drag {
+  double force = 0;                  ///< mean over the drag, against its motion [N]
+  double payload = 0;                ///< when the bucket is up [kg]
+  std::uint64_t particle_steps = 0;  ///< until then
+};
+
+Drag drag(const std::string& zone) {
+  session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}), shared_device());
+  const sim::World& world = session.world();
+  const sim::ToolHandle tool = world.tools().at(0);
+  Drag out;
+  int samples = 0;
+  while (world.time() < 6.7) {
+    session.step();
+    // The path drags from 1.7 to 3.7 s; the first half second fills the wedge ahead.
+    if (world.time() < 2.2 || world.time() > 3.7) continue;
+    out.force -= tool.force().x();
+    ++samples;
+  }
+  out.force /= samples;
+  out.payload = tool.payload();
+  out.particle_steps = world.soil_counts().particle_steps;
+  EXPECT_EQ(world.mass_ledger().error, 0);
+  return out;
+}
+
+TEST(AwakeZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
+  const Drag usual = drag("1"), twice = drag("2");
+  const char* source = "the awake zone does not show [docs/validation.md, Awake zone]";
+  print_value("mean draft of the drag [N]", usual.force, "not gated", source);
+  expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98, 1.02, source);
+  expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02, source);
+  print_value("particle-steps, zone twice as large / as usual",
+              static_cast<double>(twice.particle_steps) / static_cast<double>(usual.particle_steps), "the cost", source);
+}
+
+}  // namespace
+}  // namespace navvy::validation
