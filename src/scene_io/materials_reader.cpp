@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "scene_io/fields.h"
 #include "scene_io/loader.h"
@@ -56,6 +57,7 @@ std::vector<std::string> known_in(const scene::Materials& table) {
 struct Use {
   std::size_t machine;
   const scene::LinkMaterial* material;
+  bool stands;  ///< what never moves meets neither the ground nor what stands beside it
 };
 
 Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule, const std::string& remedy) {
@@ -116,9 +118,14 @@ void check_materials(const scene::Scene& world, Faults& faults) {
   const std::vector<std::string> known = known_in(world.materials);
   std::vector<Use> uses;  // the first of each machine's links of a material
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
-    std::set<std::string> seen;
-    for (const scene::Link& link : world.machines[m].machine.links)
-      if (!link.material.name.empty() && seen.insert(link.material.name).second) uses.push_back({m, &link.material});
+    const scene::Machine& machine = world.machines[m].machine;
+    std::set<std::pair<std::string, bool>> seen;
+    for (std::size_t l = 0; l < machine.links.size(); ++l) {
+      const scene::LinkMaterial& material = machine.links[l].material;
+      // Machines that move as told touch no bodies.
+      const bool stands = machine.kinematic || (l == 0 && machine.fixed_base);
+      if (!material.name.empty() && seen.emplace(material.name, stands).second) uses.push_back({m, &material, stands});
+    }
   }
   std::set<std::set<std::string>> told;
   for (const Use& use : uses) {
@@ -135,9 +142,9 @@ void check_materials(const scene::Scene& world, Faults& faults) {
       faults.add(at_use(world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",
                         "add <pair materials=\"" + name + " " + other + "\">"));
     };
-    if (!world.materials.ground.empty()) look(world.materials.ground);
+    if (!use.stands && !world.materials.ground.empty()) look(world.materials.ground);
     for (const Use& other : uses)
-      if (other.machine != use.machine) look(other.material->name);
+      if (other.machine != use.machine && !(use.stands && other.stands)) look(other.material->name);
   }
 }
 
