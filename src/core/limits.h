@@ -27,6 +27,7 @@ inline constexpr std::size_t kMachines = 500;           ///< included and as man
 inline constexpr std::size_t kSoils = 255;              ///< columns and particles number them in a byte
 inline constexpr std::size_t kGroundLayers = 100;       ///< of a ground or a patch
 inline constexpr std::size_t kGroundParts = 1000;       ///< patches, awake boxes and shapes of a kind
+inline constexpr std::size_t kMaterialPairs = 1000;     ///< of a table
 inline constexpr std::size_t kSteps = 2000;             ///< of a program
 inline constexpr std::size_t kLinks = 300;              ///< of a machine; joints, frames, cylinders, wheels likewise
 inline constexpr std::size_t kShapes = 200;             ///< visuals of a link, and as many collisions

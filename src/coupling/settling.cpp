@@ -14,7 +14,7 @@ namespace navvy::coupling {
 
 std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
   std::vector<vehicle::Stability> out(scene.machines.size());
-  const auto engine = vehicle::make_bullet_engine(scene.gravity);
+  const auto engine = vehicle::make_bullet_engine(scene.gravity, scene.materials);
   std::vector<std::size_t> of;  // machine of the scene, by index in the engine
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];

@@ -10,6 +10,7 @@
 #include "core/math.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/drive.h"
+#include "scene/material.h"
 
 namespace navvy::scene {
 
@@ -57,6 +58,7 @@ struct Link {
   Mat3 inertia = Mat3::Identity();  ///< about the centre of mass, axes of L [kg m2]
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
+  LinkMaterial material;  ///< of its collisions and of its shells against bodies
 };
 
 /// Two links and how one moves against the other. Positive is about or along `axis` by the right hand.

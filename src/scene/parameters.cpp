@@ -159,11 +159,12 @@ void put(const Writer& w, const Geometry& geometry) {
 }
 
 void put(const Writer& w, const Link& link) {
-  const auto& [name, X_ML, mass, p_LCom, inertia, visuals, collisions] = link;
+  const auto& [name, X_ML, mass, p_LCom, inertia, visuals, collisions, material] = link;
   w("pose", X_ML);
   w("mass", mass);
   w("centre_of_mass", p_LCom);
   w("inertia", inertia);
+  if (!material.name.empty()) w("material", material.name);
   for (std::size_t i = 0; i < collisions.size(); ++i) {
     // Where a shape came from changes nothing.
     const auto& [collision_name, geometry, X_LC, friction, derived] = collisions[i];
@@ -171,6 +172,20 @@ void put(const Writer& w, const Link& link) {
     put(one, geometry);
     one("pose", X_LC);
     one("friction", friction);
+  }
+}
+
+void put(const Writer& w, const Materials& materials) {
+  const auto& [ground, pairs] = materials;
+  // A scene without a table is what it was before there were any.
+  if (!ground.empty()) w("ground", ground);
+  for (const MaterialPair& pair : pairs) {
+    const auto& [names, static_friction, kinetic_friction, restitution, softness] = pair;
+    const Writer one = w.at("pair", names[0] + " " + names[1]);
+    one("static_friction", static_friction);
+    one("kinetic_friction", kinetic_friction);
+    one("restitution", restitution);
+    one("softness", softness);
   }
 }
 
@@ -318,8 +333,8 @@ void put(const Writer& w, const MachineInWorld& placed) {
 Parameters parameters(const Scene& scene) {
   Parameters out;
   const Writer w(out);
-  const auto& [name, file, gravity, seed, solver, soils, ground, design, machines, cameras, lights, recording,
-               records] = scene;
+  const auto& [name, file, gravity, seed, solver, soils, ground, design, materials, machines, cameras, lights,
+               recording, records] = scene;
   w("gravity", gravity);
   w("seed", seed);
   put(w.at("solver"), solver);
@@ -329,6 +344,7 @@ Parameters parameters(const Scene& scene) {
     put(w.at("soil", soils[i].name), soils[i]);
   }
   put(w.at("ground"), ground);
+  put(w.at("materials"), materials);
   for (std::size_t i = 0; i < machines.size(); ++i) {
     w.at("machine", machines[i].name)("number", static_cast<std::uint64_t>(i));
     put(w.at("machine", machines[i].name), machines[i]);

@@ -9,6 +9,7 @@
 #include "scene/design.h"
 #include "scene/ground.h"
 #include "scene/machine.h"
+#include "scene/material.h"
 #include "scene/program.h"
 #include "scene/soil.h"
 
@@ -91,6 +92,7 @@ struct Scene {
   std::vector<Soil> soils;
   StartGround ground;
   Design design;
+  Materials materials;
   std::vector<MachineInWorld> machines;
   std::vector<Camera> cameras;
   std::vector<Light> lights;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene_io/materials_reader.h"
 #include "scene_io/overrides.h"
 #include "scene_io/resolved.h"
 #include "scene_io/soil_reader.h"
@@ -86,6 +87,9 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   // what is missing.
   if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
     read_soil_file(file, faults);
+  } else if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:materials")) {
+    scene::Materials table;
+    read_materials_file(file, table, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("model")) {
     scene::Machine read = read_machine_file(file, faults);
     if (machine != nullptr && faults.error_count() == 0) *machine = std::move(read);

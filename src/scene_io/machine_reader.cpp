@@ -149,6 +149,13 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
   machine.kinematic = kinematic;
   read_extensions(model, names, machine, faults);
+  for (scene::Link& link : machine.links)
+    if (const Element* of = named_child(model, "link", link.name))
+      if (const Element* material = of->FirstChildElement("navvy:material")) {
+        link.material = {text_of(*material), material->GetLineNum()};
+        if (words_of(link.material.name).size() != 1)
+          faults.error(*material, link.material.name, "must be one word", "e.g. steel");
+      }
   // Last, as wheels and shells decide which links touch by something else.
   derive_parts(model, machine, faults);
   check_planes(model, machine, faults);

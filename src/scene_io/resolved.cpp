@@ -12,6 +12,7 @@
 #include "core/hash.h"
 #include "scene_io/fields.h"
 #include "scene_io/loader.h"
+#include "scene_io/materials_reader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/soil_reader.h"
 
@@ -91,6 +92,7 @@ class Resolver {
 
   void soil(Element& element, const scene::Soil& read);
   void ground(const scene::Scene& world);
+  void materials();
   void include(Element& element);
   /// Names the meshes of machines; `model` still belongs to the file that their paths count from.
   void meshes(Element& model);
@@ -138,6 +140,20 @@ void Resolver::ground(const scene::Scene& world) {
   Element* design = world_.FirstChildElement("navvy:design");
   file = design != nullptr ? design->FirstChildElement("file") : nullptr;
   if (file != nullptr && !world.design.file.empty()) keep(*file, absolute(world.design.file));
+}
+
+void Resolver::materials() {
+  Element* table = world_.FirstChildElement("navvy:materials");
+  Element* file = table != nullptr ? table->FirstChildElement("file") : nullptr;
+  if (file == nullptr) return;
+  const auto document = Document::open(materials_file(*file), none_);
+  const Element* shared = document ? document->root()->FirstChildElement("navvy:materials") : nullptr;
+  if (shared == nullptr) return;
+  // In the order in which they were read: before those of the scene.
+  tinyxml2::XMLNode* last = file;
+  for (const Element* pair = shared->FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
+    last = table->InsertAfterChild(last, pair->DeepClone(table->GetDocument()));
+  table->DeleteChild(file);
 }
 
 void Resolver::meshes(Element& model) {
@@ -202,6 +218,7 @@ std::string resolved_text(Document& document, const scene::Scene& world) {
   for (Element* e = root.FirstChildElement("navvy:soil"); e != nullptr; e = e->NextSiblingElement("navvy:soil"))
     resolver.soil(*e, world.soils.at(soil++));
   resolver.ground(world);
+  resolver.materials();
   for (Element* e = root.FirstChildElement("model"); e != nullptr; e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {

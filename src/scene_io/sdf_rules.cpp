@@ -164,7 +164,8 @@ const Rule kRules[] = {
     {"friction", "ode"},
     {"friction", "bullet", kError, Type::kAny, kAnyRange, "give the coefficient as friction/ode/mu"},
     {"friction", "torsional", kError, Type::kAny, kAnyRange, "torsional friction is not supported"},
-    {"bounce", "restitution_coefficient", kError, Type::kNumber, kAnyRange, "bodies do not rebound"},
+    {"bounce", "restitution_coefficient", kError, Type::kNumber, kAnyRange,
+     "bodies do not rebound by themselves: give it by pairs, in navvy:materials"},
     {"bounce", "threshold", kWarn, Type::kNumber, kAnyRange, "the engine chooses"},
     {"ode", "mu", kUsed, Type::kNumber, {0, 1000}},  // Gazebo's ground_plane has 100
     {"ode", "mu2", kWarn, Type::kNumber, {0, 1000}, "friction is the same in all directions, that of mu"},
@@ -233,6 +234,9 @@ struct Extension {
 // Where each extension element belongs; its own table is in its reader.
 const Extension kExtensions[] = {
     {"sdf", "navvy:soil"},
+    {"sdf", "navvy:materials"},
+    {"world", "navvy:materials"},
+    {"link", "navvy:material"},
     {"world", "navvy:soil"},
     {"world", "navvy:ground"},
     {"world", "navvy:solver"},

@@ -14,6 +14,7 @@
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/machine_reader.h"
+#include "scene_io/materials_reader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/program_order.h"
 #include "scene_io/program_reader.h"
@@ -422,6 +423,8 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
   check_cell(*element, world, faults);
+  if (Element* e = element->FirstChildElement("navvy:materials")) world.materials = read_materials(*e, faults);
+  check_materials(world, faults);
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);

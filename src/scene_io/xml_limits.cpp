@@ -54,6 +54,7 @@ const Count kCounts[] = {
     {"navvy:ground", "bank", limits::kGroundParts},
     {"navvy:ground", "block", limits::kGroundParts},
     {"navvy:design", "area", limits::kDesignAreas},
+    {"navvy:materials", "pair", limits::kMaterialPairs},
     {"patch", "layer", limits::kGroundLayers},
     {"model", "link", limits::kLinks},
     {"model", "joint", limits::kLinks},

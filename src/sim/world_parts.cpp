@@ -33,7 +33,7 @@ heightfield::Ground make_site(const scene::Scene& world) {
 WorldParts::WorldParts(scene::Scene world, device::Device& device)
     : description(std::move(world)),
       ground(make_site(description)),
-      dynamic(vehicle::make_bullet_engine(description.gravity)),
+      dynamic(vehicle::make_bullet_engine(description.gravity, description.materials)),
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
       coupling(description, *dynamic, *kinematic, soil, ground) {

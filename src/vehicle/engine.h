@@ -42,7 +42,7 @@ class Engine {
   virtual void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) = 0;
 
   /// Advances by dt [s]: joints, hydraulics, tyre forces from `ground` and from bodies, contacts of collision shapes
-  /// with the ground (at full resolution, wherever they are) and with each other.
+  /// with the ground (at full resolution, wherever they are) and with each other, of shells with bodies.
   /// @throws SimulationError for a machine that is nowhere, or deep below the ground.
   virtual void step(double dt, const GroundQuery& ground) = 0;
   /// Height [m] of the level rock that no shell of a machine with masses goes into; far below until told.
@@ -80,8 +80,9 @@ class Engine {
   virtual void visit(Archive& a) = 0;
 };
 
-/// Dynamics under gravity [m/s2, W]; and positions as commanded, without forces. Neither knows the other's machines.
-std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity);
+/// Dynamics under gravity [m/s2, W], contacts by `materials` where both bodies have one; and positions as commanded,
+/// without forces. Neither knows the other's machines.
+std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity, const scene::Materials& materials = {});
 std::unique_ptr<Engine> make_kinematic_engine();
 
 }  // namespace navvy::vehicle

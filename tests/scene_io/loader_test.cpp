@@ -358,5 +358,27 @@ TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
   EXPECT_THROW(parse_setting("soil.swell"), InputError);
 }
 
+TEST(Loader, ReadsPairsOfMaterialsFromTheirFileAndFromTheScene) {
+  const scene::Scene world = load_scene_from_string(
+      R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/><navvy:ground/>
+<navvy:materials><file>materials.sdf</file><ground>earth</ground>
+<pair materials="ice earth"><static_friction>0.1</static_friction><restitution>0.2</restitution>
+<softness_m_per_n>1e-7</softness_m_per_n></pair></navvy:materials>
+<model name="m"><static>true</static><link name="a"><navvy:material>ice</navvy:material></link></model></world></sdf>)",
+      "here/scene.sdf", control::step_kinds());
+  EXPECT_EQ(world.machines.at(0).machine.links.at(0).material.name, "ice");
+  EXPECT_EQ(world.materials.ground, "earth");
+  const scene::MaterialPair* shipped = world.materials.pair("stone", "steel");
+  ASSERT_NE(shipped, nullptr);
+  EXPECT_GT(shipped->static_friction, shipped->kinetic_friction);
+  const scene::MaterialPair* own = world.materials.pair("earth", "ice");
+  ASSERT_NE(own, nullptr);
+  EXPECT_EQ(own->static_friction, 0.1);
+  EXPECT_EQ(own->kinetic_friction, 0.1) << "one number serves for both";
+  EXPECT_EQ(own->restitution, 0.2);
+  EXPECT_EQ(own->softness, 1e-7);
+  EXPECT_EQ(world.materials.pair("ice", "stone"), nullptr);
+}
+
 }  // namespace
 }  // namespace navvy::scene_io

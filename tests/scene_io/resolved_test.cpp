@@ -10,8 +10,10 @@
 #include "core/file.h"
 #include "folder.h"
 #include "paths.h"
+#include "scene/parameters.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
+#include "scene_io/world_reader.h"
 
 namespace navvy::scene_io {
 namespace {
@@ -115,6 +117,23 @@ TEST(Resolved, TextHoldsEveryOverride) {
   // Not stated by anyone: it followed the cohesion down.
   EXPECT_EQ(resolved.soils[0].residual_cohesion, world.soils[0].residual_cohesion);
   EXPECT_EQ(resolved.machines[0].X_WM.translation().x(), -8.5);
+}
+
+TEST(Resolved, ATableOfMaterialsIsWrittenOut) {
+  const std::string scene =
+      R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/><navvy:ground/>
+<navvy:materials><file>materials.sdf</file><ground>earth</ground>
+<pair materials="ice earth"><static_friction>0.1</static_friction></pair></navvy:materials></world></sdf>)";
+  Faults faults;
+  const auto document = Document::parse(scene, "here/scene.sdf", faults);
+  ASSERT_TRUE(document);
+  const scene::Scene first = read_world(*document, control::step_kinds(), faults);
+  const std::string text = resolved_text(*document, first);
+  EXPECT_EQ(text.find("<file>materials.sdf"), std::string::npos);
+  const scene::Scene again = load_scene_from_string(text, kElsewhere, control::step_kinds());
+  EXPECT_EQ(scene::parameters(again), scene::parameters(first));
+  EXPECT_EQ(again.materials.pairs.size(), first.materials.pairs.size());
+  EXPECT_GT(again.materials.pairs.size(), 5u);
 }
 
 TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {

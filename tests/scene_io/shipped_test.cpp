@@ -31,6 +31,8 @@ TEST(ShippedFiles, EveryScenarioLoads) {
   EXPECT_GE(count, 4);
 }
 
+TEST(ShippedFiles, TheTableOfMaterialsLoads) { expect_clean(kRoot / "terrain" / "materials.sdf"); }
+
 TEST(ShippedFiles, EveryMachineLoads) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(kRoot / "vehicles")) {

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "vehicle/bullet/broad_phase.h"
+#include "vehicle/bullet/contact_materials.h"
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/ground_shape.h"
 #include "vehicle/bullet/machine.h"
@@ -32,8 +33,9 @@ constexpr std::uint32_t kVersion = 4;
 
 class BulletEngine final : public Engine {
  public:
-  explicit BulletEngine(const Vec3& gravity)
+  BulletEngine(const Vec3& gravity, const scene::Materials& materials)
       : gravity_(gravity),
+        materials_(materials),
         dispatcher_(&configuration_),
         broadphase_(kMostShapes),
         world_(&dispatcher_, &broadphase_, &configuration_) {
@@ -77,6 +79,7 @@ class BulletEngine final : public Engine {
       world_.addCollisionObject(plates.get(), stands ? kStandingGroup : kMachineGroup,
                                 stands ? kMachineGroup : kMachineGroup | kStandingGroup);
     }
+    materials_.mark(*machines_.back());
     // The order in which rows are given to the solver is part of the result: joints, then rock, machine by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
@@ -103,11 +106,13 @@ class BulletEngine final : public Engine {
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all, then positions.
     for (auto& machine : machines_) machine->begin_step(ground, dt);
     tyre_bodies_.push(machines_, world_, dt);
-    for (auto& machine : machines_) machine->accelerate(gravity_, dt);
     ground_shape_.set_ground(&ground);
     world_.performDiscreteCollisionDetection();
     turn_ground_contacts();
     ground_shape_.set_ground(nullptr);
+    // Detection looks at poses alone. Materials ask who rests, before forces give everything a speed.
+    materials_.apply(dispatcher_, ground_, gravity_);
+    for (auto& machine : machines_) machine->accelerate(gravity_, dt);
     solve(dt);
     for (auto& machine : machines_) {
       machine->end_step(contact_impulse(*machine), dt);
@@ -212,6 +217,7 @@ class BulletEngine final : public Engine {
   }
 
   Vec3 gravity_;
+  ContactMaterials materials_;
   // In the order in which each needs the one before it.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
@@ -229,6 +235,8 @@ class BulletEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity) { return std::make_unique<BulletEngine>(gravity); }
+std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity, const scene::Materials& materials) {
+  return std::make_unique<BulletEngine>(gravity, materials);
+}
 
 }  // namespace navvy::vehicle

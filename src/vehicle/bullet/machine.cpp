@@ -73,8 +73,7 @@ std::vector<btMultiBodyLinkCollider*> BulletMachine::all_colliders() const {
 // The tree moves its links' own colliders; the plates of shells are beside them.
 void BulletMachine::place_colliders() {
   tree_.place_colliders();
-  for (const auto& plates : steel_)
-    plates->setWorldTransform(to_bt(tree_.link(tree_.link_of_bullet(plates->m_link)).X_WL));
+  for (const auto& plates : steel_) plates->setWorldTransform(to_bt(tree_.link(link_of(*plates)).X_WL));
 }
 
 void BulletMachine::add_rock() {

@@ -36,8 +36,9 @@ class BulletMachine {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }  ///< by link
   /// The shells' plates, which meet bodies and no ground: soil is in their way there. By shell.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }
-  /// All of both that there are.
+  /// All of both that there are, and the link that one moves with.
   std::vector<btMultiBodyLinkCollider*> all_colliders() const;
+  int link_of(const btMultiBodyLinkCollider& collider) const { return tree_.link_of_bullet(collider.m_link); }
   MachineWheels& wheels() { return wheels_; }
 
   /// Takes the joint from the drive until the drive's next command.

@@ -79,7 +79,7 @@ std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, 
   refuse(collision, "plane", "no body collides as a plane: in a scene it is the rock under the ground");
 }
 
-/// Steel of a shell (U): about 0.5 on a stone that has the usual 0.8.
+/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual 0.8.
 constexpr double kSteelFriction = 0.6;
 
 }  // namespace
