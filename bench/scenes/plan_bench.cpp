@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <optional>
 #include <string>
@@ -43,9 +44,10 @@ void measure(const std::string& name, control::PathPlanner& planner, const contr
   bench::Row row;
   row.bench = name;
   row.steps = static_cast<std::uint64_t>(plans);
-  std::vector<double> seconds;
+  std::vector<double> seconds, processor;
   StateHash hash;
   for (int run = 0; run < runs; ++run) {
+    const std::clock_t begin = std::clock();
     const Stopwatch watch;
     for (int plan = 0; plan < plans; ++plan) {
       control::PathQuery query = asked;
@@ -57,14 +59,18 @@ void measure(const std::string& name, control::PathPlanner& planner, const contr
                      path ? path->length() : 0.0, path ? path->cusps() : 0);
     }
     seconds.push_back(watch.seconds() / plans);
+    processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / plans);
   }
   std::sort(seconds.begin(), seconds.end());
   row.timing.best = seconds.front();
   row.timing.median = seconds[seconds.size() / 2];
   row.timing.spread = seconds.back() / seconds.front() - 1;
   row.timing.runs = runs;
+  row.timing.processor = *std::min_element(processor.begin(), processor.end());
   row.hash = hash.hex();
-  bench::print({}, row);
+  device::DeviceInfo host;
+  host.name = "host";
+  bench::print(host, row);
 }
 
 }  // namespace
