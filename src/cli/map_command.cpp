@@ -31,7 +31,7 @@ namespace {
 
 struct MapCommand {
   std::string from, layers, format, out, scene, device;
-  bool start = false;
+  bool start = false, paths = false;
   double slope_deg = 0, step = 0, roughness = 0, window = 0;  ///< 0: the map's own
 };
 
@@ -104,8 +104,23 @@ int map(const MapCommand& options) {
   const std::vector<planner::Layer> layers =
       options.layers.empty() ? format.by_default : planner::layers_named(options.layers);
   require_writable(options.out);
+  if (options.paths && format.name != "hillshade" && format.name != "relief")
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", format.name,
+                           "only hillshade and relief show paths",
+                           "ask for one of those, or read the run's paths.csv"});
+  std::vector<planner::PathLine> lines;
+  if (options.paths) {
+    const std::string file = (std::filesystem::path(options.from) / "paths.csv").string();
+    if (!std::filesystem::is_regular_file(file))
+      throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from, "holds no paths.csv",
+                             "give the folder of a run whose program has a go_to"});
+    lines = planner::read_paths(file);
+  }
   const planner::TerrainMap made = read(options, layers);
-  format.write(made, layers, options.out);
+  if (options.paths)
+    planner::write_picture_with_paths(format.name, made, layers, options.out, lines);
+  else
+    format.write(made, layers, options.out);
   // One line that says what was written.
   std::string names;
   for (const planner::Layer layer : layers) names += (names.empty() ? "" : ",") + planner::info(layer).name;
@@ -152,6 +167,8 @@ void add_map(CLI::App& app, Action& action) {
   command->add_option("--format", options->format, "see below")->required();
   command->add_option("--out", options->out, "the file to write; replaced whole or not at all")->required();
   command->add_flag("--start", options->start, "of a run: the ground at its start");
+  command->add_flag("--paths", options->paths,
+                    "of a run with a go_to: draw its planned paths on a hillshade or relief");
   command->add_option("--scene", options->scene, "of a snapshot: its scene; without it scene.sdf beside the snapshot");
   command->add_option("--device", options->device, "of a snapshot: the OpenCL device, as in `navvy run`");
   const auto limit = [&](const char* name, double& to, const char* meaning) {

@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
+#include "planner/path_file.h"
 #include "record/hash_log.h"
 #include "record/last_words.h"
 #include "record/map_recorder.h"
@@ -58,6 +59,7 @@ struct Recorder::State {
   void map_when_due();
   void checkpoint(bool force);
   void write_summary(bool with_hash);
+  void write_paths();
   std::string summary(bool with_hash) const { return summary_json(session, status, with_hash); }
   void write_start();
 };
@@ -102,6 +104,15 @@ Recorder::~Recorder() = default;
 bool Recorder::State::due(double rate) const {
   // By the step's number, counted from time zero: a resumed run records the steps that the whole one would.
   return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
+}
+
+/// A run in which nobody planned leaves no such file.
+void Recorder::State::write_paths() {
+  std::string rows;
+  for (const session::ProgramReport& report : session.programs())
+    rows += planner::path_rows(session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
+                               report.paths);
+  if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
 }
 
 /// At most one row a step: a rate above the step's gives every step.
@@ -209,6 +220,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   // The end of the ground, also of a run that failed: it shows where.
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
+  attempt([&] { s.write_paths(); });
   std::string text;
   bool written = false;
   attempt([&] {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/path_file.h"
 #include "planner/terrain_map.h"
 
 namespace navvy::planner {
@@ -38,6 +39,11 @@ void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, co
 /// Picture of one layer in colours from its least (dark) to its greatest value (bright), traversability from red to
 /// green, cut_fill blue below and red above zero; with the surface's shade where the map has elevation.
 void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
+
+/// Both pictures with lines over them, three columns wide: the first plan of a step red, the second blue, then green
+/// and violet, and so on. `format` is "hillshade" or "relief". @throws InputError for another.
+void write_picture_with_paths(const std::string& format, const TerrainMap& map, const std::vector<Layer>& layers,
+                              const std::string& path, const std::vector<PathLine>& lines);
 
 /// Triangles through column centres in W as binary PLY: x, y, z as doubles, and of every layer asked for a float
 /// property at each vertex. Faces only between known columns. Elevation must be in the map.

@@ -75,16 +75,46 @@ void require_one(const char* format, const std::vector<Layer>& layers, const std
                          "ask for one picture a layer, or for a GeoTIFF"});
 }
 
+/// Which line lies over a column: the plan's number, 0 for none; empty where there are none.
+using Overlay = std::vector<std::uint8_t>;
+
+Overlay overlay_of(const TerrainMap& map, const std::vector<PathLine>& lines) {
+  if (lines.empty()) return {};
+  Overlay out(static_cast<std::size_t>(map.rect().area()));
+  const auto mark = [&](const Vec2& p, int plan) {
+    const Vec2i c = ((p - map.origin()) / map.cell()).array().floor().cast<int>();
+    for (int iy = c.y() - 1; iy <= c.y() + 1; ++iy)
+      for (int ix = c.x() - 1; ix <= c.x() + 1; ++ix)
+        if (map.contains(ix, iy))
+          out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix)] =
+              static_cast<std::uint8_t>(1 + (plan - 1) % 4);
+  };
+  // Later ones over earlier ones; places lie closer than a column or are joined by half columns.
+  for (const PathLine& line : lines)
+    for (std::size_t i = 0; i < line.places.size(); ++i) {
+      const Vec2& from = line.places[i == 0 ? 0 : i - 1];
+      const Vec2 way = line.places[i] - from;
+      const int parts = std::clamp(static_cast<int>(2 * way.norm() / map.cell()), 1, 100000);
+      for (int k = 0; k <= parts; ++k) mark(from + way * k / parts, line.plan);
+    }
+  return out;
+}
+
 /// `colour(ix, iy, out)` says whether the column is known.
 template <class Paint>
-void write_picture(const TerrainMap& map, const std::string& path, const Paint& colour) {
+void write_picture(const TerrainMap& map, const std::string& path, const Overlay& overlay, const Paint& colour) {
+  static const std::array<Colour, 4> inks = {Colour{0.85, 0.10, 0.10}, Colour{0.10, 0.35, 0.90},
+                                             Colour{0.05, 0.60, 0.25}, Colour{0.60, 0.20, 0.75}};
   // The picture's first row is the northern edge.
   std::vector<std::uint8_t> pixels;
   pixels.reserve(4 * static_cast<std::size_t>(map.rect().area()));
   for (int iy = map.ny() - 1; iy >= 0; --iy)
     for (int ix = 0; ix < map.nx(); ++ix) {
       Colour rgb{};
-      const bool known = colour(ix, iy, rgb);
+      bool known = colour(ix, iy, rgb);
+      const std::size_t column =
+          static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix);
+      if (!overlay.empty() && overlay[column] > 0) rgb = inks[overlay[column] - 1u], known = true;
       for (const double c : rgb)
         pixels.push_back(known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
       pixels.push_back(known ? 255 : 0);
@@ -92,23 +122,23 @@ void write_picture(const TerrainMap& map, const std::string& path, const Paint& 
   write_file_atomically(path, png_bytes(PixelKind::kRgba, map.nx(), map.ny(), pixels));
 }
 
-}  // namespace
-
-void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+void paint_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path,
+                     const Overlay& overlay) {
   require_one("hillshade", layers, path, !layers.empty() && info(layers[0]).height);
-  write_picture(map, path, [&](int ix, int iy, Colour& rgb) {
+  write_picture(map, path, overlay, [&](int ix, int iy, Colour& rgb) {
     const double light = shade(map, layers[0], ix, iy);
     rgb.fill(light);
     return light == light;
   });
 }
 
-void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+void paint_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path,
+                  const Overlay& overlay) {
   require_one("relief", layers, path, true);
   const Layer layer = layers[0];
   const auto [low, high] = range_of(layer, map.copy(layer));
   const double least = low, span = high - low;
-  write_picture(map, path, [&](int ix, int iy, Colour& rgb) {
+  write_picture(map, path, overlay, [&](int ix, int iy, Colour& rgb) {
     const double value = static_cast<double>(map.at(layer, ix, iy));
     if (!(value == value)) return false;
     rgb = between(stops_of(layer), (value - least) / span);
@@ -117,6 +147,24 @@ void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const
     for (double& c : rgb) c *= light == light ? 0.45 + 0.55 * light : 1;
     return true;
   });
+}
+
+}  // namespace
+
+void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  paint_hillshade(map, layers, path, {});
+}
+void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+  paint_relief(map, layers, path, {});
+}
+
+void write_picture_with_paths(const std::string& format, const TerrainMap& map, const std::vector<Layer>& layers,
+                              const std::string& path, const std::vector<PathLine>& lines) {
+  const Overlay overlay = overlay_of(map, lines);
+  if (format == "hillshade") return paint_hillshade(map, layers, path, overlay);
+  if (format == "relief") return paint_relief(map, layers, path, overlay);
+  throw InputError(Fault{Fault::Severity::kError, path, 0, "paths", format, "paths are drawn on hillshade and relief",
+                         "ask for one of those, or read the run's paths.csv"});
 }
 
 }  // namespace navvy::planner
