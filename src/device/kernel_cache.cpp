@@ -146,8 +146,14 @@ KernelCache::Manifest KernelCache::read_manifest() const {
   return out;
 }
 
+void KernelCache::write_manifest(const Manifest& manifest) const {
+  std::string text = std::string(kManifestHead) + "\n";
+  for (const auto& [name, entry] : manifest) text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
+  write_file_atomically((folder_ / kManifestName).string(), text);
+}
+
 void KernelCache::check(bool alone) {
-  const Manifest manifest = read_manifest();
+  Manifest manifest = read_manifest();
   const std::vector<fs::path> files = files_in(folder_);
   // Three things are gathered: the programs of which one file is wrong, the files that were seen, and the size of all.
   std::uintmax_t bytes = 0;
@@ -194,6 +200,12 @@ void KernelCache::check(bool alone) {
     // What cannot be removed would be loaded: such a folder is no cache.
     if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
   }
+  // Out of the list at once: a neighbour would find the files gone, and remove what this process compiles in their
+  // place.
+  if (!bad.empty()) {
+    std::erase_if(manifest, [&](const auto& listed) { return bad.count(program_of(listed.first)) > 0; });
+    write_manifest(manifest);
+  }
   // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
   if (alone && bytes > kMostBytes) {
     std::error_code error;
@@ -216,9 +228,7 @@ void KernelCache::seal() noexcept {
       // What is listed stays as listed: a file that changed since is found out by the next check.
       now[name] = entry != old.end() ? entry->second : Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
     }
-    std::string text = std::string(kManifestHead) + "\n";
-    for (const auto& [name, entry] : now) text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
-    write_file_atomically((folder_ / kManifestName).string(), text);
+    write_manifest(now);
   } catch (const std::exception&) {
     // The next process finds files that nobody listed and compiles them again.
   }

@@ -49,6 +49,7 @@ class KernelCache {
   using Manifest = std::map<std::string, Entry>;  ///< by path relative to the folder
 
   Manifest read_manifest() const;
+  void write_manifest(const Manifest& manifest) const;
   void check(bool alone);
   void lock();
 

@@ -91,6 +91,20 @@ TEST(KernelCache, RemovesWhatAKilledProcessLeftWhenAloneOnly) {
   EXPECT_FALSE(fs::exists(folder.path() / "tempfile_a1b2"));
 }
 
+TEST(KernelCache, LeavesWhatANeighbourCompilesInPlaceOfADamagedProgram) {
+  const test::Folder folder;
+  fill(folder.path());
+  const fs::path code = folder.path() / "AB/one/add/1-1-1/add.so";
+  write(code, "cut");
+  const KernelCache first(folder.path());
+  EXPECT_EQ(first.removed(), 2u);
+  // It compiles anew, and is not done when the next process comes.
+  write(code, "machine co");
+  const KernelCache second(folder.path());
+  EXPECT_EQ(second.removed(), 0u);
+  EXPECT_TRUE(fs::exists(code));
+}
+
 TEST(KernelCache, ADamagedListOnlyCostsCompiling) {
   const test::Folder folder;
   fill(folder.path());

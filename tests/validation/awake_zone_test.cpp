@@ -3,10 +3,12 @@
 // twice as far around and below.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "validation/report.h"
 #include "validation/scenes.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
