@@ -152,8 +152,23 @@ void KernelCache::write_manifest(const Manifest& manifest) const {
   write_file_atomically((folder_ / kManifestName).string(), text);
 }
 
+// Programs go as a whole: the driver takes the presence of some files as proof of the others.
+void KernelCache::remove_programs(const std::set<fs::path>& programs, Manifest manifest) {
+  if (programs.empty()) return;
+  for (const fs::path& program : programs) {
+    std::error_code error;
+    fs::remove_all(folder_ / program, error);
+    // What cannot be removed would be loaded: such a folder is no cache.
+    if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
+  }
+  // Out of the list at once: a neighbour would find the files gone, and remove what this process compiles in their
+  // place.
+  std::erase_if(manifest, [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
+  write_manifest(manifest);
+}
+
 void KernelCache::check(bool alone) {
-  Manifest manifest = read_manifest();
+  const Manifest manifest = read_manifest();
   const std::vector<fs::path> files = files_in(folder_);
   // Three things are gathered: the programs of which one file is wrong, the files that were seen, and the size of all.
   std::uintmax_t bytes = 0;
@@ -193,19 +208,7 @@ void KernelCache::check(bool alone) {
     const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
     ++(remove ? removed_ : whole_);
   }
-  // Programs go as a whole: the driver takes the presence of some files as proof of the others.
-  for (const fs::path& program : bad) {
-    std::error_code error;
-    fs::remove_all(folder_ / program, error);
-    // What cannot be removed would be loaded: such a folder is no cache.
-    if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
-  }
-  // Out of the list at once: a neighbour would find the files gone, and remove what this process compiles in their
-  // place.
-  if (!bad.empty()) {
-    std::erase_if(manifest, [&](const auto& listed) { return bad.count(program_of(listed.first)) > 0; });
-    write_manifest(manifest);
-  }
+  remove_programs(bad, manifest);
   // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
   if (alone && bytes > kMostBytes) {
     std::error_code error;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 namespace navvy::device {
@@ -51,6 +52,7 @@ class KernelCache {
   Manifest read_manifest() const;
   void write_manifest(const Manifest& manifest) const;
   void check(bool alone);
+  void remove_programs(const std::set<std::filesystem::path>& programs, Manifest manifest);
   void lock();
 
   std::filesystem::path folder_;
