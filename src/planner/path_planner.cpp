@@ -11,6 +11,7 @@
 #include "planner/map_maker.h"
 #include "planner/obstacle_index.h"
 #include "planner/ompl/reeds_shepp.h"
+#include "planner/sources.h"
 
 namespace navvy::planner {
 namespace {
@@ -19,18 +20,10 @@ namespace {
 // that are asked for come a little nearer.
 constexpr double kReserve = 0.2;  // [m] tuned: GoToStep.DrivesRoundATrenchThatWasNotThereWhenItPlanned
 
-MapOptions options_for(const scene::Machine& machine) {
-  MapOptions options;
-  options.layers = {Layer::kTraversability};
-  const scene::Traversability& own = machine.traversability;
-  options.limits = {own.slope, own.step_height, own.roughness, own.window};
-  return options;
-}
-
 class MapPathPlanner final : public control::PathPlanner {
  public:
   explicit MapPathPlanner(const scene::Machine& machine)
-      : maker_(options_for(machine)),
+      : maker_({{Layer::kTraversability}, limits_of(machine), {}}),
         footprint_(footprint_of(machine)),
         radius_(control::kRadiusReserve * control::PathFollower(machine.drive).least_radius()) {}
 

@@ -46,15 +46,17 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
 }
 
 TraversabilityLimits limits_for(const scene::Scene& scene) {
-  TraversabilityLimits out;
-  for (const scene::MachineInWorld& placed : scene.machines) {
-    const scene::Traversability& own = placed.machine.traversability;
-    if (own.given) return {own.slope, own.step_height, own.roughness, own.window};
-  }
-  return out;
+  for (const scene::MachineInWorld& placed : scene.machines)
+    if (placed.machine.traversability.given) return limits_of(placed.machine);
+  return {};
 }
 
 }  // namespace
+
+TraversabilityLimits limits_of(const scene::Machine& machine) {
+  const scene::Traversability& own = machine.traversability;
+  return {own.slope, own.step_height, own.roughness, own.window};
+}
 
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site, std::vector<Layer> layers,
                        const heightfield::DesignSurface* design) {

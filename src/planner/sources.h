@@ -12,6 +12,8 @@
 
 namespace navvy::planner {
 
+/// What a machine can drive on: as its file gives it (navvy:traversability), or the defaults.
+TraversabilityLimits limits_of(const scene::Machine& machine);
 /// Options of maps with `layers`: the limits of the first machine of the scene that gives some (navvy:traversability),
 /// else the defaults; where a layer asks for it the scene's design surface on the columns of `site`, made here unless
 /// somebody has it already. @throws InputError as heightfield::make_design.

@@ -53,7 +53,7 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
 void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {
   if (taken_) return;
   const bool well = !op_.ended() || op_.done();
-  load_ = observe(seen_);
+  observe(seen_);
   // Time and step go in: operators have no clock of their own.
   send(op_.update(seen_, world_.time(), world_.dt()));
   note_cycle(cycles);
@@ -63,7 +63,7 @@ void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips
 }
 
 /// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
-BucketLoad OperatedMachine::observe(control::Observation& seen) const {
+void OperatedMachine::observe(control::Observation& seen) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
   // The base link stands for the machine, as in programs' coordinates.
   const vehicle::LinkState base = base_.state();
@@ -80,12 +80,10 @@ BucketLoad OperatedMachine::observe(control::Observation& seen) const {
     if (world_.ground().sample(top.x(), top.y()) > top.z()) seen.wheels_under += 1.0 / double(wheels_.size());
   }
   // A machine without a bucket carries no load that a gauge would show.
-  if (!bucket_) return {};
+  if (!bucket_) return;
   // Low-passed: an operator reacts to the push, not to single particles.
-  const BucketLoad load = bucket_->load();
-  seen.force = load.whole;
+  seen.force = bucket_->tool().smooth_force().norm();
   if (world_.steps() % kPayloadInterval == 0) seen.payload = bucket_->tool().payload();
-  return load;
 }
 
 /// A joint without a new command keeps its last one: operators speak only when something changes.
@@ -122,10 +120,11 @@ void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
   // Without a bucket nothing is ever opened: only digs tell of scoops.
   if (!open_ || !bucket_) return;
   // Peaks of the low-passed force are what a cylinder would feel.
-  open_->force_peak = std::max(open_->force_peak, load_.whole);
-  open_->draft_peak = std::max(open_->draft_peak, load_.draft);
+  const BucketLoad load = bucket_->load();
+  open_->force_peak = std::max(open_->force_peak, load.whole);
+  open_->draft_peak = std::max(open_->draft_peak, load.draft);
   if (event == CycleEvent::kCurlStart) open_->curl = world_.time();
-  if (open_->curl > 0) open_->uplift_peak = std::max(open_->uplift_peak, load_.uplift);
+  if (open_->curl > 0) open_->uplift_peak = std::max(open_->uplift_peak, load.uplift);
   if (event == CycleEvent::kLiftOut) {
     open_->lift_out = world_.time();
     open_->payload_lift_out = bucket_->tool().payload();

@@ -61,8 +61,7 @@ class OperatedMachine {
   void visit(Archive& a);
 
  private:
-  /// Returns what the soil does to the bucket in more detail than an operator sees.
-  BucketLoad observe(control::Observation& seen) const;
+  void observe(control::Observation& seen) const;
   void send(const control::Command& command);
   void note_cycle(std::vector<Cycle>& cycles);
   void note_tip(std::vector<BedTip>& tips);
@@ -77,7 +76,6 @@ class OperatedMachine {
   // The operator's own memory is in it; what it saw last is beside it.
   control::Operator op_;
   control::Observation seen_;
-  BucketLoad load_;
   // Begun and not yet ended.
   std::optional<Cycle> open_;
   std::optional<BedTip> open_tip_;

@@ -28,14 +28,13 @@ using control::PlanePose;
 using Space = ob::ReedsSheppStateSpace;
 
 constexpr double kStep = 0.15;  // [m] between poses that are asked for
-constexpr double kRange =
-    6;  // [m] most growth of a tree at a time; tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace
-constexpr int kTrees = 16;  // pairs of trees at most; tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace
-// A pair that has not met by then is given up for a new one: growth costs more the larger the trees are.
-constexpr int kTreeIterations = 250;  // tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace
-constexpr unsigned kShortenings =
-    60;  // tries of each kind to shorten a path; tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace
-constexpr double kNoPiece = 1e-6;  // [m] shorter than this is rounding
+// These four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that has not met by its
+// iterations is given up for a new one: growth costs more the larger the trees are.
+constexpr double kRange = 6;           // most growth of a tree at a time [m]
+constexpr int kTrees = 16;             // pairs of trees at most
+constexpr int kTreeIterations = 250;   // of a pair
+constexpr unsigned kShortenings = 60;  // tries of each kind to shorten a path
+constexpr double kNoPiece = 1e-6;      // [m] shorter than this is rounding
 
 PlanePose pose_of(const ob::State* state) {
   const auto* s = state->as<ob::SE2StateSpace::StateType>();

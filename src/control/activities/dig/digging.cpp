@@ -335,7 +335,6 @@ void DiggingMemory::visit(Archive& a) {
   a("progress", progress);
   a("curl_angle", curl_angle);
   a("curl_z", curl_z);
-  a("about_pin", about_pin);
   a("scoop_volume", scoop_volume);
   a("full_mass", full_mass);
   a("lift_before", lift_before);

@@ -24,7 +24,6 @@ struct DiggingMemory {
   double s = 0;                                            ///< the tip's place along the trench, from its near end [m]
   double progress = 0;                                     ///< of the curl, 0..1
   double curl_angle = 0, curl_z = 0;                       ///< of the tip path when the curl began [rad], [m]
-  double about_pin = 1;                                    ///< share by which the bucket turns about its pin
   double scoop_volume = 0, full_mass = 0;                  ///< of a full bucket: bank volume [m3], mass [kg]
   double lift_before = 0;                                  ///< of the tip path when the drag began [m]
   double held_up = 0;               ///< what soil has raised it by since, over the length of the drag [m2]

@@ -19,10 +19,9 @@ constexpr double kCurlTime = 2.2;                   // [s]
 // scrapes. Held by rock it stands still (TipPath::slow). tuned: on the trench, with kAboutPin, 0.5 m/s until 0.6 keeps
 // 361 kg, 0.7 m/s until 0.7 keeps 397 kg.
 constexpr double kCurlSpeed = 0.7, kCutOn = 0.7, kFair = 0.5;
-// A bucket with a fair load turns by this share about its pin and by the rest about its lip, others about the pin
-// alone. About the lip the heel bears on the floor that was just cut and the boom pushes it down. tuned: on the
-// trench's first scoop the soil pushes the bucket up by 40, 24, 1 and 1 kN at 0, 0.4, 0.6 and 1, and the load is 415,
-// 400, 361 and 344 kg.
+// The bucket turns by this share about its pin and by the rest about its lip. About the lip the heel bears on the floor
+// that was just cut and the boom pushes it down. tuned: on the trench's first scoop the soil pushes the bucket up by
+// 40, 24, 1 and 1 kN at 0, 0.4, 0.6 and 1, and the load is 415, 400, 361 and 344 kg.
 constexpr double kAboutPin = 0.6;
 constexpr double kOut = 0.25;      // lowest point over the surface after the curl [m]
 constexpr double kPastEnd = 0.03;  // the shell may pass the far end by this [m]
@@ -75,7 +74,6 @@ bool Digging::drag(const Observation& seen, double dt) {
   // The curl begins where the arm is, not where it was wished to be.
   m.curl_angle = m.tip.angle = m.tip.reached;
   m.curl_z = m.tip.z = m.tip.z + m.tip.lift;
-  m.about_pin = seen.payload > kFair * m.full_mass ? kAboutPin : 1;
   m.tip.lift = 0;
   m.progress = 0;
   return true;
@@ -89,7 +87,7 @@ bool Digging::curl(const Observation& seen, double dt) {
     m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
   m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
   const double arc = arm_.bucket_length() * (std::sin(m.tip.reached) - std::sin(m.curl_angle));
-  const double turned = std::max(m.curl_z + std::max(0.0, m.about_pin * arc), floor_height());
+  const double turned = std::max(m.curl_z + std::max(0.0, kAboutPin * arc), floor_height());
   // First the bucket turns; then it leaves the ground straight up.
   const double top = plan_.start_height(m.s) + kOut + arm_.below_tip(m.tip.reached);
   m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - 0.35) / 0.65));
