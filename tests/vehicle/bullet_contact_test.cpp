@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "core/error.h"
 #include "vehicle/machines.h"
@@ -177,7 +177,7 @@ TEST(BulletContact, TwoHundredBodiesOfWhichTwoTouchCostNoSearchOfAllPairs) {
     }
     engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3(0, 0, 50));
     run(*engine, flat(), 0.5, kStep);
-    return std::pair(engine->link(0, 0).X_WL.translation(), engine->link(1, 0).X_WL.translation());
+    return std::array<Vec3, 2>{engine->link(0, 0).X_WL.translation(), engine->link(1, 0).X_WL.translation()};
   };
   EXPECT_EQ(end(0), end(200));
 }

@@ -148,7 +148,7 @@ TEST(BulletRock, AResumedRunPressesTheSame) {
   EXPECT_EQ(digest(*again.engine), digest(*dig.engine));
   // A bucket with another number of corners is another machine.
   scene::Machine other = dig.machine;
-  other.shells.at(0).vertices.pop_back();
+  other.shells.at(0).vertices.push_back(other.shells.at(0).vertices.front());
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(other, Pose::Identity());
   EXPECT_THROW(load_saved(bytes, *engine), InputError);

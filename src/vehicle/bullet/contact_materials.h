@@ -20,6 +20,8 @@ namespace navvy::vehicle {
 class ContactMaterials {
  public:
   explicit ContactMaterials(scene::Materials table);
+  ContactMaterials(const ContactMaterials&) = delete;  // pairs_ points into table_
+  ContactMaterials& operator=(const ContactMaterials&) = delete;
 
   /// Tells the colliders of a machine whose they are, before the first `apply`.
   void mark(BulletMachine& machine) const;
