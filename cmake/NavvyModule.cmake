@@ -98,7 +98,7 @@ endfunction()
 add_custom_target(navvy_host_tests)
 add_custom_target(navvy_fuzzers)
 
-# navvy_tests(NAME LABEL host|device|slow [LIBS libs...] [PATTERN globs...] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
+# navvy_tests(NAME LABEL host|plain|device|slow [LIBS libs...] [PATTERN globs...] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
 # One GoogleTest program of all *_test.cpp in this folder (or those matching PATTERN: wings of a module have folders of
 # their own).
 function(navvy_tests name)
