@@ -16,9 +16,11 @@ inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 inline constexpr std::size_t kXmlBytes = 16 * kMegabyte;     ///< of one file
 inline constexpr std::size_t kXmlElements = 100'000;         ///< of one file, counted with those in comments
 inline constexpr std::size_t kXmlNesting = 64;               ///< elements inside each other
+inline constexpr std::size_t kModelNesting = 8;              ///< models that are parts of each other
 inline constexpr std::size_t kXmlAttributes = 32;            ///< of one element
 inline constexpr std::size_t kNameBytes = 200;               ///< of a name="..." and of an element's name
 inline constexpr std::size_t kSceneBytes = 256 * kMegabyte;  ///< of all XML files that a scene is made of
+inline constexpr std::size_t kSceneFiles = 2000;             ///< XML files of a scene, a part's at each use
 inline constexpr std::size_t kSceneElements = 400'000;       ///< of a scene, an included file counted at each use
 inline constexpr std::size_t kFaultsShown = 100;             ///< errors, and as many warnings, told one by one
 

@@ -152,7 +152,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   for (scene::Link& link : machine.links)
     if (const Element* of = named_child(model, "link", link.name))
       if (const Element* material = of->FirstChildElement("navvy:material")) {
-        link.material = {text_of(*material), material->GetLineNum()};
+        link.material = {text_of(*material), place_of(*material).line};
         if (words_of(link.material.name).size() != 1)
           faults.error(*material, link.material.name, "must be one word", "e.g. steel");
       }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "scene_io/assembly.h"
 #include "scene_io/fields.h"
 #include "scene_io/loader.h"
 #include "scene_io/materials_reader.h"
@@ -172,7 +173,7 @@ void Resolver::include(Element& element) {
   if (uri == nullptr || !resolve_model(*uri, path, none_)) return;
   const auto document = Document::open(path, none_);
   Element* model = document ? document->root()->FirstChildElement("model") : nullptr;
-  if (model == nullptr) return;
+  if (model == nullptr || !assemble(*document, none_)) return;
   // SDF of another version cannot stand in this file: such a machine stays outside, with its hash.
   const Element& root = *element.GetDocument()->RootElement();
   if (attribute(*document->root(), "version") != attribute(root, "version")) return keep(*uri, absolute(path));

@@ -24,11 +24,25 @@ Pose to_pose(const ignition::math::Pose3d& p) {
   return X;
 }
 
+// libsdformat keeps :: for models inside each other, which are one here before it sees them: two letters that nobody
+// writes stand for it there.
+constexpr const char kScope[] = "::", kVeiled[] = "\xEE\x80\x80\xEE\x80\x81";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string veiled(const std::string& text) { return replaced(text, kScope, kVeiled); }
+std::string unveiled(const std::string& text) { return replaced(text, kVeiled, kScope); }
+
 Vec3 to_vec3(const ignition::math::Vector3d& v) { return Vec3(v.X(), v.Y(), v.Z()); }
 
 // The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf has reported it).
 void copy_used(const Element& from, Element& to) {
-  for (const auto* at = from.FirstAttribute(); at; at = at->Next()) to.SetAttribute(at->Name(), at->Value());
+  for (const auto* at = from.FirstAttribute(); at; at = at->Next())
+    to.SetAttribute(at->Name(), veiled(at->Value()).c_str());
   bool has_elements = false;
   for (const Element* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) {
     has_elements = true;
@@ -37,7 +51,7 @@ void copy_used(const Element& from, Element& to) {
     if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(name));
   }
   // Only elements without children carry values; blanks between the others are left out.
-  if (!has_elements) to.SetText(text_of(from).c_str());
+  if (!has_elements) to.SetText(veiled(text_of(from)).c_str());
 }
 
 std::string as_sdf_text(const Element& model) {
@@ -66,7 +80,7 @@ const Element& blamed(const Element& model, const std::string& message) {
 
 void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
   for (const sdf::Error& error : errors) {
-    const std::string message = error.Message();
+    const std::string message = unveiled(error.Message());
     faults.error(blamed(model, message), "", "libsdformat: " + message);
   }
 }
@@ -109,10 +123,10 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
   for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
     const sdf::Visual& visual = *from.VisualByIndex(i);
     // The same element in the file: for line numbers, and for what libsdformat does not hand on.
-    const Element* element = named_child(xml, "visual", visual.Name());
+    const Element* element = named_child(xml, "visual", unveiled(visual.Name()));
     if (!element || !element->FirstChildElement("geometry")) continue;
     scene::Visual out;
-    out.name = visual.Name();
+    out.name = unveiled(visual.Name());
     ignition::math::Pose3d pose;
     report(*element, visual.SemanticPose().Resolve(pose), faults);
     out.X_LV = to_pose(pose);
@@ -125,10 +139,10 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
   }
   for (std::uint64_t i = 0; i < from.CollisionCount(); ++i) {
     const sdf::Collision& collision = *from.CollisionByIndex(i);
-    const Element* element = named_child(xml, "collision", collision.Name());
+    const Element* element = named_child(xml, "collision", unveiled(collision.Name()));
     if (!element || !element->FirstChildElement("geometry")) continue;
     scene::Collision out;
-    out.name = collision.Name();
+    out.name = unveiled(collision.Name());
     ignition::math::Pose3d pose;
     report(*element, collision.SemanticPose().Resolve(pose), faults);
     out.X_LC = to_pose(pose);
@@ -145,7 +159,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
 
 scene::Link read_link(const sdf::Link& from, const Element& xml, bool moves, Faults& faults) {
   scene::Link link;
-  link.name = from.Name();
+  link.name = unveiled(from.Name());
   ignition::math::Pose3d pose;
   // Into the model's frame, whatever frame the file gives it in.
   report(xml, from.SemanticPose().Resolve(pose, "__model__"), faults);
@@ -190,7 +204,7 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
 NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults) {
   using Type = scene::Joint::Type;
   NamedJoint out;
-  out.joint.name = from.Name();
+  out.joint.name = unveiled(from.Name());
   switch (from.Type()) {
     case sdf::JointType::REVOLUTE:
     case sdf::JointType::CONTINUOUS:
@@ -210,6 +224,8 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
   report(xml, from.ResolveChildLink(out.child), faults);
   ignition::math::Pose3d pose;
   report(xml, from.SemanticPose().Resolve(pose, out.child), faults);
+  out.parent = unveiled(out.parent);
+  out.child = unveiled(out.child);
   out.joint.X_LcJ = to_pose(pose);
   if (out.joint.type == Type::kRevolute || out.joint.type == Type::kPrismatic) read_axis(from, xml, out.joint, faults);
   return out;
@@ -283,18 +299,18 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
     report(model, parse_model(as_sdf_text(model), root), faults);
     if (faults.error_count() > before || !root.Model()) return false;
     const sdf::Model& from = *root.Model();
-    machine.name = from.Name();
+    machine.name = unveiled(from.Name());
     if (from.Static()) machine.fixed_base = true;
     std::vector<scene::Link> links;
     for (std::uint64_t i = 0; i < from.LinkCount(); ++i) {
       const sdf::Link& link = *from.LinkByIndex(i);
-      if (const Element* xml = named_child(model, "link", link.Name()))
+      if (const Element* xml = named_child(model, "link", unveiled(link.Name())))
         links.push_back(read_link(link, *xml, !from.Static(), faults));
     }
     std::vector<NamedJoint> joints;
     for (std::uint64_t i = 0; i < from.JointCount(); ++i) {
       const sdf::Joint& joint = *from.JointByIndex(i);
-      if (const Element* xml = named_child(model, "joint", joint.Name()))
+      if (const Element* xml = named_child(model, "joint", unveiled(joint.Name())))
         joints.push_back(read_joint(joint, *xml, faults));
     }
     // A model with faults of its own has no tree to speak of.

@@ -94,8 +94,6 @@ const Rule kRules[] = {
     {"model", "enable_wind", kWarn, Type::kFlag, kAnyRange, "there is no wind"},
     {"model", "plugin", kError, Type::kAny, kAnyRange, "plugins are not run; use navvy:program"},
     {"model", "gripper", kError, Type::kAny, kAnyRange, "grippers are not supported"},
-    {"model", "include", kError, Type::kAny, kAnyRange, "nested models are not supported; copy the links"},
-    {"model", "model", kError, Type::kAny, kAnyRange, "nested models are not supported; copy the links"},
     {"frame", "pose", kUsed, Type::kPose},
 
     // What changes how a single link moves is refused, as it would move otherwise than its author meant.
@@ -328,6 +326,8 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       read_flag(element, flag, faults);
       break;
     case Type::kPose:
+      // SDF's short way to stand where another frame is.
+      if (text_of(element).empty() && element.Attribute("relative_to")) break;
       if (read_pose(element, pose, faults)) ask_about_turns(element, faults);
       break;
     case Type::kText:
@@ -364,8 +364,8 @@ void check_names(const Element& element, Faults& faults) {
   if (name.empty()) {
     faults.error(element, "", "needs an attribute name=\"...\"", "add it");
     // SDF keeps these for itself: they would name its own frames and scopes.
-  } else if (name == "world" || (name.size() > 3 && name.rfind("__", 0) == 0) || name.find("::") != std::string::npos) {
-    faults.error(element, name, "'world', names that start with __ and names with :: are reserved", "rename it");
+  } else if (name == "world" || (name.size() > 3 && name.rfind("__", 0) == 0)) {
+    faults.error(element, name, "'world' and names that start with __ are reserved", "rename it");
   }
 }
 

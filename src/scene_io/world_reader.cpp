@@ -10,6 +10,7 @@
 #include "core/limits.h"
 #include "geometry/pieces.h"
 #include "scene/soil_values.h"
+#include "scene_io/assembly.h"
 #include "scene_io/design_reader.h"
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
@@ -370,6 +371,8 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   Element& root = *document->root();
   // Faults of the file itself; those of other files that were read before do not keep this one from being read.
   const std::size_t before = faults.error_count();
+  // What a part lacks would be told once more of the whole.
+  if (!assemble(*document, faults)) return {};
   check_sdf(root, faults);
   Element* model = root.FirstChildElement("model");
   if (!model) {
@@ -391,6 +394,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   Element& root = *document.root();
   if (!check_root(root, faults)) return world;
   const std::size_t before = faults.error_count();
+  assemble(document, faults);
   check_sdf(root, faults);
   const bool sdf_sound = faults.error_count() == before;
   Element* element = root.FirstChildElement("world");

@@ -31,10 +31,9 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
   if (!count(severity)) return;
   Fault fault;
   fault.severity = severity;
-  // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
-  fault.line = at.GetLineNum();
-  // Only a document that was parsed has lines; without one, the command line is what added the element.
-  fault.file = fault.line > 0 ? Document::of(at).file() : "command line";
+  const Place place = place_of(at);
+  fault.line = place.line;
+  fault.file = place.file ? *place.file : "command line";
   fault.element = printable(element_path(at));
   // A value may be a whole broken file; the start of it is enough to find it.
   fault.value = value.size() > 80 ? printable(value.substr(0, 77)) + "..." : printable(value);
@@ -131,6 +130,22 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
   document->elements_ = count_elements(text);
   faults.work.elements += document->elements_;
   return document;
+}
+
+Place place_of(const Element& element) {
+  if (const void* known = element.GetUserData()) return *static_cast<const Place*>(known);
+  // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
+  if (element.GetLineNum() > 0) return {&Document::of(element).file(), element.GetLineNum()};
+  return {};
+}
+
+Element* Document::create(const char* name, const Element& from) {
+  Element* element = xml_.NewElement(name);
+  Place place = place_of(from);
+  // The file's name outlives the document that was read from it.
+  if (place.file != nullptr) place.file = &*other_files_.insert(*place.file).first;
+  element->SetUserData(&places_.emplace_back(place));
+  return element;
 }
 
 const Document& Document::of(const Element& element) {

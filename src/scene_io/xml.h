@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
@@ -69,6 +70,13 @@ class Faults {
   mutable std::set<std::string> listed_;
 };
 
+/// Where an element was written.
+struct Place {
+  const std::string* file = nullptr;  ///< null: on the command line
+  int line = 0;
+};
+Place place_of(const Element& element);
+
 /// One XML file. Its elements live as long as it does. It is made on the heap and stays where it is, as its elements
 /// lead back to it.
 class Document {
@@ -80,6 +88,8 @@ class Document {
   static const Document& of(const Element& element);
 
   const std::string& file() const { return file_; }
+  /// A new element of this document that tells the place of `from`, of any document, as its own.
+  Element* create(const char* name, const Element& from);
   std::string directory() const;
   Element* root() { return xml_.RootElement(); }
   std::size_t elements() const { return elements_; }
@@ -90,6 +100,8 @@ class Document {
   Document() = default;
   tinyxml2::XMLDocument xml_;
   std::string file_;
+  std::set<std::string> other_files_;
+  std::deque<Place> places_;  ///< of elements that were created: they lead here
   std::size_t elements_ = 0;
 };
 
