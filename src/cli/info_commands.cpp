@@ -35,8 +35,15 @@ void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
   for (std::size_t m = 0; m < start.standing.size(); ++m) {
     const vehicle::Stability& stands = start.standing[m];
     if (!stands.free) continue;
-    std::printf("'%s' stands: tilt %.1f deg, centre of mass %.2f m %s its wheels\n", scene.machines[m].name.c_str(),
-                degrees(stands.tilt), std::abs(stands.margin), stands.margin >= 0 ? "within" : "outside");
+    const char* name = scene.machines[m].name.c_str();
+    const double tilt = degrees(stands.tilt);
+    if (start.falling[m])
+      std::printf("'%s' does not stand after a second: it is still falling\n", name);
+    else if (stands.margin == 0)
+      std::printf("'%s' stands: tilt %.1f deg, on feet that span no area\n", name, tilt);
+    else
+      std::printf("'%s' stands: tilt %.1f deg, centre of mass %.2f m %s its feet\n", name, tilt,
+                  std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
   }
   // A ground that cannot be laid has been told of by the programs' check.
   for (Fault& fault : start.faults)

@@ -99,12 +99,15 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   };
   if (!options.control.empty())
     control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
-  bool snapshot_due = !options.snapshot.empty();
+  bool snapshot_due = !options.snapshot.empty(), told_to_end = false;
   try {
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
     while (!session.done() && !StopSignals::asked()) {
-      if (control && !control->exchange()) break;
+      if (control && !control->exchange()) {
+        told_to_end = true;
+        break;
+      }
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
         snapshot_due = false;
@@ -142,14 +145,16 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   if (snapshot_due) return kFile;
   // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
   // failure.
-  const bool cut_as_asked = (options.scene.duration > 0 || control) && !session.fell_short();
+  const bool cut_as_asked = (options.scene.duration > 0 || told_to_end) && !session.fell_short();
   return complete || cut_as_asked ? kOk : kIncomplete;
 }
 
 /// The programs that did not come to their end, one a line: what a user must not miss.
 void tell_programs(std::FILE* say, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
-    if (report.taken || report.last().state == control::StepState::kDone) continue;
+    // Step 0 is no program's: the machine fell over by itself, or while inputs drove it.
+    const bool fell = report.last().step == 0;
+    if ((report.taken && !fell) || report.last().state == control::StepState::kDone) continue;
     const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
     std::fprintf(say, "incomplete: %s\n", session::told(report, name).c_str());
   }

@@ -12,8 +12,8 @@
 
 namespace navvy::coupling {
 
-std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
-  std::vector<vehicle::Stability> out(scene.machines.size());
+std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
+  std::vector<Settled> out(scene.machines.size());
   const auto engine = vehicle::make_bullet_engine(scene.gravity, scene.materials);
   std::vector<std::size_t> of;  // machine of the scene, by index in the engine
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
@@ -40,7 +40,8 @@ std::vector<vehicle::Stability> settle(const scene::Scene& scene, heightfield::G
     ruts.press(tyres, kSinkSpeed * kRutInterval * dt);
   }
   for (std::size_t i = 0; i < of.size(); ++i)
-    out[of[i]] = vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i));
+    out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),
+                  -engine->link(static_cast<int>(i), 0).v_WL.z()};
   return out;
 }
 

@@ -21,12 +21,14 @@ json step_entry(const control::StepReport& report) {
   return out;
 }
 
-/// What the run's own end makes of a program that still ran.
-void end_with(json& entry, const std::string& status) {
-  if (entry["state"] != control::name_of(control::StepState::kRunning)) return;
-  if (status != "interrupted" && status != "failed") return;
-  entry["state"] = "interrupted";
-  entry["reason"] = status == "failed" ? "the run stopped itself" : "the run was interrupted";
+/// What the run's own end makes of a step that still ran: nothing goes on in a run that is over.
+void end_with(json& entry, const std::string& status, bool taken) {
+  if (entry["state"] != control::name_of(control::StepState::kRunning) || status == "running") return;
+  entry["state"] = taken ? "inputs" : "interrupted";
+  entry["reason"] = taken                     ? "inputs drive the machine"
+                    : status == "failed"      ? "the run stopped itself"
+                    : status == "interrupted" ? "the run was interrupted"
+                                              : "the controller ended the run";
 }
 
 }  // namespace
@@ -37,7 +39,7 @@ json program_list(const session::Session& session, const std::string& status) {
     json steps = json::array();
     for (const control::StepReport& step : report.list) {
       steps.push_back(step_entry(step));
-      end_with(steps.back(), status);
+      end_with(steps.back(), status, report.taken);
     }
     const json& last = steps.back();
     json entry = {{"machine", session.world().description().machines[static_cast<std::size_t>(report.machine)].name},
@@ -49,7 +51,8 @@ json program_list(const session::Session& session, const std::string& status) {
                   {"time_s", last["end_s"]},
                   {"place_m", last["place_m"]}};
     // What became of the step that was taken from it nobody knows.
-    if (report.taken) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
+    const bool fell = report.last().step == 0;
+    if (report.taken && !fell) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
     entry["step_list"] = std::move(steps);
     out.push_back(std::move(entry));
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "session/bystander.h"
 #include "sim/terrain_view.h"
 
 namespace navvy::session {
@@ -35,7 +36,6 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
                                  const control::MakePathPlanner& planners)
     : world_(world),
       machine_(world.machine(machine)),
-      base_(machine_.link(0)),
       op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(), planners) {
   const scene::Machine& description = machine_.description();
   // A machine digs with its first bucket and tips its first bed; the others are passive.
@@ -65,20 +65,7 @@ void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips
 /// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
 void OperatedMachine::observe(control::Observation& seen) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
-  // The base link stands for the machine, as in programs' coordinates.
-  const vehicle::LinkState base = base_.state();
-  seen.X_WB = base.X_WL;
-  seen.v_WB = base.v_WL;
-  seen.stability = machine_.stability();
-  seen.tyre_force.setZero();
-  seen.wheels_under = 0;
-  for (std::size_t w = 0; w < wheels_.size(); ++w) {
-    const vehicle::WheelState wheel = wheels_[w].state();
-    seen.tyre_force += wheel.force_W;
-    // The resting ground alone: soil in flight buries nobody.
-    const Vec3 top = wheel.X_WWheel.translation() + Vec3(0, 0, machine_.description().wheels[w].radius);
-    if (world_.ground().sample(top.x(), top.y()) > top.z()) seen.wheels_under += 1.0 / double(wheels_.size());
-  }
+  see_standing(world_, machine_, wheels_, seen);
   // A machine without a bucket carries no load that a gauge would show.
   if (!bucket_) return;
   // Low-passed: an operator reacts to the push, not to single particles.

@@ -68,7 +68,6 @@ class OperatedMachine {
 
   sim::World& world_;
   sim::MachineHandle machine_;
-  sim::LinkHandle base_;
   std::vector<sim::JointHandle> joints_;
   std::vector<sim::WheelHandle> wheels_;
   std::optional<BucketGauge> bucket_;

@@ -17,6 +17,7 @@
 #include "device/device.h"
 #include "heightfield/design.h"
 #include "session/bucket_gauge.h"
+#include "session/bystander.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
@@ -52,6 +53,7 @@ struct Session::State {
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
+  std::vector<Bystander> bystanders;  ///< every machine, watched while no program drives it
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
@@ -61,6 +63,9 @@ struct Session::State {
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
 
+  /// Of the machine's program; null without one.
+  const OperatedMachine* operated_by_program(int machine) const;
+  void watch_bystanders();
   void take_over(int machine);
   void note_forces();
   void visit(Archive& a);
@@ -90,6 +95,20 @@ void Session::State::note_forces() {
   for (const BucketGauge& bucket : buckets) force.draft_peak = std::max(force.draft_peak, bucket.load().draft);
 }
 
+const OperatedMachine* Session::State::operated_by_program(int machine) const {
+  for (const OperatedMachine& one : operated)
+    if (one.index() == machine) return &one;
+  return nullptr;
+}
+
+/// Operators watch over their own machines, also when their programs are done.
+void Session::State::watch_bystanders() {
+  for (Bystander& one : bystanders) {
+    const OperatedMachine* program = operated_by_program(one.index());
+    if (program == nullptr || program->taken()) one.look(program != nullptr);
+  }
+}
+
 void Session::State::take_over(int machine) {
   for (OperatedMachine& one : operated)
     if (one.index() == machine && one.take())
@@ -99,8 +118,8 @@ void Session::State::take_over(int machine) {
 /// What is not the world's: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
   // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports;
-  // 6: peaks of draft and back.
-  a.section("session", 6, [&] {
+  // 6: peaks of draft and back; 7: machines that no program drives are watched.
+  a.section("session", 7, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -115,6 +134,7 @@ void Session::State::visit(Archive& a) {
     a.constant("programs", operated.size(),
                "the snapshot has another number of programs than the scene; use the scene it was made with");
     for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
+    for (std::size_t i = 0; i < bystanders.size(); ++i) a.item(i, [&] { bystanders[i].visit(a); });
   });
 }
 
@@ -137,6 +157,7 @@ Session::Session(scene::Scene description, device::Device& device, const control
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
   // Only sound programs get their operators. Machines without a program have none; inputs drive them.
+  for (int m = 0; m < s.world.machine_count(); ++m) s.bystanders.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machine_count(); ++m)
     if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
       s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
@@ -157,6 +178,7 @@ void Session::step() {
       busy = busy || one.taken() || one.busy();
       one.step(s.cycles, s.tips);
     }
+    s.watch_bystanders();
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
     if (s.energy_at_ends.size() < s.cycles.size()) s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
@@ -210,12 +232,16 @@ bool Session::time_is_over() const {
 }
 
 bool Session::complete() const {
-  return std::all_of(state_->operated.begin(), state_->operated.end(),
+  const auto stands = [](const Bystander& one) { return !one.fall(); };
+  return std::all_of(state_->bystanders.begin(), state_->bystanders.end(), stands) &&
+         std::all_of(state_->operated.begin(), state_->operated.end(),
                      [](const OperatedMachine& one) { return one.taken() || one.op().done(); });
 }
 
 bool Session::fell_short() const {
-  return std::any_of(state_->operated.begin(), state_->operated.end(),
+  const auto fell = [](const Bystander& one) { return one.fall().has_value(); };
+  return std::any_of(state_->bystanders.begin(), state_->bystanders.end(), fell) ||
+         std::any_of(state_->operated.begin(), state_->operated.end(),
                      [](const OperatedMachine& one) { return one.op().ended() && !one.op().done(); });
 }
 
@@ -225,9 +251,11 @@ const heightfield::DesignSurface* Session::design() const { return state_->desig
 
 /// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {
-  for (const OperatedMachine& one : state_->operated)
-    if (one.index() == machine) return one.taken() ? "inputs" : one.op().phase();
-  return "idle";
+  for (const Bystander& one : state_->bystanders)
+    if (one.index() == machine && one.fall()) return control::name_of(one.fall()->state);
+  const OperatedMachine* program = state_->operated_by_program(machine);
+  if (program == nullptr) return "idle";
+  return program->taken() ? "inputs" : program->op().phase();
 }
 
 std::vector<ProgramReport> Session::programs() const {
@@ -243,6 +271,16 @@ std::vector<ProgramReport> Session::programs() const {
     std::snprintf(text.data(), text.size(), "the run's duration of %g s was over first", duration);
     last.reason = text.data() + (last.reason.empty() ? "" : "; " + last.reason);
   }
+  for (const Bystander& one : state_->bystanders) {
+    if (!one.fall()) continue;
+    const auto own =
+        std::find_if(out.begin(), out.end(), [&](const ProgramReport& r) { return r.machine == one.index(); });
+    if (own != out.end())
+      own->list.push_back(*one.fall());
+    else
+      out.push_back({one.index(), 0, false, {*one.fall()}, {}});
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.machine < b.machine; });
   return out;
 }
 

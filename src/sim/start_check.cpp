@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kTouching = 0.02;  // [m] shapes are boxes here, and machines may stand side by side
 constexpr double kSettling = 1;     // [s]
+constexpr double kFalling = 1;      // [m/s] downwards: it has not landed
 constexpr double kTipped = radians(45);
 
 struct LinkBox {
@@ -124,15 +125,19 @@ StartCheck check_start(const scene::Scene& scene) {
     for (Fault& fault : buried) out.faults.push_back(std::move(fault));
     // What falls is named, and need not fall through the ground to be told of again: nothing stands then.
     if (falls) return out;
-    out.standing = coupling::settle(scene, ground, kSettling);
+    for (const coupling::Settled& one : coupling::settle(scene, ground, kSettling)) {
+      out.standing.push_back(one.stability);
+      out.falling.push_back(one.fall_speed > kFalling);
+    }
     for (std::size_t m = 0; m < out.standing.size(); ++m) {
       const vehicle::Stability& stands = out.standing[m];
-      if (!stands.free || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
+      // What is in the air has no ground to tip on yet.
+      if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
       out.faults.push_back(error(
           scene, scene.machines[m].name, tilt,
           std::string("the machine tips over within its first second") +
-              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its wheels"
+              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its feet"
                                  : ""),
           "put it on flatter ground, or turn it along the slope"));
     }

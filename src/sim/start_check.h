@@ -25,6 +25,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
 /// How each machine stands.
 struct StartCheck {
   std::vector<vehicle::Stability> standing;  ///< one a machine of the scene; none where one starts in the ground
+  std::vector<bool> falling;                 ///< likewise: it has not reached the ground yet
   std::vector<Fault> faults;                 ///< overlaps, what starts in the ground, machines that tip
 };
 

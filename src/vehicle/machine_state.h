@@ -48,7 +48,8 @@ struct Stability {
   bool free = false;     ///< it has wheels and masses and can tip at all; else the rest says nothing
   double tilt = 0;       ///< of the base link's z axis from the vertical [rad]
   double tilt_rate = 0;  ///< [rad/s], positive while it grows
-  /// Seen from above: how far the centre of mass is within the polygon of the wheels' feet, negative outside [m].
+  /// Seen from above: how far the centre of mass is within the polygon of its feet, negative outside [m]. 0 where they
+  /// span no area, as the two wheels of a robot that balances: its tilt alone tells.
   double margin = 0;
 };
 

@@ -29,6 +29,55 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   return hull;
 }
 
+/// Machines stand on what reaches down to within this share of a wheel's radius of its foot.
+constexpr double kFoot = 0.25;
+
+/// The lowest point of a collision shape against `up`, both in the frame of its link.
+Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
+  using Kind = scene::Geometry::Kind;
+  const scene::Geometry& shape = collision.geometry;
+  const Vec3 local = collision.X_LC.linear().transpose() * up;
+  Vec3 down = Vec3::Zero();
+  if (shape.kind == Kind::kSphere) down = -shape.radius * local;
+  if (shape.kind == Kind::kBox)
+    for (int i = 0; i < 3; ++i) down[i] = (local[i] > 0 ? -0.5 : 0.5) * shape.size[i];
+  if (shape.kind == Kind::kCapsule) down = Vec3(0, 0, local.z() > 0 ? -0.5 : 0.5) * shape.length - shape.radius * local;
+  if (shape.kind == Kind::kCylinder) {
+    const Vec2 side = local.head<2>();
+    down.z() = (local.z() > 0 ? -0.5 : 0.5) * shape.length;
+    if (side.norm() > 1e-9) down.head<2>() = -shape.radius * side.normalized();
+  }
+  return collision.X_LC * down;
+}
+
+/// It keeps its height over the base: the base itself, and what is fixed to it or turns about a ball at it.
+bool goes_with_base(const scene::Machine& machine, int link) {
+  using Type = scene::Joint::Type;
+  return link == 0 || std::any_of(machine.joints.begin(), machine.joints.end(), [&](const scene::Joint& joint) {
+           return joint.child == link && joint.parent == 0 && (joint.type == Type::kFixed || joint.type == Type::kBall);
+         });
+}
+
+/// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or slides along.
+/// @param feet mean height of the wheels' feet along the base's z axis [m]
+std::vector<Vec3> skids(const scene::Machine& machine, const Engine& engine, int index, double feet, double radius) {
+  using Kind = scene::Geometry::Kind;
+  const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
+  std::vector<Vec3> out;
+  for (int l = 0; l < static_cast<int>(machine.links.size()); ++l) {
+    const std::vector<scene::Collision>& shapes = machine.links[static_cast<std::size_t>(l)].collisions;
+    if (shapes.empty() || !goes_with_base(machine, l)) continue;
+    const Pose X_WL = engine.link(index, l).X_WL;
+    for (const scene::Collision& collision : shapes) {
+      const Kind kind = collision.geometry.kind;
+      if (kind == Kind::kMesh || kind == Kind::kPlane || kind == Kind::kCone) continue;
+      const Vec3 p = X_WL * lowest(collision, X_WL.linear().transpose() * up);
+      if (up.dot(p) < feet + kFoot * radius) out.push_back(p);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 double support_margin(std::vector<Vec2> feet, const Vec2& p) {
@@ -70,6 +119,7 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
   std::vector<Vec2> feet;
+  double height = 0, radius = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
     const Pose X = engine.wheel(index, static_cast<int>(w)).X_WWheel;
     // Straight down from the centre, in the wheel's plane: an axle that is tilted has its foot aside.
@@ -77,7 +127,11 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
     const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
     const Vec3 foot = X.translation() + machine.wheels[w].radius * down.stableNormalized();
     feet.push_back(foot.head<2>());
+    height += up.dot(foot) / double(machine.wheels.size());
+    radius = std::min(radius, machine.wheels[w].radius);
   }
+  for (const Vec3& p : skids(machine, engine, index, height, radius)) feet.push_back(p.head<2>());
+  if (feet.size() < 3 || hull_of(feet).size() < 3) return out;
   out.margin = support_margin(std::move(feet), centre_of_mass(machine, engine, index).head<2>());
   return out;
 }

@@ -84,7 +84,16 @@ TEST_F(Messages, CheckFindsShippedScenesByName) {
   expect_said("2 files checked: 0 errors, 0 warnings");
   // The excavator stands, and how well is told without a device.
   expect_said("'excavator' stands: tilt 0.");
-  expect_said("within its wheels");
+  expect_said("within its feet");
+}
+
+TEST_F(Messages, CheckDoesNotSayThatWhatFallsStands) {
+  EXPECT_EQ(run({"check", scene("",
+                                "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 8 0 0 0</pose>"
+                                "<navvy:on_ground>false</navvy:on_ground></include>")}),
+            0)
+      << said();
+  expect_said("'digger' does not stand after a second: it is still falling");
 }
 
 TEST_F(Messages, CheckRefusesMachinesThatOverlap) {

@@ -74,7 +74,7 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   const ProgramReport across = session->programs().at(0), upwards = session->programs().at(1);
   EXPECT_EQ(across.last().state, StepState::kTipped);
   EXPECT_LT(across.last().end, 2);
-  EXPECT_NE(across.last().reason.find("outside its wheels"), std::string::npos) << across.last().reason;
+  EXPECT_NE(across.last().reason.find("outside its feet"), std::string::npos) << across.last().reason;
   EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
   EXPECT_GT(upwards.last().end, across.last().end);
   // It was no false alarm: what was called tipped has gone on to lie on its side.
@@ -84,6 +84,52 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   load_saved(bytes, *resumed);
   while (!resumed->done()) resumed->step();
   EXPECT_EQ(resumed->programs().at(0).last().reason, across.last().reason);
+  EXPECT_EQ(resumed->state_hash(), session->state_hash());
+}
+
+TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
+  // One was never driven, one is taken by inputs: both roll over across 30 deg, a third one stands by.
+  device::Device device;
+  const auto make = [&] {
+    return std::make_unique<Session>(
+        load("<size_m>50 20</size_m><slope><angle_deg>30</angle_deg><yaw_deg>90</yaw_deg></slope>",
+             machine("ew180", "parked", "-15 0 0 0 0 0", "") +
+                 machine("ew180", "taken", "0 0 0 0 0 0", "<wait><duration_s>10</duration_s></wait>") +
+                 machine("ew180", "upwards", "15 -4 0 0 0 1.5707963", "")),
+        device);
+  };
+  const auto session = make();
+  session->set("taken/drive/speed", 0);
+  while (session->world().time() < 3 && session->phase(1) != "tipped") session->step();
+  const std::vector<char> bytes = saved(*session);
+  while (session->world().time() < 3) session->step();
+  EXPECT_TRUE(session->fell_short());
+  EXPECT_FALSE(session->complete());
+  const std::vector<ProgramReport> reports = session->programs();
+  ASSERT_EQ(reports.size(), 2u) << "who stands and has no program has nothing to report";
+  for (const ProgramReport& report : reports) {
+    EXPECT_EQ(report.last().state, StepState::kTipped);
+    EXPECT_EQ(report.last().step, 0);
+    EXPECT_GT(report.last().end, 0);
+    EXPECT_LT(report.last().end, 2.5);
+    EXPECT_NE(report.last().reason.find("outside its feet"), std::string::npos) << report.last().reason;
+  }
+  EXPECT_EQ(reports[0].machine, 0);
+  EXPECT_EQ(reports[0].steps, 0);
+  EXPECT_EQ(reports[0].last().element, "idle");
+  EXPECT_EQ(reports[1].machine, 1);
+  EXPECT_TRUE(reports[1].taken);
+  EXPECT_EQ(reports[1].last().element, "inputs");
+  EXPECT_EQ(session->phase(0), "tipped");
+  EXPECT_EQ(session->phase(2), "idle");
+  EXPECT_NE(told(reports[0], "parked").find("'parked' (idle): tipped: "), std::string::npos)
+      << told(reports[0], "parked");
+  // The fall outlives a snapshot, and is not told of twice.
+  const auto resumed = make();
+  load_saved(bytes, *resumed);
+  while (resumed->world().time() < 3) resumed->step();
+  EXPECT_EQ(resumed->programs().at(1).last().reason, reports[1].last().reason);
+  EXPECT_EQ(resumed->programs().at(1).list.size(), reports[1].list.size());
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
