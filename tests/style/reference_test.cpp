@@ -186,6 +186,23 @@ TEST(References, OfTunedConstantsNameATestThatIsThere) {
   EXPECT_EQ(report(found), "");
 }
 
+TEST(References, OfCiLeadToFilesAndTests) {
+  static const std::regex path(R"(\b(?:tests|bench|cmake|src)/[\w./]+)");
+  const std::string run = read_source(".ci/run").text;
+  ASSERT_FALSE(run.empty());
+  for (std::sregex_iterator it(run.begin(), run.end(), path), end; it != end; ++it)
+    EXPECT_TRUE(exists((*it)[0])) << ".ci/run names " << (*it)[0];
+  const Names known = test_cases();
+  std::istringstream lines(read_source("tests/sanitize/long_cases.txt").text);
+  std::size_t cases = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind('#', 0) == 0) continue;
+    EXPECT_EQ(known.count(line), 1u) << "no test " << line;
+    ++cases;
+  }
+  EXPECT_GT(cases, 0u);
+}
+
 TEST(References, OfTheBibliographyAreUnique) {
   Names seen;
   static const std::regex entry(R"(- \*\*\[([^\]]+)\]\*\*)");
