@@ -77,6 +77,9 @@ struct Joint {
   // Of the joint's speed: [N m s/rad] or [N s/m], and dry friction [N m] or [N].
   double damping = 0, friction = 0;
   double initial = 0;  ///< position at the start
+  /// Of a ball: how far the joint's x axis on the child may lean from where it points at the start, and how far the
+  /// child may turn about it either way [rad]; pi is free.
+  double cone = kPi, twist = kPi;
 };
 
 /// A hydraulic cylinder acting on one joint. Length and lever arm follow from two pins, or from a four-bar linkage. The

@@ -191,7 +191,7 @@ void put(const Writer& w, const Materials& materials) {
 
 void put(const Writer& w, const Joint& joint) {
   const auto& [name, type, parent, child, X_LcJ, axis, has_limits, lower, upper, effort, velocity, damping, friction,
-               initial] = joint;
+               initial, cone, twist] = joint;
   w("type", static_cast<int>(type));
   w("parent", parent);
   w("child", child);
@@ -205,6 +205,8 @@ void put(const Writer& w, const Joint& joint) {
   w("damping", damping);
   w("friction", friction);
   w("initial", initial);
+  w("cone", cone);
+  w("twist", twist);
 }
 
 void put(const Writer& w, const Cylinder& cylinder) {

@@ -97,6 +97,26 @@ void check_planes(const Element& model, const scene::Machine& machine, Faults& f
     }
 }
 
+/// Stops of ball joints.
+void read_balls(Element& model, scene::Machine& machine, Faults& faults) {
+  for (Element* of = model.FirstChildElement("joint"); of; of = of->NextSiblingElement("joint")) {
+    Element* element = of->FirstChildElement("navvy:ball");
+    if (element == nullptr) continue;
+    double cone = kPi, twist = kPi;
+    Fields fields(*element, faults);
+    fields.number("cone_deg", cone, {0.1, 180}, kDegree).number("twist_deg", twist, {0.1, 180}, kDegree).finish();
+    if (attribute(*of, "type") != "ball")
+      faults.error(*element, attribute(*of, "type"), "only a ball joint has a cone and a twist",
+                   "give limits in its <axis>");
+    else if (!fields.has("cone_deg") && !fields.has("twist_deg"))
+      faults.error(*element, "", "needs <cone_deg>, <twist_deg> or both", "leave it out for a ball that turns freely");
+    const int joint = machine.joint_index(attribute(*of, "name"));
+    if (joint < 0) continue;
+    machine.joints[static_cast<std::size_t>(joint)].cone = cone;
+    machine.joints[static_cast<std::size_t>(joint)].twist = twist;
+  }
+}
+
 }  // namespace
 
 void read_initial_position(Element& element, scene::Machine& machine, Faults& faults) {
@@ -148,6 +168,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   check_joints(model, names, faults);
   if (sdf_sound && faults.error_count() == before) read_sdf_model(model, machine, faults);
   machine.kinematic = kinematic;
+  read_balls(model, machine, faults);
   read_extensions(model, names, machine, faults);
   for (scene::Link& link : machine.links)
     if (const Element* of = named_child(model, "link", link.name))

@@ -235,6 +235,7 @@ const Extension kExtensions[] = {
     {"sdf", "navvy:materials"},
     {"world", "navvy:materials"},
     {"link", "navvy:material"},
+    {"joint", "navvy:ball"},
     {"world", "navvy:soil"},
     {"world", "navvy:ground"},
     {"world", "navvy:solver"},

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vehicle/kinematics.h"
+
 namespace navvy::vehicle {
 namespace {
 
@@ -27,6 +29,13 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     actuators_[j].servo.set({JointMode::kPosition, joint.initial});
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
     const int k = tree.bullet_of_joint(static_cast<int>(j));
+    if (k >= 0 && joint.type == scene::Joint::Type::kBall && (joint.cone < kPi || joint.twist < kPi)) {
+      const Mat3 R_CJ = tree.inertial_frame(joint.child).linear().transpose() * joint.X_LcJ.linear();
+      const Mat3 R_PC = tree.inertial_frame(joint.parent).linear().transpose() *
+                        joint_pose(machine, joint, 0).linear() * tree.inertial_frame(joint.child).linear();
+      balls_.push_back(
+          std::make_unique<BallLimits>(&tree.multibody(), k, R_CJ, Mat3(R_PC * R_CJ), joint.cone, joint.twist));
+    }
     if (k >= 0 && moves(joint))
       constraints_[j] =
           std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits, joint.lower, joint.upper);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "vehicle/bullet/ball_limits.h"
 #include "vehicle/bullet/body.h"
 #include "vehicle/bullet/hydraulics.h"
 #include "vehicle/bullet/servo.h"
@@ -39,6 +40,8 @@ class MachineJoints {
   const Actuator& operator[](int joint) const { return actuators_.at(static_cast<std::size_t>(joint)); }
   /// By joint, null where it is fixed or a ball.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
+  /// Of those balls that have any.
+  std::vector<std::unique_ptr<BallLimits>>& balls() { return balls_; }
   /// Of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
   /// The machine's, idle where it has none.
@@ -75,6 +78,7 @@ class MachineJoints {
   Hydraulics hydraulics_;
   std::vector<Actuator> actuators_;
   std::vector<std::unique_ptr<ServoConstraint>> constraints_;
+  std::vector<std::unique_ptr<BallLimits>> balls_;
   std::vector<OilDemand> demands_;  // of the present step
   double drive_rate_;
   double work_ = 0;

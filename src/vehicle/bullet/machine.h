@@ -32,6 +32,7 @@ class BulletMachine {
   const scene::Machine& scene() const { return machine_; }
   /// Rows and bodies that the engine gives to the solver; some entries are null.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
+  std::vector<std::unique_ptr<BallLimits>>& balls() { return joints_.balls(); }
   std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }  ///< by link
   /// The shells' plates, which meet bodies and no ground: soil is in their way there. By shell.

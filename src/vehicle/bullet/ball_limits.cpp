@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/ball_limits.h"
+
+#include <cmath>
+
+#include "vehicle/bullet/convert.h"
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr double kFree = kPi - 1e-6;
+
+}  // namespace
+
+BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist)
+    : WorldConstraint(body, link, 3), R_CJ_(R_CJ), R_PJ_(R_PJ), cone_(cone), twist_(twist) {
+  finalizeMultiDof();
+}
+
+void BallLimits::finalizeMultiDof() { WorldConstraint::finalizeMultiDof(); }
+
+void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                                      const btContactSolverInfo& info) {
+  for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
+  const Mat3 R_PC = to_eigen(btMatrix3x3(m_bodyA->getParentToLocalRot(m_linkA).inverse()));
+  // From the joint's frame at the start to that of now; directions of the former, seen in the child's frame.
+  const Mat3 R = R_PJ_.transpose() * R_PC * R_CJ_;
+  const Mat3 to_child = R_CJ_ * R.transpose();
+  const Vec3 a = Vec3::UnitX(), b = R.col(0), side = a.cross(b);
+  const double lean = std::atan2(side.norm(), b.x());
+  // Upright it may lean to any side: no row until it has begun to.
+  if (cone_ < kFree && side.norm() > 1e-9)
+    keep_open(0, cone_ - lean, to_child * Vec3(-side.normalized()), rows, data, info);
+  if (twist_ >= kFree || b.x() < -0.999) return;
+  const Eigen::Quaterniond q(R);
+  double turn = 2 * std::atan2(q.x(), q.w());
+  if (turn > kPi) turn -= 2 * kPi;
+  if (turn < -kPi) turn += 2 * kPi;
+  // The twist grows by the turning about the middle between both axes.
+  const Vec3 middle = to_child * Vec3((a + b) / (1 + b.x()));
+  keep_open(1, turn + twist_, middle, rows, data, info);
+  keep_open(2, twist_ - turn, -middle, rows, data, info);
+}
+
+void BallLimits::keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows,
+                           btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  const double dt = info.m_timeStep;
+  const btScalar* qd = m_bodyA->getJointVelMultiDof(m_linkA);
+  const double rate = axis.x() * qd[0] + axis.y() * qd[1] + axis.z() * qd[2];
+  if (gap >= 2 * dt * std::abs(rate) + 1e-3) return;
+  const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
+  for (int d = 0; d < 3; ++d) jacobianA(row)[offset + d] = axis[d];
+  add_row(row, gap > 0 ? -gap / dt : -0.1 * gap / dt, 0, 1e12, rows, data, info);
+}
+
+}  // namespace navvy::vehicle

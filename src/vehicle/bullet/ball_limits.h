@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far a ball joint turns: the cone and the twist of a hitch.
+#pragma once
+
+#include "core/math.h"
+#include "vehicle/bullet/world_constraint.h"
+
+namespace navvy::vehicle {
+
+/// Stops of one ball joint: its child's x axis (of the joint's frame) leans at most by `cone` from where it points at
+/// the start, and the child turns at most by `twist` about it either way. Like those of a hinge they act from the step
+/// in which they could be reached, at any cost, and leave an overrun slowly.
+class BallLimits final : public WorldConstraint {
+ public:
+  /// @param link Bullet's link of the joint
+  /// @param R_CJ, R_PJ axes of the joint's frame in Bullet's frames of the child, and of the parent at the start
+  /// @param cone, twist [rad]; pi and more: free
+  BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist);
+
+  // Called by Bullet: memory once, rows in every step.
+  void finalizeMultiDof() override;
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+
+ private:
+  /// A row that keeps `gap` [rad] open, which closes as the child turns against `axis`, in the child's frame.
+  void keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                 const btContactSolverInfo& info);
+
+  Mat3 R_CJ_, R_PJ_;
+  double cone_, twist_;
+};
+
+}  // namespace navvy::vehicle
