@@ -36,9 +36,12 @@ std::map<std::string, std::string> shipped_scenes() {
   std::error_code ignored;
   // All data directories, as the look-up goes through all of them; the first that has it wins.
   for (const std::string& directory : scene_io::data_directories())
-    for (const auto& entry : std::filesystem::directory_iterator(directory + "/scenarios", ignored))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(directory + "/scenarios", ignored)) {
       // Their READMEs and maps lie beside them.
-      if (entry.path().extension() == ".sdf") out.emplace(entry.path().stem().string(), entry.path().string());
+      if (entry.path().extension() != ".sdf") continue;
+      const auto name = entry.path().lexically_relative(directory + "/scenarios").replace_extension();
+      out.emplace(name.generic_string(), entry.path().string());
+    }
   return out;
 }
 

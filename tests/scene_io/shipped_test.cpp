@@ -23,7 +23,7 @@ void expect_clean(const fs::path& file) {
 
 TEST(ShippedFiles, EveryScenarioLoads) {
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(kRoot / "scenarios"))
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "scenarios"))
     if (entry.path().extension() == ".sdf") {
       expect_clean(entry.path());
       ++count;
