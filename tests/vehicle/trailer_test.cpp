@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
 
 #include "paths.h"
 #include "scene_io/loader.h"
+#include "values.h"
 #include "vehicle/machines.h"
 
 namespace navvy::vehicle {
@@ -60,8 +61,8 @@ TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
     });
     const double R = robots / samples;
     const double expected = std::sqrt(R * R + kHitch * kHitch - kDrawbar * kDrawbar);
-    std::printf("yaw rate %.2f rad/s: robot on %.3f m, trailer on %.4f m, by geometry %.4f m\n", yaw_rate, R,
-                trailers / samples, expected);
+    print_value("radius of the trailer's axle [m]", trailers / samples, std::to_string(expected) + " +-3 %",
+                "sqrt(R^2 + h^2 - l^2)");
     EXPECT_NEAR(trailers / samples, expected, 0.03 * expected);
   }
 }
