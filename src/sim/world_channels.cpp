@@ -146,6 +146,16 @@ void add_wheels(const MachineHandle& machine, const std::string& prefix, Outputs
   }
 }
 
+/// Only of machines that can tip: of others the numbers would say nothing.
+void add_stability(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
+  if (!machine.stability().free) return;
+  outputs.add({prefix + "stability/tilt", "rad", "of the base link's z axis from the vertical"},
+              [machine] { return machine.stability().tilt; });
+  outputs.add({prefix + "stability/margin", "m",
+               "of the centre of mass, without soil, from the nearest edge between its feet; negative outside"},
+              [machine] { return machine.stability().margin; });
+}
+
 /// Forces are what soil and rock do to the tool, axes of W.
 void add_tool(const World& world, const ToolHandle& tool, Outputs& outputs) {
   const MachineHandle machine = world.machine(tool.machine());
@@ -187,6 +197,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     if (built.has_drive) add_drive(world, machine, built.drive, prefix, inputs);
     add_pose(machine.link(0), prefix, outputs);
     add_wheels(machine, prefix, outputs);
+    add_stability(machine, prefix, outputs);
   }
   // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
   for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);
