@@ -54,9 +54,9 @@ inline constexpr std::size_t kSceneMeshBytes = 512 * kMegabyte;  ///< of all, a 
 inline constexpr double kCoordinate = 1e6;                       ///< [m] of a mesh's vertex
 
 // Maps. A map itself may be of any size: only what lies under the site is read.
-inline constexpr double kMapCells = 2.5e7;                      ///< under the site, 100 MB
-inline constexpr double kMapBlockBytes = 256e6;                 ///< of a block that is read at once
-inline constexpr double kMapDecodedBytes = 4e9;                 ///< of all blocks under the site
+inline constexpr double kMapCells = 2.5e7;       ///< held at once, 100 MB; of larger ones windows are read
+inline constexpr double kMapBlockBytes = 256e6;  ///< of a block that is read at once
+inline constexpr double kMapDecodedBytes = 4e9;  ///< of all blocks under the site
 inline constexpr std::size_t kMapSidecarBytes = 4 * kMegabyte;  ///< of a .prj, .aux.xml or world file beside it
 inline constexpr std::size_t kMapWordBytes = 64;                ///< of a number in an ESRI ASCII grid
 inline constexpr std::size_t kMapTextBytes = 1000 * kMegabyte;  ///< of an ESRI ASCII grid, read from its first row on

@@ -6,47 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "heightfield/raster_cells.h"
+
 namespace navvy::heightfield {
-namespace {
-
-// A soil cell averages at most this many map cells a side; finer maps are sampled that densely.
-constexpr int kMostSamples = 16;
-
-// Mean of the known neighbours of a gap, diagonal ones by 1 / sqrt 2; NaN when there is none.
-float mean_of_neighbours(const HeightRaster& raster, int ix, int iy) {
-  double sum = 0, weights = 0;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int x = ix + dx, y = iy + dy;
-      if (x < 0 || y < 0 || x >= raster.nx || y >= raster.ny || std::isnan(raster.at(x, y))) continue;
-      const double weight = dx != 0 && dy != 0 ? std::sqrt(0.5) : 1.0;
-      sum += weight * raster.at(x, y);
-      weights += weight;
-    }
-  // 0 / 0 is the NaN that is wanted.
-  return static_cast<float>(sum / weights);
-}
-
-}  // namespace
-
 double HeightRaster::sample(double x, double y) const {
-  // Outside the outermost centres the nearest value: a site may reach half a cell beyond them.
-  const double gx = std::clamp((x - x0) / cell_x, 0.0, nx - 1.0), gy = std::clamp((y - y0) / cell_y, 0.0, ny - 1.0);
-  const int ix = static_cast<int>(gx), iy = static_cast<int>(gy);
-  const int jx = std::min(ix + 1, nx - 1), jy = std::min(iy + 1, ny - 1);
-  const double u = gx - ix, v = gy - iy;
-  return (1 - v) * ((1 - u) * at(ix, iy) + u * at(jx, iy)) + v * ((1 - u) * at(ix, jy) + u * at(jx, jy));
+  return bilinear(*this, x, y, [&](int ix, int iy, int jx, int jy, float* corners) {
+    corners[0] = at(ix, iy), corners[1] = at(jx, iy), corners[2] = at(ix, jy), corners[3] = at(jx, jy);
+  });
 }
 
 double HeightRaster::mean(double x, double y, double edge) const {
-  const int sx = static_cast<int>(std::clamp(std::ceil(edge / cell_x - 1e-9), 1.0, double{kMostSamples}));
-  const int sy = static_cast<int>(std::clamp(std::ceil(edge / cell_y - 1e-9), 1.0, double{kMostSamples}));
-  // Where the map is the coarser one, its own smoothness is all there is.
-  if (sx == 1 && sy == 1) return sample(x, y);
-  double sum = 0;
-  for (int j = 0; j < sy; ++j)
-    for (int i = 0; i < sx; ++i) sum += sample(x + ((i + 0.5) / sx - 0.5) * edge, y + ((j + 0.5) / sy - 0.5) * edge);
-  return sum / (sx * sy);
+  return mean_of_samples(*this, x, y, edge, [&](double px, double py) { return sample(px, py); });
 }
 
 GapFill fill_gaps(HeightRaster& raster) {
@@ -74,7 +44,8 @@ GapFill fill_gaps(HeightRaster& raster) {
   while (!ring.empty()) {
     values.clear();
     for (const std::int64_t i : ring)
-      values.push_back(mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx)));
+      values.push_back(mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx),
+                                          [&](int x, int y) { return raster.at(x, y); }));
     for (std::size_t k = 0; k < ring.size(); ++k) raster.z[static_cast<std::size_t>(ring[k])] = values[k];
     next.clear();
     for (const std::int64_t i : ring) queue_gaps_around(i, next);
@@ -89,10 +60,8 @@ SlopeRange slopes(const HeightRaster& raster, double limit) {
   std::vector<float> tangents;
   for (int iy = 0; iy + 1 < raster.ny; ++iy)
     for (int ix = 0; ix + 1 < raster.nx; ++ix) {
-      const double a = raster.at(ix, iy), b = raster.at(ix + 1, iy), c = raster.at(ix, iy + 1),
-                   d = raster.at(ix + 1, iy + 1);
       tangents.push_back(
-          static_cast<float>(std::hypot((b - a + d - c) / (2 * raster.cell_x), (c - a + d - b) / (2 * raster.cell_y))));
+          tangent(raster, raster.at(ix, iy), raster.at(ix + 1, iy), raster.at(ix, iy + 1), raster.at(ix + 1, iy + 1)));
     }
   SlopeRange range;
   if (tangents.empty()) return range;

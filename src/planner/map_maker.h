@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,8 +24,10 @@ struct MapOptions {
 /// Makes maps of one site, each of the view it was shown last.
 ///
 /// Only columns that changed, and for the derived layers those round them, are computed anew; the result is that of a
-/// full computation to the bit. An update costs what changed and a pointer for each tile of 64 x 64 columns and layer.
-/// Maps taken before stay as they were. One thread makes, any number reads the maps.
+/// full computation to the bit. What is as in the first view is computed from that when a reader asks, so the first
+/// update costs nothing and a site takes memory only where it changed or was looked at. An update costs what changed
+/// and a pointer for each tile of 64 x 64 columns and layer. Maps taken before stay as they were. One thread makes, any
+/// number reads the maps.
 class MapMaker {
  public:
   explicit MapMaker(MapOptions options);
@@ -39,13 +42,13 @@ class MapMaker {
  private:
   bool is_of(const heightfield::TerrainView& view) const;
   void start(const heightfield::TerrainView& view);
-  void update_base(const heightfield::TerrainView& view, const heightfield::CellRect& rect, bool first);
-  void derive(const heightfield::CellRect& rect);
+  void update_base(const heightfield::TerrainView& view, const heightfield::CellRect& rect);
+  void update_derived(const heightfield::CellRect& rect);
   bool wants(Layer layer) const { return !map_->tiles_[index_of(layer)].empty(); }
   /// Whether that changed the value; an equal one is not written. Nothing happens to a layer that the map lacks.
   bool set(Layer layer, int ix, int iy, float value);
 
-  MapOptions options_;
+  std::shared_ptr<const MapOptions> options_;  // the maps' tiles are made by them, too
   heightfield::ChangeFollower follower_;
   std::vector<heightfield::CellRect> changed_;
   std::optional<TerrainMap> map_;

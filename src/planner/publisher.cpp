@@ -21,8 +21,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/stopwatch.h"
+#include "planner/formats/part_file.h"
 
 namespace navvy::planner {
 namespace {
@@ -96,7 +96,9 @@ struct Publisher::State {
   void serve_files();
   void accept_readers();
   void serve(int file, std::atomic<bool>& done);
-  bool send_all(int file, const std::vector<char>& bytes) const;
+  bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
+  /// Piece by piece; whole or not there. @throws FileError.
+  void write_patch(const std::string& path, const MapUpdate& update) const;
   /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end.
   template <class Deliver>
   void follow(const Deliver& deliver);
@@ -123,7 +125,7 @@ void Publisher::State::serve_files() {
     char name[40];
     std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
     try {
-      write_file_atomically((fs::path(folder) / name).string(), patch_bytes(update, layers));
+      write_patch((fs::path(folder) / name).string(), update);
       return true;
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -133,17 +135,27 @@ void Publisher::State::serve_files() {
   });
 }
 
-/// False when the reader is gone, or too slow at the end.
-bool Publisher::State::send_all(int file, const std::vector<char>& bytes) const {
-  Stopwatch since_close;
-  for (std::size_t at = 0; at < bytes.size();) {
+void Publisher::State::write_patch(const std::string& path, const MapUpdate& update) const {
+  PartFile file(path);
+  send_patch(update, layers, [&](const char* bytes, std::size_t count) {
+    file.write(bytes, count);
+    return true;
+  });
+  file.commit();
+}
+
+/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since then [s].
+bool Publisher::State::send_all(int file, const char* bytes, std::size_t count, double& waited) const {
+  Stopwatch lap;
+  for (std::size_t at = 0; at < count;) {
     pollfd out{file, POLLOUT, 0};
     const int ready = ::poll(&out, 1, static_cast<int>(1000 * kGlance));
     // While the run goes on a reader may take all the time it wants.
-    if (!feed.closed()) since_close.restart();
-    if (since_close.seconds() > kPatience) return false;
+    waited = feed.closed() ? waited + lap.seconds() : 0;
+    lap.restart();
+    if (waited > kPatience) return false;
     if (ready <= 0) continue;
-    const ssize_t sent = ::send(file, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t sent = ::send(file, bytes + at, count - at, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (sent < 0) return false;
     at += static_cast<std::size_t>(sent);
@@ -155,7 +167,9 @@ void Publisher::State::serve(int file, std::atomic<bool>& done) {
   const int yes = 1;
   ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   try {
-    follow([&](const MapUpdate& update) { return send_all(file, patch_bytes(update, layers)); });
+    double waited = 0;
+    const PatchSink sink = [&](const char* bytes, std::size_t count) { return send_all(file, bytes, count, waited); };
+    follow([&](const MapUpdate& update) { return send_patch(update, layers, sink); });
   } catch (const std::exception&) {
     // No memory for its patch: this reader is let go, and may come back.
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -45,6 +46,22 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
       "a run's folder holds both: scene.sdf and terrain_end.tif"});
 }
 
+/// Heights of a terrain, whatever layer they stand for.
+class HeightsOf final : public LayerSource {
+ public:
+  explicit HeightsOf(const heightfield::TerrainView& view) : view_(view) {}
+  void fill(Layer /*layer*/, const heightfield::CellRect& rect, float* out, std::size_t stride) const override {
+    std::vector<float> z;
+    view_.copy_heights(rect, z);
+    const auto width = static_cast<std::ptrdiff_t>(rect.x1 - rect.x0);
+    for (int y = 0; y < rect.y1 - rect.y0; ++y)
+      std::copy(z.begin() + y * width, z.begin() + (y + 1) * width, out + static_cast<std::size_t>(y) * stride);
+  }
+
+ private:
+  heightfield::TerrainView view_;
+};
+
 TraversabilityLimits limits_for(const scene::Scene& scene) {
   for (const scene::MachineInWorld& placed : scene.machines)
     if (placed.machine.traversability.given) return limits_of(placed.machine);
@@ -83,13 +100,15 @@ TerrainMap map_of_run(const scene::Scene& scene, const Ground& start, const std:
   if (!std::filesystem::is_regular_file(terrain_end))
     throw FileError("cannot read '" + terrain_end +
                     "': no such file; a run writes it at its end, until then there are snapshots (--snapshot)");
-  const Ground end = reread(scene, start, terrain_end);
+  const auto end = std::make_shared<const Ground>(reread(scene, start, terrain_end));
+  const heightfield::TerrainView before = start.view();
   // W's zero of a site from a file is one of the file's heights, and those have changed.
-  const double shift = end.setup().height_offset - start.setup().height_offset;
+  const double shift = end->setup().height_offset - start.setup().height_offset;
   const double unit = start.setup().file_height_unit, offset = start.setup().height_offset;
   heightfield::GroundSetup setup = start.setup();
-  setup.surface = [&](int ix, int iy) {
-    const double z = start.height(ix, iy), now = end.height(ix, iy) + shift;
+  // Asked for as long as the map lives: it computes columns when a reader wants them.
+  setup.surface = [end, before, shift, unit, offset](int ix, int iy) {
+    const double z = before.height(ix, iy), now = end->height(ix, iy) + shift;
     // What differs by no more than the file's rounding, and that of two grounds to quanta of mass, was not touched.
     const auto as_written = static_cast<float>((z + offset) / unit);
     const double rounding = static_cast<double>(std::nextafter(std::abs(as_written), INFINITY) - std::abs(as_written));
@@ -99,13 +118,10 @@ TerrainMap map_of_run(const scene::Scene& scene, const Ground& start, const std:
   MapMaker maker(options);
   maker.update(Ground(setup).view(std::nan("")));
   TerrainMap out = maker.map();
-  const std::vector<float> unknown(static_cast<std::size_t>(out.rect().area()), kUnknown);
   for (const Layer layer : kNotInHeights)
-    if (out.has(layer)) out = out.with(layer, unknown);
+    if (out.has(layer)) out = out.with(layer, nullptr);
   if (!out.has(Layer::kElevationStart)) return out;
-  std::vector<float> before;
-  start.copy_heights(start.site_rect(), before);
-  return out.with(Layer::kElevationStart, before);
+  return out.with(Layer::kElevationStart, std::make_shared<const HeightsOf>(before));
 }
 
 }  // namespace navvy::planner

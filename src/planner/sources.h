@@ -20,7 +20,7 @@ TraversabilityLimits limits_of(const scene::Machine& machine);
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site, std::vector<Layer> layers,
                        const heightfield::DesignSurface* design = nullptr);
 
-/// A site that nobody has touched. Needs no OpenCL device.
+/// A site that nobody has touched. Needs no OpenCL device, and computes columns when the map is read.
 TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
 
 /// The ground at the end of a run of `scene` that began on `start`, from the heights that the run wrote

@@ -18,51 +18,85 @@ namespace navvy::planner {
 /// What a layer holds where nothing is known: a comparison with it is false. Always this very NaN.
 inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
+/// Values of the tiles that nobody wrote to: a pure function of place, computed when somebody asks. Any number of
+/// threads may ask at a time.
+class LayerSource {
+ public:
+  virtual ~LayerSource() = default;
+  /// Writes the values of `layer` over `rect`, which lies within the site, to `out`: x fastest, row after row, `stride`
+  /// values from one row to the next. Unknown is kUnknown and no other NaN. @throws InputError where the site's heights
+  /// cannot be had.
+  virtual void fill(Layer layer, const heightfield::CellRect& rect, float* out, std::size_t stride) const = 0;
+};
+
 /// The values of one layer in tiles of 64 x 64 columns, shared between maps of successive instants.
 ///
 /// One thread writes, and tells with every write the edition that it works on; a tile of an earlier edition is copied
-/// first (16 KiB), so copies made before stay as they were. A tile that nobody wrote to is unknown and takes no memory.
+/// first (16 KiB), so copies made before stay as they were. A tile that nobody wrote to takes no memory: it is unknown,
+/// or what a source says. Who asks for columns of such a tile has it computed and kept for all who share it; a pass
+/// over many (`copy`, `passing`) keeps nothing.
 class LayerTiles {
  public:
   /// Columns along a side of a tile. A bucket's dig touches one to four of them.
   static constexpr int kSide = 64;
+  using Values = std::array<float, static_cast<std::size_t>(kSide) * kSide>;
   /// Of no layer at all.
   LayerTiles() = default;
-  /// Unknown everywhere.
-  LayerTiles(int nx, int ny);
+  /// As `source` says everywhere; unknown where there is none.
+  LayerTiles(int nx, int ny, Layer layer, std::shared_ptr<const LayerSource> source);
 
   bool empty() const { return tiles_.empty(); }
   /// Of a column of the site; nothing is checked.
   float at(int ix, int iy) const {
-    const Tile* tile = tiles_[tile_of(ix, iy)].get();
-    return tile != nullptr ? tile->values[place(ix, iy)] : kUnknown;
+    const float* tile = values(tile_of(ix, iy));
+    return tile != nullptr ? tile[place(ix, iy)] : kUnknown;
   }
   /// The values of columns ix to the end of their tile's row, null where the tile is unknown; `count` says how many.
   const float* row(int ix, int iy, int& count) const {
     count = kSide - ix % kSide;
-    const Tile* tile = tiles_[tile_of(ix, iy)].get();
-    return tile != nullptr ? tile->values.data() + place(ix, iy) : nullptr;
+    const float* tile = values(tile_of(ix, iy));
+    return tile != nullptr ? tile + place(ix, iy) : nullptr;
   }
   /// A tile as it lies in memory, rows along y, columns along x.
   using View = Eigen::Map<const Eigen::Array<float, kSide, kSide, Eigen::RowMajor>>;
   /// Tile (tx, ty), columns 64 tx to 64 tx + 63: no copy, valid as long as a map that has it. Beyond the site's edge,
-  /// and where nothing was written, unknown.
+  /// and where nothing is known, unknown.
   View view(int tx, int ty) const;
-  /// Writes one column; costs a copy of its tile where a map of an earlier edition may hold that.
-  void set(int ix, int iy, float value, std::uint64_t edition);
+  /// Dense copy over `rect`, which lies within the site, x fastest, `stride` values from row to row.
+  void copy(const heightfield::CellRect& rect, float* out, std::size_t stride) const;
+  /// The values of tile (tx, ty), null where it is unknown. What is not in memory goes to `buffer`.
+  const float* passing(int tx, int ty, Values& buffer) const;
+  /// Whether a tile is the same in both because nobody wrote to it in between. For layers of one site.
+  bool shares(const LayerTiles& other, int tx, int ty) const;
+  /// Writes one column, unless it has that value already: says whether it was another. Costs a copy of its tile where a
+  /// map of an earlier edition may hold that.
+  bool set(int ix, int iy, float value, std::uint64_t edition);
 
  private:
   struct Tile {
-    std::array<float, static_cast<std::size_t>(kSide) * kSide> values;
+    Values values;
     std::uint64_t edition = 0;
   };
+  /// Tiles that somebody asked a source for.
+  struct Asked;
   std::size_t tile_of(int ix, int iy) const {
     return static_cast<std::size_t>(iy / kSide) * static_cast<std::size_t>(across_) +
            static_cast<std::size_t>(ix / kSide);
   }
   static std::size_t place(int ix, int iy) { return static_cast<std::size_t>(iy % kSide * kSide + ix % kSide); }
-  int across_ = 0;
+  /// Of a tile, computed now if need be; null where it is unknown.
+  const float* values(std::size_t tile) const {
+    if (const Tile* written = tiles_[tile].get()) return written->values.data();
+    return asked_ ? ask(tile) : nullptr;
+  }
+  const float* ask(std::size_t tile) const;
+  /// Of a tile that is in memory, else null.
+  const float* present(std::size_t tile) const;
+  void compute(std::size_t tile, Values& to) const;
+
+  int nx_ = 0, ny_ = 0, across_ = 0;
   std::vector<std::shared_ptr<Tile>> tiles_;
+  std::shared_ptr<const Asked> asked_;
 };
 
 /// Layers of a site at one instant: immutable, cheap to copy, to be read by any number of threads.
@@ -99,6 +133,8 @@ class TerrainMap {
 
   /// This map with `values` (nx x ny, x fastest) as that layer. @throws Error when their number does not fit.
   TerrainMap with(Layer layer, std::span<const float> values) const;
+  /// This map with what `source` says as that layer; null: unknown everywhere.
+  TerrainMap with(Layer layer, std::shared_ptr<const LayerSource> source) const;
 
  private:
   friend class MapMaker;

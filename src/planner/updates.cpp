@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 #include "planner/formats/json_text.h"
@@ -15,29 +16,46 @@ namespace {
 
 using heightfield::CellRect;
 
-/// Columns of one tile of which any layer differs.
-std::int64_t changed_in(const TerrainMap& a, const TerrainMap& b, const CellRect& tile) {
-  std::array<bool, LayerTiles::kSide> differs{};
-  std::int64_t count = 0;
-  for (int iy = tile.y0; iy < tile.y1; ++iy) {
-    differs.fill(false);
-    for (const LayerInfo& each : layers()) {
-      if (!b.has(each.layer)) continue;
-      int run = 0;
-      const float* p = a.tiles(each.layer).row(tile.x0, iy, run);
-      const float* q = b.tiles(each.layer).row(tile.x0, iy, run);
-      // One tile for both: nothing of it was written to.
-      if (p == q) continue;
-      for (int ix = 0; ix < tile.x1 - tile.x0; ++ix) {
-        const float u = p != nullptr ? p[ix] : kUnknown, v = q != nullptr ? q[ix] : kUnknown;
-        if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v))
-          differs[static_cast<std::size_t>(ix)] = true;
-      }
-    }
-    count += std::count(differs.begin(), differs.end(), true);
+/// Values that a patch is sent by: 16 MiB.
+constexpr std::int64_t kPieceValues = std::int64_t{1} << 22;
+
+/// Counts the columns of one tile of which any layer differs.
+class TileComparison {
+ public:
+  TileComparison(const TerrainMap& a, const TerrainMap& b) : a_(a), b_(b) {
+    for (const LayerInfo& each : layers())
+      if (b.has(each.layer)) layers_.push_back(each.layer);
   }
-  return count;
-}
+  std::int64_t changed(int tx, int ty) {
+    constexpr int kSide = LayerTiles::kSide;
+    const CellRect tile = CellRect{tx * kSide, ty * kSide, (tx + 1) * kSide, (ty + 1) * kSide}.cut(b_.rect());
+    bool any = false;
+    for (const Layer layer : layers_) {
+      const bool had = a_.has(layer);
+      const LayerTiles& now = b_.tiles(layer);
+      // One tile for both: nothing of it was written to.
+      if (had && a_.tiles(layer).shares(now, tx, ty)) continue;
+      const float* p = had ? a_.tiles(layer).passing(tx, ty, old_) : nullptr;
+      const float* q = now.passing(tx, ty, new_);
+      if (p == q) continue;
+      if (!any) differs_.fill(false);
+      any = true;
+      for (int iy = 0; iy < tile.y1 - tile.y0; ++iy)
+        for (int ix = 0; ix < tile.x1 - tile.x0; ++ix) {
+          const auto i = static_cast<std::size_t>(iy * kSide + ix);
+          const float u = p != nullptr ? p[i] : kUnknown, v = q != nullptr ? q[i] : kUnknown;
+          if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v)) differs_[i] = true;
+        }
+    }
+    return any ? std::count(differs_.begin(), differs_.end(), true) : 0;
+  }
+
+ private:
+  const TerrainMap &a_, &b_;
+  std::vector<Layer> layers_;
+  LayerTiles::Values old_, new_;
+  std::array<bool, std::tuple_size_v<LayerTiles::Values>> differs_{};
+};
 
 std::int64_t area_of(const std::vector<CellRect>& rects) {
   std::int64_t area = 0;
@@ -50,9 +68,9 @@ std::int64_t area_of(const std::vector<CellRect>& rects) {
 std::int64_t count_changed(const TerrainMap& before, const TerrainMap& after) {
   std::int64_t count = 0;
   constexpr int kSide = LayerTiles::kSide;
-  for (int y0 = 0; y0 < after.ny(); y0 += kSide)
-    for (int x0 = 0; x0 < after.nx(); x0 += kSide)
-      count += changed_in(before, after, CellRect{x0, y0, x0 + kSide, y0 + kSide}.cut(after.rect()));
+  const auto comparison = std::make_unique<TileComparison>(before, after);
+  for (int ty = 0; ty * kSide < after.ny(); ++ty)
+    for (int tx = 0; tx * kSide < after.nx(); ++tx) count += comparison->changed(tx, ty);
   return count;
 }
 
@@ -142,7 +160,7 @@ bool UpdateFeed::closed() const {
   return closed_;
 }
 
-std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>& wanted) {
+bool send_patch(const MapUpdate& update, const std::vector<Layer>& wanted, const PatchSink& sink) {
   const TerrainMap& map = update.map;
   std::string head = "{\"format\": 1, \"since\": " + std::to_string(update.since) +
                      ", \"sequence\": " + std::to_string(update.sequence) +
@@ -165,13 +183,27 @@ std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>&
   std::string begin = "NAVVYMAP";
   for (int i = 0; i < 4; ++i) begin += static_cast<char>(length >> (8 * i) & 0xFF);
   begin += head;
-  std::vector<char> out(begin.begin(), begin.end());
+  if (!sink(begin.data(), begin.size())) return false;
+  // Some rows at a time: a whole map of a large site is many gigabytes.
   for (const CellRect& rect : update.rects)
     for (const Layer layer : wanted) {
-      const std::vector<float> values = map.copy(layer, rect);
-      const char* first = reinterpret_cast<const char*>(values.data());
-      out.insert(out.end(), first, first + values.size() * sizeof(float));
+      const auto width = static_cast<std::int64_t>(rect.x1 - rect.x0);
+      const int rows =
+          static_cast<int>(std::clamp<std::int64_t>(kPieceValues / std::max<std::int64_t>(width, 1), 1, 256));
+      for (int y0 = rect.y0; y0 < rect.y1; y0 += rows) {
+        const std::vector<float> values = map.copy(layer, {rect.x0, y0, rect.x1, std::min(y0 + rows, rect.y1)});
+        if (!sink(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float))) return false;
+      }
     }
+  return true;
+}
+
+std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>& wanted) {
+  std::vector<char> out;
+  send_patch(update, wanted, [&](const char* bytes, std::size_t count) {
+    out.insert(out.end(), bytes, bytes + count);
+    return true;
+  });
   return out;
 }
 

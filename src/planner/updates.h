@@ -76,9 +76,14 @@ class UpdateFeed {
   bool closed_ = false;
 };
 
+/// Takes the next bytes of something that is too large to be held; false ends it.
+using PatchSink = std::function<bool(const char* bytes, std::size_t count)>;
+
 /// An update as bytes for other processes (src/planner/README.md, "Updates"): magic "NAVVYMAP", the length of the
 /// header (32 bits, little-endian), the header as JSON, and for each rectangle and each layer its float32 rows, least y
-/// first.
+/// first. In pieces of 16 MiB at most, or of one row. False when the sink ended it.
+bool send_patch(const MapUpdate& update, const std::vector<Layer>& layers, const PatchSink& sink);
+/// The same at once.
 std::vector<char> patch_bytes(const MapUpdate& update, const std::vector<Layer>& layers);
 
 }  // namespace navvy::planner

@@ -182,6 +182,26 @@ print(json.dumps(out)))",
   EXPECT_EQ(header["georeference"]["crs_wkt"], example().setup().crs_wkt);
 }
 
+TEST(Npz, OfMoreRowsThanAreHeldAtOnceHasThemAllInOrder) {
+  const test::Folder folder;
+  const TerrainMap map = testing::map_of(testing::setup(31, 600), [](double x, double y) { return 0.1 * x + y * y; });
+  const std::vector<Layer> layers = {Layer::kElevation, Layer::kStepHeight};
+  write_npz(map, layers, folder / "tall.npz");
+  const std::vector<char> bytes = read_file(folder / "tall.npz");
+  const std::string text(bytes.begin(), bytes.end());
+  for (const Layer layer : layers) {
+    // Behind the entry's name stands NPY's header of 128 bytes, and then the numbers.
+    const std::size_t name = text.find(info(layer).name + ".npy"), begin = text.find("\x93NUMPY", name) + 128;
+    const std::vector<float> values = map.copy(layer);
+    ASSERT_LE(begin + values.size() * sizeof(float), text.size());
+    EXPECT_EQ(std::memcmp(text.data() + begin, values.data(), values.size() * sizeof(float)), 0) << info(layer).name;
+  }
+  if (!has_tool("python3")) GTEST_SKIP() << "python3 is missing";
+  EXPECT_EQ(output_of("python3 -c 'import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).testzip())' '" +
+                      (folder / "tall.npz") + "'"),
+            "None\n");
+}
+
 TEST(Npz, OfOneMapIsTheSameByteForByte) {
   const test::Folder folder;
   write_npz(example(), kTwo, folder / "a.npz");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "core/error.h"
 #include "folder.h"
 #include "heightfield/site.h"
@@ -76,6 +78,23 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   EXPECT_TRUE(std::isnan(map.at(Layer::kDensity, 3, 3)));
   EXPECT_TRUE(std::isnan(map.time()));
   EXPECT_FALSE(std::isnan(map.at(Layer::kTraversability, 3, 3)));
+}
+
+TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
+  const test::Folder folder;
+  const scene::Scene scene = pit();
+  std::optional<heightfield::Ground> ground = heightfield::make_ground(scene);
+  std::vector<heightfield::Layer> taken;
+  ground->take_above(33, 44, -2, taken);
+  const double dug = ground->height(33, 44);
+  heightfield::write_geotiff(*ground, folder / "terrain_end.tif");
+  ground = heightfield::make_ground(scene);
+  const double whole = ground->height(33, 44);
+  const TerrainMap map = map_of_run(scene, *ground, folder / "terrain_end.tif", {});
+  ground.reset();
+  // A float's ulp at a metre, and a quantum of mass.
+  EXPECT_NEAR(map.at(Layer::kElevation, 33, 44), dug, 2e-7);
+  EXPECT_EQ(map.at(Layer::kElevationStart, 33, 44), static_cast<float>(whole));
 }
 
 TEST(MapOfRun, RefusesAFileThatIsMissingOrOfAnotherSite) {

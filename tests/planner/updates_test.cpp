@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstring>
 #include <thread>
 
 #include "core/error.h"
@@ -49,6 +50,29 @@ void apply(const MapUpdate& update, std::vector<float>& mine, Layer layer) {
       for (int ix = r.x0; ix < r.x1; ++ix)
         mine[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix)] =
             map.at(layer, ix, iy);
+}
+
+TEST(UpdateFeed, SendsALargeMapInPiecesThatAreItsPatch) {
+  // Higher than a piece has rows.
+  Ground ground(testing::setup(70, 600));
+  UpdateFeed feed(two_layers());
+  const UpdateFeed::Update first = feed.publish(ground.view());
+  std::vector<char> sent;
+  int pieces = 0;
+  EXPECT_TRUE(send_patch(*first, kTwo, [&](const char* bytes, std::size_t count) {
+    sent.insert(sent.end(), bytes, bytes + count);
+    return ++pieces > 0;
+  }));
+  EXPECT_EQ(pieces, 7) << "the header, and of each layer 256, 256 and 88 rows";
+  EXPECT_EQ(sent, patch_bytes(*first, kTwo));
+  const std::vector<float> slope = first->map.copy(Layer::kSlope);
+  ASSERT_GT(sent.size(), slope.size() * 2 * sizeof(float));
+  EXPECT_EQ(
+      std::memcmp(sent.data() + sent.size() - slope.size() * sizeof(float), slope.data(), slope.size() * sizeof(float)),
+      0);
+  int until = 3;
+  EXPECT_FALSE(send_patch(*first, kTwo, [&](const char*, std::size_t) { return --until > 0; }));
+  EXPECT_EQ(until, 0) << "ends when it is told to";
 }
 
 TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {

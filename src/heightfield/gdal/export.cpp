@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <memory>
 #include <vector>
 
@@ -23,8 +24,10 @@ namespace {
 
 // Rows that are held and compressed together.
 constexpr int kStripRows = 32;
+// Rows computed at once: many, as layers that look around compute the rows beside them, too.
+constexpr int kChunkRows = 8 * kStripRows;
 
-/// Fills `out` with rows [y0, y1) of the rectangle, row y0 first.
+/// Fills `out` with rows [y0, y1) of the rectangle, row y0 first. Called by one thread at a time.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
 /// One band of the file: where its values come from; name and unit, empty for heights in the file's own unit.
@@ -42,14 +45,23 @@ std::string height_unit(const GroundSetup& setup) {
   return "";
 }
 
+/// Removes what is half written, unless told that it is whole.
+struct HalfFile {
+  std::string path;
+  bool whole = false;
+  ~HalfFile() {
+    if (!whole) ::unlink(path.c_str());
+  }
+};
+
 void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Band>& bands, const std::string& path) {
   const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
   const std::string part = partial_name(path);
+  HalfFile half{part};
   GdalSession session;
   // GDAL reports some failures only through its error handler, so both are asked each time.
   const auto check = [&](bool good, const char* action) {
     if (good && session.errors().empty()) return;
-    ::unlink(part.c_str());
     throw FileError("cannot write '" + path + "': " + session.cause(action));
   };
   // Bands one after the other; a file of one band is as it always was.
@@ -75,25 +87,31 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
   }
   // GDAL has one such value for all bands of a GeoTIFF.
   data->GetRasterBand(1)->SetNoDataValue(kExportNodata);
-  std::vector<float> strip;
   for (std::size_t b = 0; b < bands.size(); ++b) {
     GDALRasterBand* band = data->GetRasterBand(static_cast<int>(b) + 1);
     if (!bands[b].name.empty()) band->SetDescription(bands[b].name.c_str());
     if (!bands[b].unit.empty()) band->SetUnitType(bands[b].unit.c_str());
-    // From the north down, whole strips of the file at a time.
-    for (int top = 0; top < ny; top += kStripRows) {
-      const int bottom = std::min(top + kStripRows, ny);
-      bands[b].rows(ny - bottom, ny - top, strip);
+    // From the north down, some strips of the file at a time; while they are packed another thread computes the next.
+    std::vector<float> now, next;
+    const auto compute = [&](int top) { bands[b].rows(ny - std::min(top + kChunkRows, ny), ny - top, next); };
+    compute(0);
+    for (int top = 0; top < ny; top += kChunkRows) {
+      std::swap(now, next);
+      std::future<void> coming;
+      if (top + kChunkRows < ny) coming = std::async(std::launch::async, compute, top + kChunkRows);
+      const int bottom = std::min(top + kChunkRows, ny);
       for (int row = top; row < bottom; ++row)
-        check(band->RasterIO(GF_Write, 0, row, nx, 1, strip.data() + static_cast<std::size_t>(bottom - 1 - row) * nx,
-                             nx, 1, GDT_Float32, 0, 0, nullptr) == CE_None,
+        check(band->RasterIO(GF_Write, 0, row, nx, 1, now.data() + static_cast<std::size_t>(bottom - 1 - row) * nx, nx,
+                             1, GDT_Float32, 0, 0, nullptr) == CE_None,
               "a row cannot be written");
+      if (coming.valid()) coming.get();
     }
   }
   data.reset();  // flushes; a full disk shows here at the latest
   // What GeoTIFF cannot say about an exotic CRS, GDAL puts beside the file: under the wrong name, so away with it.
   ::unlink((part + ".aux.xml").c_str());
   check(true, "");
+  half.whole = true;
   commit_file(path);
 }
 
@@ -135,12 +153,11 @@ void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands, 
   const auto nx = static_cast<std::size_t>(setup.nx);
   std::vector<Band> out;
   for (const MapBand& band : bands) {
-    if (band.values.size() != nx * static_cast<std::size_t>(setup.ny))
-      throw Error("write_geotiff: " + std::to_string(band.values.size()) + " values of '" + band.name +
-                  "' do not fill the site for '" + path + "'");
-    const auto rows = [&setup, &band, nx](int y0, int y1, std::vector<float>& to) {
-      to.assign(band.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y0) * nx),
-                band.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y1) * nx));
+    const auto rows = [&setup, &band, &path, nx](int y0, int y1, std::vector<float>& to) {
+      band.rows(y0, y1, to);
+      if (to.size() != nx * static_cast<std::size_t>(y1 - y0))
+        throw Error("write_geotiff: " + std::to_string(to.size()) + " values of '" + band.name + "' do not fill rows " +
+                    std::to_string(y0) + " to " + std::to_string(y1) + " for '" + path + "'");
       for (float& value : to)
         if (value != value)
           value = static_cast<float>(kExportNodata);

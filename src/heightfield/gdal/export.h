@@ -2,6 +2,7 @@
 // Ground as GeoTIFF. Exists only in builds with NAVVY_WITH_GDAL.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,7 +13,8 @@ namespace navvy::heightfield {
 
 /// Writes the present heights of the whole site as float32 GeoTIFF (DEFLATE, PREDICTOR 3, nodata -9999): north up, in
 /// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none. Strip by
-/// strip, so a large site needs no copy. A kill leaves the old file or the new one.
+/// strip, so a large site needs no copy; while strips are packed another thread computes the next. A kill leaves the
+/// old file or the new one.
 /// @throws FileError naming path and cause.
 void write_geotiff(const Terrain& terrain, const std::string& path);
 /// The same with map layers (heightfield/map_view.h) as further bands, under their names and in the layers' own units;
@@ -24,11 +26,13 @@ void write_geotiff(const Terrain& terrain, const std::string& path, const std::v
 void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
                    const std::string& path);
 
-/// One band of a map that is not a terrain's own, x fastest, row 0 = least y; NaN becomes nodata.
+/// One band of a map that is not a terrain's own.
 struct MapBand {
-  std::string name, unit;         ///< unit as it is to be told; of heights the file's own takes its place
-  std::span<const float> values;  ///< setup.nx x setup.ny
-  bool height = false;            ///< W z [m]: written in the file's unit and vertical datum
+  std::string name, unit;  ///< unit as it is to be told; of heights the file's own takes its place
+  /// Fills `out` with rows [y0, y1) of the site, row y0 (least y) first, x fastest; NaN becomes nodata. Called by one
+  /// thread at a time, which may be another than the caller's.
+  std::function<void(int y0, int y1, std::vector<float>& out)> rows;
+  bool height = false;  ///< W z [m]: written in the file's unit and vertical datum
 };
 /// Bands of a whole site, under their names, in the coordinates that `setup` gives.
 /// @throws Error when sizes do not fit or there is no band, FileError.

@@ -45,34 +45,48 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 
 }  // namespace
 
-TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup) {
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held, int side) {
   MapFile map(world.ground.file, world.ground.scale, "terrain");
   setup.crs_wkt = map.crs_wkt;
-  const Vec2 corner = place_site(map, world.ground, setup);
-  auto raster = std::make_shared<HeightRaster>(read_heights(map, corner, setup.cell * Vec2(setup.nx, setup.ny)));
+  const Vec2 corner = place_site(map, world.ground, setup), size = setup.cell * Vec2(setup.nx, setup.ny);
   TerrainReport& report = map.report;
-  // What the report says of heights and slopes is said of the filled map, which is what the columns come from.
-  report.nodata = fill_gaps(*raster);
-  const auto [least, most] = std::minmax_element(raster->z.begin(), raster->z.end());
-  report.lowest = *least + report.height_offset;
-  report.highest = *most + report.height_offset;
   for (const scene::GroundLayer& layer : world.ground.layers)
     if (const int i = world.soil_index(layer.soil); i >= 0) {
       report.repose = world.soils[static_cast<std::size_t>(i)].friction_angle;
       break;
     }
-  report.slope = slopes(*raster, report.repose);
+  const double cell = setup.cell;
+  // What the report says of heights and slopes is said of the filled map, which is what the columns come from. The
+  // surfaces share their map, so that copies of the setup cost nothing.
+  const auto surface_of = [cell](const auto& raster) {
+    return [raster, cell](int ix, int iy) { return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell); };
+  };
+  float least = 0, most = 0;
+  if (static_cast<double>(cells_under(map, corner, size)) > held) {
+    const auto raster = read_windows(map, corner, size, side);
+    const WindowedRaster::Summary told = raster->summary(report.repose);
+    least = told.least, most = told.most;
+    report.slope = told.slope;
+    setup.map_hash = told.hash;
+    setup.surface = surface_of(raster);
+  } else {
+    const auto raster = std::make_shared<HeightRaster>(read_heights(map, corner, size));
+    report.nodata = fill_gaps(*raster);
+    const auto [low, high] = std::minmax_element(raster->z.begin(), raster->z.end());
+    least = *low, most = *high;
+    report.slope = slopes(*raster, report.repose);
+    StateHash heights;
+    heights.bytes(raster->z.data(), raster->z.size() * sizeof(float));
+    for (const double one : {raster->cell_x, raster->cell_y, raster->x0, raster->y0}) heights.value(one);
+    heights.value(raster->nx);
+    setup.map_hash = heights.digest();
+    setup.surface = surface_of(raster);
+  }
+  report.lowest = least + report.height_offset;
+  report.highest = most + report.height_offset;
   report.soil_cell = setup.cell;
   setup.height_offset = report.height_offset;
-  setup.datum = bedrock(world, *least);
-  const double cell = setup.cell;
-  // Shared, so that copies of the setup cost nothing.
-  StateHash heights;
-  heights.bytes(raster->z.data(), raster->z.size() * sizeof(float));
-  for (const double one : {raster->cell_x, raster->cell_y, raster->x0, raster->y0}) heights.value(one);
-  heights.value(raster->nx);
-  setup.map_hash = heights.digest();
-  setup.surface = [raster, cell](int ix, int iy) { return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell); };
+  setup.datum = bedrock(world, least);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/limits.h"
 #include "core/math.h"
 #include "heightfield/ground.h"
 #include "heightfield/raster.h"
@@ -44,9 +45,12 @@ struct TerrainReport {
 };
 
 /// Reads the part of `world.ground.file` that the site covers and fills in the surface, datum and georeference of
-/// `setup`, whose nx, ny, cell and origin are given. The map is kept at its own resolution and interpolated on demand.
+/// `setup`, whose nx, ny, cell and origin are given. The map is kept at its own resolution and interpolated on demand:
+/// up to `held` cells of it are held, of a larger one windows of `side` cells are read when columns are asked for. The
+/// heights have the same bits either way.
 /// @throws InputError when the file is missing, unreadable, in degrees, turned, without heights here, or when the site
 /// is off the map.
-TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup);
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held = limits::kMapCells,
+                             int side = 256);
 
 }  // namespace navvy::heightfield

@@ -336,63 +336,209 @@ MapFile::MapFile(const std::string& path, const scene::RasterScale& how, const s
   read_height_unit(*this);
 }
 
-HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
-  TerrainReport& report = map.report;
-  // Cells that the site needs, with a margin; clamped in double, as a damaged header may give any number.
+namespace {
+
+/// Which of a file's cells are read, and how they are turned into our order.
+struct Cut {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< of the map's cells in our order, the last ones inclusive
+  int columns = 0, rows = 0;           ///< of the whole file
+  bool columns_fall = false, rows_fall = true;
+};
+
+/// Cells that the site needs, with a margin; clamped in double, as a damaged header may give any number.
+Cut cut_of(const MapFile& map, const Vec2& corner, const Vec2& size) {
+  const TerrainReport& report = map.report;
   const auto first = [](double x, double cell, int n) {
     return static_cast<int>(std::clamp(std::floor(x / cell) - kMargin, 0.0, n - 1.0));
   };
   const auto last = [](double x, double cell, int n) {
     return static_cast<int>(std::clamp(std::floor(x / cell) + kMargin, 0.0, n - 1.0));
   };
-  const int x0 = first(corner.x(), report.cell_x, report.columns), y0 = first(corner.y(), report.cell_y, report.rows);
-  const int x1 = last(corner.x() + size.x(), report.cell_x, report.columns);
-  const int y1 = last(corner.y() + size.y(), report.cell_y, report.rows);
+  return {first(corner.x(), report.cell_x, report.columns),
+          first(corner.y(), report.cell_y, report.rows),
+          last(corner.x() + size.x(), report.cell_x, report.columns),
+          last(corner.y() + size.y(), report.cell_y, report.rows),
+          report.columns,
+          report.rows,
+          map.columns_fall,
+          map.rows_fall};
+}
+
+/// The raster of a cut without its heights.
+HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& corner) {
   HeightRaster raster;
-  raster.nx = x1 - x0 + 1;
-  raster.ny = y1 - y0 + 1;
+  raster.nx = cut.x1 - cut.x0 + 1;
+  raster.ny = cut.y1 - cut.y0 + 1;
   raster.cell_x = report.cell_x;
   raster.cell_y = report.cell_y;
-  raster.x0 = (x0 + 0.5) * report.cell_x - corner.x();
-  raster.y0 = (y0 + 0.5) * report.cell_y - corner.y();
+  raster.x0 = (cut.x0 + 0.5) * report.cell_x - corner.x();
+  raster.y0 = (cut.y0 + 0.5) * report.cell_y - corner.y();
+  return raster;
+}
+
+/// Raw numbers of some cells of the cut, counted from its first, x fastest. False where the file cannot be read.
+bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells, std::vector<double>& raw) {
+  const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
+  const int column = cut.columns_fall ? cut.columns - (cut.x0 + cells.x1) : cut.x0 + cells.x0;
+  const int row = cut.rows_fall ? cut.rows - (cut.y0 + cells.y1) : cut.y0 + cells.y0;
+  raw.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  if (band.RasterIO(GF_Read, column, row, nx, ny, raw.data(), nx, ny, GDT_Float64, 0, 0, nullptr) != CE_None)
+    return false;
+  const auto line = [&](int y) { return raw.begin() + static_cast<std::ptrdiff_t>(y) * nx; };
+  for (int y = 0; cut.columns_fall && y < ny; ++y) std::reverse(line(y), line(y + 1));
+  for (int y = 0; cut.rows_fall && y < ny / 2; ++y) std::swap_ranges(line(y), line(y + 1), line(ny - 1 - y));
+  return true;
+}
+
+/// Heights as they come out of the file: counts them, takes their mean, notes what is odd.
+class Intake {
+ public:
+  Intake(MapFile& map) : map_(map), decode_(map) {}
+  const Decoder& decoder() const { return decode_; }
+  /// Above `first()`, as it is known so far; NaN for a gap.
+  float take(double raw) {
+    TerrainReport& report = map_.report;
+    const double height = decode_(raw);
+    if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0) report.unmarked_value = raw;
+    // The first height found stands in for the offset until the mean is known.
+    if (!std::isnan(height) && known_++ == 0) first_ = std::floor(height);
+    if (!std::isnan(height)) sum_ += height - first_;
+    return static_cast<float>(height - first_);
+  }
+  double first() const { return first_; }
+  /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError without a height.
+  double shift() const {
+    if (known_ == 0)
+      map_.fail("at", "", "there is no height anywhere under the site, all is nodata",
+                "move the site to where the map has data");
+    return std::floor(sum_ / static_cast<double>(known_));
+  }
+
+ private:
+  MapFile& map_;
+  Decoder decode_;
+  double first_ = 0, sum_ = 0;
+  std::int64_t known_ = 0;
+};
+
+[[noreturn]] void fail_row(const MapFile& map, int row) {
+  map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"), "the file is damaged: get it again");
+}
+
+/// A map that stays open: its cells as heights, whenever they are asked for.
+class OpenMap {
+ public:
+  /// Takes the file over.
+  OpenMap(MapFile& map, const Cut& cut, const Decoder& decode, double first, double shift)
+      : file_(map.file),
+        element_(map.element),
+        numbers_(std::move(map.numbers)),
+        data_(std::move(map.data)),
+        band_(map.band),
+        cut_(cut),
+        decode_(decode),
+        first_(first),
+        shift_(shift) {
+    map.band = nullptr;
+  }
+  ~OpenMap() {
+    // Closing may complain.
+    const GdalSession session;
+    data_.reset();
+  }
+  OpenMap(const OpenMap&) = delete;
+  OpenMap& operator=(const OpenMap&) = delete;
+
+  /// As read_heights makes them. @throws InputError.
+  void read(const CellRect& cells, float* out) {
+    const GdalSession session;
+    if (!read_raw(*band_, cut_, cells, raw_))
+      throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "", session.cause("cannot be read"),
+                             "the file is damaged or gone: get it again"});
+    // Rounded to float before and after the shift, as a map that is held is.
+    std::transform(raw_.begin(), raw_.end(), out,
+                   [&](double raw) { return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_); });
+  }
+
+ private:
+  std::string file_, element_;
+  std::vector<char> numbers_;
+  std::unique_ptr<GDALDataset> data_;
+  GDALRasterBand* band_;
+  Cut cut_;
+  Decoder decode_;
+  double first_, shift_;
+  std::vector<double> raw_;
+};
+
+}  // namespace
+
+std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size) {
+  const Cut cut = cut_of(map, corner, size);
+  return static_cast<std::int64_t>(cut.x1 - cut.x0 + 1) * (cut.y1 - cut.y0 + 1);
+}
+
+HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
+  TerrainReport& report = map.report;
+  const Cut cut = cut_of(map, corner, size);
+  HeightRaster raster = frame_of(report, cut, corner);
   report.source_cells = static_cast<std::int64_t>(raster.nx) * raster.ny;
   // Before memory is asked for.
   if (static_cast<double>(report.source_cells) > limits::kMapCells)
     map.fail("size", std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " map cells",
              "more than " + number_text(limits::kMapCells) + " cells under the site",
              "choose a smaller --size or a coarser map");
-  check_blocks(map, x0, x1, y0, y1);
+  check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
   raster.z.resize(static_cast<std::size_t>(report.source_cells));
-  const Decoder decode(map);
-  std::vector<double> line(static_cast<std::size_t>(raster.nx));
-  find_rows(map, map.rows_fall ? report.rows - 1 - y0 : y1);
-  double sum = 0;
-  std::int64_t known = 0;
+  Intake intake(map);
+  std::vector<double> line;
+  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
   for (int iy = 0; iy < raster.ny; ++iy) {
-    const int row = map.rows_fall ? report.rows - 1 - (y0 + iy) : y0 + iy;
-    const int column = map.columns_fall ? report.columns - 1 - x1 : x0;
-    if (map.band->RasterIO(GF_Read, column, row, raster.nx, 1, line.data(), raster.nx, 1, GDT_Float64, 0, 0, nullptr) !=
-        CE_None)
-      map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
-               "the file is damaged: get it again");
-    if (map.columns_fall) std::reverse(line.begin(), line.end());
-    for (int ix = 0; ix < raster.nx; ++ix) {
-      const double raw = line[static_cast<std::size_t>(ix)], height = decode(raw);
-      if (std::isnan(height) && !decode.is_nodata(raw) && report.unmarked++ == 0) report.unmarked_value = raw;
-      // The first height found stands in for the offset until the mean is known.
-      if (!std::isnan(height) && known++ == 0) report.height_offset = std::floor(height);
-      if (!std::isnan(height)) sum += height - report.height_offset;
-      raster.at(ix, iy) = static_cast<float>(height - report.height_offset);
-    }
+    if (!read_raw(*map.band, cut, {0, iy, raster.nx, iy + 1}, line))
+      fail_row(map, map.rows_fall ? report.rows - 1 - (cut.y0 + iy) : cut.y0 + iy);
+    for (int ix = 0; ix < raster.nx; ++ix) raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)]);
   }
-  if (known == 0)
-    map.fail("at", "", "there is no height anywhere under the site, all is nodata",
-             "move the site to where the map has data");
-  // A whole number of metres near the mean, exact in float.
-  const double shift = std::floor(sum / static_cast<double>(known));
+  const double shift = intake.shift();
   for (float& z : raster.z) z = static_cast<float>(z - shift);
-  report.height_offset += shift;
+  report.height_offset = intake.first() + shift;
   return raster;
+}
+
+std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner, const Vec2& size, int side) {
+  TerrainReport& report = map.report;
+  const Cut cut = cut_of(map, corner, size);
+  const HeightRaster frame = frame_of(report, cut, corner);
+  report.source_cells = static_cast<std::int64_t>(frame.nx) * frame.ny;
+  // A picture is decoded from its beginning for every window.
+  if (is_png(map))
+    map.fail("size", std::to_string(frame.nx) + " x " + std::to_string(frame.ny) + " map cells",
+             "more than " + number_text(limits::kMapCells) + " cells of a picture under the site",
+             "convert it with gdal_translate -of GTiff -co TILED=YES");
+  check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
+  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
+  // One pass for the mean and the gaps; what it decodes is read again when it is needed.
+  Intake intake(map);
+  std::vector<std::int64_t> gaps;
+  std::vector<double> raw;
+  for (int y0 = 0; y0 < frame.ny; y0 += side) {
+    const CellRect strip{0, y0, frame.nx, std::min(y0 + side, frame.ny)};
+    if (!read_raw(*map.band, cut, strip, raw))
+      fail_row(map, map.rows_fall ? report.rows - (cut.y0 + strip.y1) : cut.y0 + strip.y0);
+    const std::int64_t begin = static_cast<std::int64_t>(y0) * frame.nx;
+    for (std::size_t i = 0; i < raw.size(); ++i)
+      if (std::isnan(intake.take(raw[i]))) gaps.push_back(begin + static_cast<std::int64_t>(i));
+    if (static_cast<double>(gaps.size()) > limits::kMapCells)
+      map.fail("nodata", std::to_string(gaps.size()) + " cells",
+               "more than " + number_text(limits::kMapCells) + " cells without a height under the site",
+               "choose a smaller --size, or fill them with gdal_fillnodata.py");
+  }
+  const double shift = intake.shift();
+  report.height_offset = intake.first() + shift;
+  const auto open_map = std::make_shared<OpenMap>(map, cut, intake.decoder(), intake.first(), shift);
+  const auto out = std::make_shared<WindowedRaster>(
+      frame, [open_map](const CellRect& cells, float* to) { open_map->read(cells, to); }, side);
+  report.nodata = out->fill_gaps(std::move(gaps));
+  return out;
 }
 
 }  // namespace navvy::heightfield

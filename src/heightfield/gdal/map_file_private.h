@@ -12,6 +12,7 @@
 #include "heightfield/gdal/import.h"
 #include "heightfield/gdal/session.h"
 #include "heightfield/raster.h"
+#include "heightfield/windowed_raster.h"
 #include "scene/ground.h"
 
 namespace navvy::heightfield {
@@ -50,5 +51,12 @@ std::string number_text(double value, const char* format = "%.10g");
 /// of metres near their mean, so that float keeps millimetres. x0 and y0 count from `corner`.
 /// @throws InputError when all of it is a gap, it has too many cells, or the file is damaged.
 HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size);
+/// Cells that read_heights would read.
+std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size);
+/// The same heights of a map of any size, gaps filled: read through once, then by windows of `side` cells when they are
+/// asked for. Takes the open file out of `map`. @throws InputError likewise, for a picture, and for more gaps than may
+/// be held.
+std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner, const Vec2& size,
+                                                   int side = WindowedRaster::kSide);
 
 }  // namespace navvy::heightfield

@@ -10,14 +10,14 @@ namespace navvy::planner {
 
 void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  // Dense copies of all bands: 4 bytes a column and layer.
-  std::vector<std::vector<float>> values;
-  values.reserve(layers.size());
+  // Rows by rows: nothing is copied whole.
   std::vector<heightfield::MapBand> bands;
-  for (const Layer layer : layers) {
-    values.push_back(map.copy(layer));
-    bands.push_back({info(layer).name, info(layer).unit, values.back(), info(layer).height});
-  }
+  for (const Layer layer : layers)
+    bands.push_back({info(layer).name, info(layer).unit,
+                     [&map, layer](int y0, int y1, std::vector<float>& out) {
+                       out = map.copy(layer, {0, y0, map.nx(), y1});
+                     },
+                     info(layer).height});
   heightfield::write_geotiff(map.setup(), bands, path);
 #else
   (void)map, (void)layers;

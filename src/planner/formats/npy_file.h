@@ -12,4 +12,7 @@ namespace navvy::planner {
 std::string npy_bytes(std::span<const float> values, int nx, int ny);
 std::string npy_bytes(std::span<const std::int8_t> values, int nx, int ny);
 
+/// What stands before the numbers of a '<f4' array of ny x nx.
+std::string npy_header(int nx, int ny);
+
 }  // namespace navvy::planner

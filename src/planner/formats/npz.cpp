@@ -1,82 +1,117 @@
 // SPDX-License-Identifier: Apache-2.0
 // NPZ is a ZIP archive of NPY files (NumPy's format 1.0). Entries are stored, not compressed: float layers of dug
 // ground hardly shrink, and readers can map them.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "planner/formats/formats.h"
 #include "planner/formats/json_text.h"
 #include "planner/formats/npy_file.h"
+#include "planner/formats/part_file.h"
 
 namespace navvy::planner {
 namespace {
 
-/// As every ZIP has it: polynomial 0xEDB88320, reflected.
-std::uint32_t crc32(const std::string& bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> out{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
-      out[i] = c;
-    }
-    return out;
-  }();
-  std::uint32_t c = 0xFFFFFFFFu;
-  for (const char byte : bytes) c = table[(c ^ static_cast<std::uint8_t>(byte)) & 0xFFu] ^ (c >> 8);
-  return c ^ 0xFFFFFFFFu;
-}
+/// Rows of a layer that are held at once.
+constexpr int kRows = 256;
 
-/// A ZIP archive without compression, as far as files below 4 GiB need one.
+/// As every ZIP has it: polynomial 0xEDB88320, reflected.
+class Crc32 {
+ public:
+  void add(const void* data, std::size_t count) {
+    static const std::array<std::uint32_t, 256> table = [] {
+      std::array<std::uint32_t, 256> out{};
+      for (std::uint32_t i = 0; i < 256; ++i) {
+        std::uint32_t c = i;
+        for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
+        out[i] = c;
+      }
+      return out;
+    }();
+    const auto* byte = static_cast<const std::uint8_t*>(data);
+    for (std::size_t i = 0; i < count; ++i) sum_ = table[(sum_ ^ byte[i]) & 0xFFu] ^ (sum_ >> 8);
+  }
+  std::uint32_t value() const { return sum_ ^ 0xFFFFFFFFu; }
+
+ private:
+  std::uint32_t sum_ = 0xFFFFFFFFu;
+};
+
+/// A ZIP archive without compression, as far as files below 4 GiB need one; entries come piece by piece.
 class Zip {
  public:
-  void add(const std::string& name, const std::string& content) {
+  explicit Zip(const std::string& path) : file_(path) {}
+  /// An entry of `size` bytes, which `add` brings.
+  void begin(const std::string& name, std::uint64_t size) {
+    name_ = name;
+    size_ = size;
+    crc_ = Crc32();
     // Where a reader finds the entry.
-    const auto offset = out_.size();
-    // Version 2.0, no flags, stored, 1980-01-01 00:00: the same map gives the same bytes.
-    std::string head;
-    for (const unsigned v : {20u, 0u, 0u, 0u, 33u}) put(head, v, 2);
-    put(head, crc32(content), 4);
-    put(head, content.size(), 4);
-    put(head, content.size(), 4);
-    put(head, name.size(), 2);
-    put(head, 0, 2);
-    out_ += "PK\x03\x04" + head + name + content;
+    offset_ = file_.size();
+    put("PK\x03\x04" + head() + name);
+  }
+  void add(const void* data, std::size_t count) {
+    crc_.add(data, count);
+    file_.write(data, count);
+  }
+  void end() {
+    // The checksum is known only now.
+    const std::string whole = head();
+    file_.overwrite(offset_ + 4, whole.data(), whole.size());
     // In the directory: no comment, disk 0, plain file.
     directory_ += "PK\x01\x02";
-    put(directory_, 20, 2);
-    directory_ += head;
-    put(directory_, 0, 2);
-    put(directory_, 0, 2);
-    put(directory_, 0, 2);
-    put(directory_, 0, 4);
-    put(directory_, offset, 4);
-    directory_ += name;
+    append(directory_, 20, 2);
+    directory_ += whole;
+    append(directory_, 0, 2);
+    append(directory_, 0, 2);
+    append(directory_, 0, 2);
+    append(directory_, 0, 4);
+    append(directory_, offset_, 4);
+    directory_ += name_;
     ++entries_;
   }
-  std::vector<char> bytes() const {
-    // The end record: counts and place of the directory, which readers look for from the file's end.
-    std::string all = out_ + directory_ + "PK\x05\x06";
-    put(all, 0, 4);
-    put(all, entries_, 2);
-    put(all, entries_, 2);
-    put(all, directory_.size(), 4);
-    put(all, out_.size(), 4);
-    put(all, 0, 2);
-    return {all.begin(), all.end()};
+  /// The directory and the end record: its counts and place, which readers look for from the file's end.
+  void commit() {
+    const std::uint64_t begin = file_.size();
+    std::string last = "PK\x05\x06";
+    append(last, 0, 4);
+    append(last, entries_, 2);
+    append(last, entries_, 2);
+    append(last, directory_.size(), 4);
+    append(last, begin, 4);
+    append(last, 0, 2);
+    put(directory_ + last);
+    file_.commit();
   }
 
  private:
   /// Little-endian, as all of ZIP.
-  static void put(std::string& to, std::uint64_t value, int bytes) {
+  static void append(std::string& to, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> (8 * i) & 0xFF);
   }
-  // Entries one after the other, and the directory that comes behind them.
-  std::string out_, directory_;
+  /// Version 2.0, no flags, stored, 1980-01-01 00:00: the same map gives the same bytes.
+  std::string head() const {
+    std::string out;
+    for (const unsigned v : {20u, 0u, 0u, 0u, 33u}) append(out, v, 2);
+    append(out, crc_.value(), 4);
+    append(out, size_, 4);
+    append(out, size_, 4);
+    append(out, name_.size(), 2);
+    append(out, 0, 2);
+    return out;
+  }
+  void put(const std::string& bytes) { file_.write(bytes.data(), bytes.size()); }
+
+  PartFile file_;
+  // Of the entry that is being written; and the directory that comes behind all of them.
+  std::string name_, directory_;
+  std::uint64_t size_ = 0, offset_ = 0;
+  Crc32 crc_;
   unsigned entries_ = 0;
 };
 
@@ -114,10 +149,21 @@ void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const st
                            std::to_string(bytes >> 20) + " MiB in " + std::to_string(layers.size()) + " layers",
                            "below 4 GiB", "ask for fewer layers, or for a GeoTIFF"});
   // The header first: a reader of the stream knows what comes.
-  Zip zip;
-  zip.add("header.json", header(map, layers));
-  for (const Layer layer : layers) zip.add(info(layer).name + ".npy", npy_bytes(map.copy(layer), map.nx(), map.ny()));
-  write_file_atomically(path, zip.bytes());
+  Zip zip(path);
+  const std::string told = header(map, layers), before = npy_header(map.nx(), map.ny());
+  zip.begin("header.json", told.size());
+  zip.add(told.data(), told.size());
+  zip.end();
+  for (const Layer layer : layers) {
+    zip.begin(info(layer).name + ".npy", before.size() + static_cast<std::uint64_t>(map.rect().area()) * sizeof(float));
+    zip.add(before.data(), before.size());
+    for (int y0 = 0; y0 < map.ny(); y0 += kRows) {
+      const std::vector<float> rows = map.copy(layer, {0, y0, map.nx(), std::min(y0 + kRows, map.ny())});
+      zip.add(rows.data(), rows.size() * sizeof(float));
+    }
+    zip.end();
+  }
+  zip.commit();
 }
 
 }  // namespace navvy::planner

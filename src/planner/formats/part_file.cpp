@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/formats/part_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace navvy::planner {
+
+PartFile::PartFile(const std::string& path) : path_(path), file_(std::fopen(partial_name(path).c_str(), "wb")) {
+  if (file_ == nullptr) fail();
+}
+
+PartFile::~PartFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  ::unlink(partial_name(path_).c_str());
+}
+
+void PartFile::fail() { throw FileError("cannot write '" + path_ + "': " + std::strerror(errno)); }
+
+void PartFile::write(const void* data, std::size_t count) {
+  if (std::fwrite(data, 1, count, file_) != count) fail();
+  size_ += count;
+}
+
+void PartFile::overwrite(std::uint64_t at, const void* data, std::size_t count) {
+  if (::fseeko(file_, static_cast<off_t>(at), SEEK_SET) != 0 || std::fwrite(data, 1, count, file_) != count ||
+      ::fseeko(file_, 0, SEEK_END) != 0)
+    fail();
+}
+
+void PartFile::commit() {
+  std::FILE* file = file_;
+  file_ = nullptr;
+  // A full disk may show only here.
+  if (std::fclose(file) != 0) {
+    const int code = errno;
+    ::unlink(partial_name(path_).c_str());
+    errno = code;
+    fail();
+  }
+  commit_file(path_);
+}
+
+}  // namespace navvy::planner
