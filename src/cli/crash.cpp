@@ -108,12 +108,7 @@ extern "C" void on_exit_of_others() {
   _exit(driver ? kDevice : kInternal);
 }
 
-}  // namespace
-
-// The two take the place of the C library's for every library of the process. LLVM, which a driver compiles with, puts
-// handlers of its own where ours stood from the first build on; at an abort they return, and the C library then ends
-// the process without a word of ours.
-extern "C" [[noreturn]] void abort() noexcept {
+[[noreturn]] void end_by_abort() {
   // Once: what follows may fail again, and another thread at the same time.
   static std::atomic<bool> told{false};
   if (!told.exchange(true)) on_crash(SIGABRT);
@@ -126,10 +121,17 @@ extern "C" [[noreturn]] void abort() noexcept {
   _exit(128 + SIGABRT);
 }
 
+}  // namespace
+
+// The two take the place of the C library's for every library of the process. LLVM, which a driver compiles with, puts
+// handlers of its own where ours stood from the first build on; at an abort they return, and the C library then ends
+// the process without a word of ours.
+extern "C" void abort() noexcept { end_by_abort(); }
+
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
   say_assertion(what, file, line, function);
-  abort();
+  end_by_abort();
 }
 
 void install_crash_report() {

@@ -108,6 +108,7 @@ int one_machine(const std::string& name) {
   const auto found = files.find(name);
   if (found == files.end()) {
     std::vector<std::string> names;
+    names.reserve(files.size());
     for (const auto& [one, path] : files) names.push_back(one);
     throw InputError(
         Fault{Fault::Severity::kError, "", 0, "machines", name, "no such shipped machine", suggestion(name, names)});
