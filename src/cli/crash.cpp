@@ -61,6 +61,8 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
     driver = is_driver(info.dli_fname);
     if (info.dli_fbase == own.dli_fbase) break;
   }
+  // Nothing but our own frames: a check of our own code.
+  if (where == nullptr) where = own.dli_fname;
   const char* slash = where == nullptr ? nullptr : std::strrchr(where, '/');
   const char* name = slash != nullptr ? slash + 1 : where != nullptr ? where : "an unknown place";
   std::snprintf(text, size, "%s inside %s%s", what, driver ? "the OpenCL driver, in " : "", name);
@@ -106,15 +108,30 @@ extern "C" void on_exit_of_others() {
   _exit(driver ? kDevice : kInternal);
 }
 
+[[noreturn]] void end_by_abort() {
+  // Once: what follows may fail again, and another thread at the same time.
+  static std::atomic<bool> told{false};
+  if (!told.exchange(true)) on_crash(SIGABRT);
+  std::signal(SIGABRT, SIG_DFL);
+  sigset_t wanted;
+  sigemptyset(&wanted);
+  sigaddset(&wanted, SIGABRT);
+  pthread_sigmask(SIG_UNBLOCK, &wanted, nullptr);
+  raise(SIGABRT);
+  _exit(128 + SIGABRT);
+}
+
 }  // namespace
 
-// Takes the place of the C library's for every library of the process: LLVM, which a driver compiles with, puts
-// handlers of its own where ours stood, and an assertion of the driver would end the process without a word of ours.
+// The two take the place of the C library's for every library of the process. LLVM, which a driver compiles with, puts
+// handlers of its own where ours stood from the first build on; at an abort they return, and the C library then ends
+// the process without a word of ours.
+extern "C" void abort() noexcept { end_by_abort(); }
+
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
   say_assertion(what, file, line, function);
-  on_crash(SIGABRT);
-  std::abort();
+  end_by_abort();
 }
 
 void install_crash_report() {

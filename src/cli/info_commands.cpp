@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
+#include "cli/severity.h"
 #include "control/step_kinds.h"
 #include "core/log.h"
 #include "core/math.h"
@@ -58,12 +59,12 @@ void tell_derived(const std::string& name, const scene::Machine& machine) {
 }
 
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
-  int errors = 0, warnings = 0;
+  std::size_t errors = 0, warnings = 0;
   // What libraries warn of while they try a start counts like any other: once, and on standard output.
   std::set<std::string> told;
   set_log_sink([&](LogLevel level, const std::string& text) {
     if (level < LogLevel::kWarning || !told.insert(text).second) return;
-    std::cout << "warning: " << text << "\n";
+    std::cout << (tells_its_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
   for (const std::string& name : files) {
@@ -79,7 +80,11 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     std::optional<scene::Scene> world;
     // Machine and soil files are checked by themselves and give no world.
     std::optional<scene::Machine> machine;
-    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides, &machine);
+    scene_io::FaultCount count;
+    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides, &machine, &count);
+    errors += count.errors;
+    warnings += count.warnings;
+    const std::size_t counted = faults.size();
     if (machine) tell_derived(machine->name, *machine);
     if (world)
       for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
@@ -90,15 +95,15 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
     // And what its machines do in their first second.
     if (world) check_machines(*world, faults);
-    for (const Fault& fault : faults) {
+    for (std::size_t i = 0; i < faults.size(); ++i) {
       // On standard output: it is what was asked for.
-      std::cout << fault.text() << "\n";
-      ++(fault.severity == Fault::Severity::kError ? errors : warnings);
+      std::cout << faults[i].text() << "\n";
+      if (i >= counted) ++(faults[i].severity == Fault::Severity::kError ? errors : warnings);
     }
   }
   set_log_sink({});
   // The last line is for people, the exit status for scripts.
-  std::printf("%zu file%s checked: %d error%s, %d warning%s\n", files.size(), files.size() == 1 ? "" : "s", errors,
+  std::printf("%zu file%s checked: %zu error%s, %zu warning%s\n", files.size(), files.size() == 1 ? "" : "s", errors,
               errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
   return errors > 0 ? kBadInput : kOk;
 }

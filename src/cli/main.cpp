@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/crash.h"
 #include "cli/exit_code.h"
+#include "cli/severity.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -29,11 +30,17 @@ void install_log_sink() {
   // stderr, so that results on stdout stay clean for pipes.
   auto logger = spdlog::stderr_color_mt("navvy");
   logger->set_pattern("%^%l%$: %v");
+  auto bare = spdlog::stderr_color_mt("faults");
+  bare->set_pattern("%v");
   // A warning that comes again word for word says nothing new; the bound is for runs of hours.
   auto told = std::make_shared<std::set<std::string>>();
-  set_log_sink([logger, told](LogLevel level, const std::string& text) {
+  set_log_sink([logger, bare, told](LogLevel level, const std::string& text) {
     constexpr std::size_t kRemembered = 1000;
     if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second) return;
+    if (level >= LogLevel::kWarning && cli::tells_its_severity(text)) {
+      bare->warn(text);
+      return;
+    }
     switch (level) {
       case LogLevel::kDebug:
         logger->debug(text);
@@ -58,6 +65,12 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   for (const CLI::App* command : all)
     if (argc > 1 && command->get_name() == argv[1]) chosen = command;
   const std::string where = "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
+  // What is missing, and what it is: its name alone says little.
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
+    for (const CLI::Option* option : chosen->get_options())
+      if (option->get_required() && option->count() == 0)
+        return "`navvy " + chosen->get_name() + "` needs " + option->get_name() + ": " + option->get_description() +
+               " " + where;
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError))
     return std::string(error.what()) + " " + where;
   std::vector<std::string> known;

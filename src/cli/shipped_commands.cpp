@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy machines`, `navvy scenes`, `navvy soils [NAME]`: what is shipped.
+// `navvy machines [NAME]`, `navvy scenes`, `navvy soils [NAME]`: what is shipped.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -63,7 +63,8 @@ int list(const std::map<std::string, std::string>& files, const char* what) {
 
 int scenes() { return list(shipped_scenes(), "scenes"); }
 
-int machines() {
+/// Files of the shipped machines by name.
+std::map<std::string, std::string> all_machines() {
   std::map<std::string, std::string> files;
   std::error_code ignored;
   for (const std::string& directory : scene_io::data_directories())
@@ -72,9 +73,79 @@ int machines() {
       // The first data directory that has it, as model://NAME finds it.
       if (fs::exists(model, ignored)) files.emplace(entry.path().filename().string(), model);
     }
-  const int code = list(files, "machines");
+  return files;
+}
+
+int machines() {
+  const int code = list(all_machines(), "machines");
   std::printf("Put one into a scene by <include><uri>model://NAME</uri></include> (scenarios/README.md).\n");
   return code;
+}
+
+/// "revolute, boom to stick, -40.0 to 65.0 deg".
+std::string told(const scene::Machine& machine, const scene::Joint& joint) {
+  using Type = scene::Joint::Type;
+  const auto link = [&](int index) {
+    return index < 0 ? std::string("world") : machine.links[static_cast<std::size_t>(index)].name;
+  };
+  std::string out = joint.type == Type::kFixed       ? "fixed"
+                    : joint.type == Type::kRevolute  ? "revolute"
+                    : joint.type == Type::kPrismatic ? "prismatic"
+                                                     : "ball";
+  out += ", " + link(joint.parent) + " to " + link(joint.child);
+  if (joint.type != Type::kRevolute && joint.type != Type::kPrismatic) return out;
+  if (!joint.has_limits) return out + ", without end";
+  const bool turns = joint.type == Type::kRevolute;
+  char limits[80];
+  std::snprintf(limits, sizeof limits, turns ? ", %.1f to %.1f deg" : ", %.3f to %.3f m",
+                turns ? degrees(joint.lower) : joint.lower, turns ? degrees(joint.upper) : joint.upper);
+  return out + limits;
+}
+
+/// What it weighs, what moves, what it takes up and what drives it.
+int one_machine(const std::string& name) {
+  const std::map<std::string, std::string> files = all_machines();
+  const auto found = files.find(name);
+  if (found == files.end()) {
+    std::vector<std::string> names;
+    names.reserve(files.size());
+    for (const auto& [one, path] : files) names.push_back(one);
+    throw InputError(
+        Fault{Fault::Severity::kError, "", 0, "machines", name, "no such shipped machine", suggestion(name, names)});
+  }
+  const scene::Machine machine = scene_io::load_machine(found->second);
+  double mass = 0;
+  for (const scene::Link& link : machine.links) mass += link.mass;
+  std::printf("%s\n  %s\n  file: %s\n  mass: %.0f kg%s\n", name.c_str(), first_comment(found->second).c_str(),
+              found->second.c_str(), mass,
+              machine.kinematic    ? "; moved by its joints' positions, without dynamics"
+              : machine.fixed_base ? "; its base is fixed"
+                                   : "");
+  std::printf("  links: %zu\n", machine.links.size());
+  for (const scene::Link& link : machine.links) std::printf("    %-24s %9.1f kg\n", link.name.c_str(), link.mass);
+  std::printf("  joints: %zu\n", machine.joints.size());
+  for (const scene::Joint& joint : machine.joints)
+    std::printf("    %-24s %s\n", joint.name.c_str(), told(machine, joint).c_str());
+  for (const scene::Bucket& bucket : machine.buckets)
+    std::printf("  bucket '%s': %.2f m3 heaped, cuts %.2f m\n", bucket.link.c_str(), bucket.capacity, bucket.width);
+  for (const scene::Bed& bed : machine.beds)
+    std::printf("  bed '%s': %.2f m3 struck, tipped by '%s'\n", bed.link.c_str(), bed.capacity, bed.joint.c_str());
+  for (const scene::Cylinder& cylinder : machine.cylinders)
+    std::printf("  cylinder '%s': moves '%s', %d x %.0f mm bore, %.1f MPa, %.0f l/min\n", cylinder.name.c_str(),
+                cylinder.joint.c_str(), cylinder.count, 1000 * cylinder.bore, cylinder.pressure / 1e6,
+                60000 * cylinder.flow);
+  if (machine.has_pump)
+    std::printf("  pump: %.0f l/min, %.0f kW\n", 60000 * machine.pump.flow, machine.pump.power / 1000);
+  const auto driven = std::count_if(machine.wheels.begin(), machine.wheels.end(),
+                                    [](const scene::Wheel& wheel) { return wheel.driven; });
+  if (!machine.wheels.empty())
+    std::printf("  wheels: %zu, %d driven\n", machine.wheels.size(), static_cast<int>(driven));
+  if (machine.has_drive) {
+    const scene::Powertrain& common = scene::powertrain(machine.drive);
+    std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(machine.drive),
+                common.max_speed, common.tractive_force / 1000, common.power / 1000);
+  }
+  return kOk;
 }
 
 std::vector<scene::Soil> all_soils() {
@@ -130,7 +201,11 @@ void add_soils(CLI::App& app, Action& action) {
 }
 
 void add_machines(CLI::App& app, Action& action) {
-  app.add_subcommand("machines", "list the shipped machines")->callback([&action] { action = machines; });
+  auto name = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "machines", "list the shipped machines; with a name its mass, links, joints, capacities and drive");
+  command->add_option("name", *name, "a shipped machine: tells what it is made of");
+  command->callback([name, &action] { action = [name] { return name->empty() ? machines() : one_machine(*name); }; });
 }
 
 void add_scenes(CLI::App& app, Action& action) {

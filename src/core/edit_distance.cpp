@@ -24,11 +24,35 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+namespace {
+
+/// The words of a name, "sand_dry" or "sand-dry", sorted and joined by blanks.
+std::string sorted_words(const std::string& name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    if (c == '_' || c == '-' || c == ' ')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  std::sort(words.begin(), words.end());
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+/// As the edit distance, but words in another order ("dry_sand" for "sand_dry") are one slip.
+std::size_t unlikeness(const std::string& a, const std::string& b) {
+  return std::min(edit_distance(a, b), 1 + edit_distance(sorted_words(a), sorted_words(b)));
+}
+
+}  // namespace
+
 std::string nearest_name(const std::vector<std::string>& names, const std::string& wanted) {
   std::string nearest;
   std::size_t least = static_cast<std::size_t>(-1);
   for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(name, wanted);
+    const std::size_t distance = unlikeness(name, wanted);
     // Strictly less, so that the first of equals wins and a message does not change with the order of a set.
     if (distance < least) least = distance, nearest = name;
   }
@@ -42,7 +66,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(2, head.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
-    std::size_t distance = edit_distance(head, candidate);
+    std::size_t distance = unlikeness(head, candidate);
     // A forgotten unit ("cohesion" for "cohesion_pa") is the likeliest slip.
     if (!head.empty() && candidate.rfind(head, 0) == 0) distance = 0;
     if (distance < least) {

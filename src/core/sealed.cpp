@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sealed.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -46,6 +47,14 @@ std::size_t section_size(const char* at, std::size_t size) {
   return body <= size - kSectionHead ? kSectionHead + static_cast<std::size_t>(body) : 0;
 }
 
+/// "section 2, 'ground'": its place and, as far as that can be read, the name that its head begins with.
+std::string name_of(std::uint64_t place, const char* at, std::size_t size) {
+  // A head is {name, version, length}.
+  const std::size_t most = std::min(size, kSectionHead - sizeof(std::uint32_t) - sizeof(std::uint64_t));
+  const std::string name(at, std::find_if_not(at, at + most, [](char c) { return c > ' ' && c < 0x7F; }));
+  return "section " + std::to_string(place + 1) + (name.empty() ? "" : ", '" + name + "'");
+}
+
 }  // namespace
 
 std::vector<char> seal(const std::vector<char>& state) {
@@ -78,10 +87,10 @@ std::vector<char> unseal(const std::vector<char>& content) {
   out.reserve(content.size());
   std::uint64_t place = 0;
   for (std::size_t at = kHead; at < content.size(); ++place) {
-    const std::string where = "section " + std::to_string(place + 1);
     const std::size_t left = content.size() - at;
-    if (left < sizeof(std::uint64_t)) refuse(where, "the section is cut short");
+    if (left < sizeof(std::uint64_t)) refuse(name_of(place, "", 0), "the section is cut short");
     const char* const section = content.data() + at + sizeof(std::uint64_t);
+    const std::string where = name_of(place, section, left - sizeof(std::uint64_t));
     const std::size_t size = section_size(section, left - sizeof(std::uint64_t));
     if (size == 0) refuse(where, "the section is cut short");
     if (number_at(content.data() + at) != checksum(place, section, size)) refuse(where, "the checksum does not fit");

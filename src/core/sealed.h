@@ -15,7 +15,7 @@ std::vector<char> seal(const std::vector<char>& state);
 /// The state again. Everything is checked before it returns, in the order of the file, so a damaged one costs what lies
 /// before the damage. A checksum proves nothing against intent: whoever recomputes it is met by the ranges of the
 /// fields.
-/// @throws InputError that names the damaged section.
+/// @throws InputError that tells the damaged section by place and name.
 std::vector<char> unseal(const std::vector<char>& content);
 
 }  // namespace navvy

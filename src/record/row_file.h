@@ -13,8 +13,9 @@ namespace navvy::record {
 /// what came since the last flush, 1 MiB at most, however long the run is.
 ///
 /// A reader finds whole rows, but for one moment: a kill in the middle of an append may leave the last row cut short.
-/// It has no line end then, and readers leave it out. Whatever else happens, an error or the end of the run, the file
-/// ends with a whole row. It stays with its file when the folder is renamed.
+/// It has no line end then, and whoever reads the file leaves it out; Navvy itself reads no such file. Whatever else
+/// happens, an error or the end of the run, the file ends with a whole row. It stays with its file when the folder is
+/// renamed.
 class RowFile {
  public:
   /// Writes nothing yet. `header` is the first row, without its line end.

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -67,6 +68,7 @@ void write_all(int file, const std::string& text, const std::string& path) {
 /// An open list: its lock, what it names, and whether its folder was being filled when it was written.
 struct RunFolder::Marker {
   int file = -1;
+  bool unused = false;  ///< no run has written into it
   std::set<std::string> names;
   bool moving = false;
 };
@@ -74,13 +76,22 @@ struct RunFolder::Marker {
 RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) const {
   Marker out;
   const std::string path = folder + "/" + kMarker;
-  out.file = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
-  if (out.file < 0 && errno == ENOENT && !make) return out;
-  if (out.file < 0) fail("write", path, errno);
-  // A file system without locks is used as if alone.
-  if (flock(out.file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  for (;;) {
+    out.file = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
+    if (out.file < 0 && errno == ENOENT && !make) return out;
+    if (out.file < 0) fail("write", path, errno);
+    // A file system without locks is used as if alone.
+    if (flock(out.file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(out.file);
+      refuse(folder, "another run is writing into this folder", "choose another with --out, or wait for its end");
+    }
+    struct stat found {};
+    const bool known = fstat(out.file, &found) == 0;
+    // Empty: made just now, by this run or by one that lost the race for its lock, or before a kill.
+    out.unused = known && found.st_size == 0;
+    // The run that held it a moment ago may have removed it: a lock on a file without a name keeps nobody out.
+    if (!known || found.st_nlink > 0) break;
     ::close(out.file);
-    refuse(folder, "another run is writing into this folder", "choose another with --out, or wait for its end");
   }
   try {
     const std::vector<char> bytes = read_file(path);
@@ -96,6 +107,7 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
     while (std::getline(lines, line))
       if (is_plain(line)) out.names.insert(line);
   } catch (...) {
+    if (out.unused) ::unlink(path.c_str());
     ::close(out.file);
     throw;
   }
@@ -126,14 +138,21 @@ void RunFolder::require_unread(const Marker& marker, const std::string& folder,
 RunFolder::RunFolder(const std::string& directory, const std::vector<std::string>& reads)
     : directory_(clean(directory)) {
   std::error_code code;
-  made_ = fs::create_directories(directory_, code);
-  if (code) throw FileError("cannot create '" + directory_ + "': " + code.message());
+  for (fs::path path = directory_; !path.empty() && !is_there(path); path = path.parent_path())
+    made_.push_back(path.string());
+  fs::create_directories(directory_, code);
+  if (code) {
+    const std::string cause = code.message();
+    leave();
+    throw FileError("cannot create '" + directory_ + "': " + cause);
+  }
   // Behind a link the results lie elsewhere, and so does what was there before.
   const fs::path real = fs::canonical(directory_, code);
   previous_ = (code ? fs::path(directory_) : real).string() + ".previous";
   try {
     Marker marker = open_marker(directory_, true);
     lock_ = marker.file;
+    unused_ = marker.unused;
     require_free(marker, directory_);
     listed_ = std::move(marker.names);
     // With nothing to move aside, what lies there stays.
@@ -145,19 +164,22 @@ RunFolder::RunFolder(const std::string& directory, const std::vector<std::string
     previous_listed_ = std::move(marker.names);
     previous_moving_ = marker.moving;
   } catch (...) {
-    close_previous();
-    if (lock_ >= 0) ::close(lock_);
-    // What was made and refused leaves no trace.
-    if (made_) ::unlink((directory_ + "/" + kMarker).c_str()), ::rmdir(directory_.c_str());
+    leave();
     throw;
   }
 }
 
-RunFolder::~RunFolder() {
+RunFolder::~RunFolder() { leave(); }
+
+void RunFolder::leave() {
   close_previous();
-  if (made_ && !begun_) ::unlink((directory_ + "/" + kMarker).c_str());
-  ::close(lock_);
-  if (made_ && !begun_) ::rmdir(directory_.c_str());
+  // The marker goes while it is locked, so that no other run takes one that is about to go.
+  if (unused_ && !begun_) ::unlink((directory_ + "/" + kMarker).c_str());
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = -1;
+  // Empty ones only: somebody may have put something there since.
+  for (const std::string& path : made_)
+    if (begun_ || ::rmdir(path.c_str()) != 0) break;
 }
 
 void RunFolder::close_previous() {

@@ -15,12 +15,12 @@ namespace navvy::record {
 /// there by the one after; files that no list names are never touched, whatever they are called.
 class RunFolder {
  public:
-  /// Takes the folder, making it and those above it if need be; nothing in it changes yet.
+  /// Takes the folder, making it and those above it if need be; nothing in it changes yet but for the marker.
   /// @param reads files that the run goes on from or reads; none may be among those that are about to be removed
   /// @throws InputError when another run owns it, when it or "<folder>.previous" holds a file of somebody else where
   /// this run would write, or one of `reads`; FileError when it cannot be made or written.
   explicit RunFolder(const std::string& directory, const std::vector<std::string>& reads = {});
-  /// Unlocks; a folder that was made and not used goes again.
+  /// Unlocks. What was taken and not used is left as it was found: the marker and the folders that were made go again.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
@@ -44,10 +44,13 @@ class RunFolder {
   /// Opens and locks the list of `folder`. @throws InputError when a run holds it, FileError.
   Marker open_marker(const std::string& folder, bool make) const;
   void close_previous();
+  /// Unlocks; without a run that has begun, also removes what this object made.
+  void leave();
 
   std::string directory_, previous_;
-  bool made_ = false;   ///< the folder was not there before
-  bool begun_ = false;  ///< files may be written
+  std::vector<std::string> made_;  ///< the folders that were not there before, the innermost first
+  bool unused_ = false;            ///< no run has written into the marker
+  bool begun_ = false;             ///< files may be written
   int lock_ = -1, previous_lock_ = -1;
   std::set<std::string> listed_, previous_listed_;
   bool previous_moving_ = false;  ///< an earlier move did not come to its end

@@ -76,12 +76,16 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
 }
 
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::Scene>* world,
-                         const Overrides& overrides, std::optional<scene::Machine>* machine) {
+                         const Overrides& overrides, std::optional<scene::Machine>* machine, FaultCount* count) {
   Faults faults;
   if (world != nullptr) world->reset();
   if (machine != nullptr) machine->reset();
+  const auto told = [&] {
+    if (count != nullptr) *count = {faults.error_count(), faults.warning_count()};
+    return faults.list();
+  };
   const auto document = Document::open(file, faults);
-  if (!document) return faults.list();
+  if (!document) return told();
   const Element& root = *document->root();
   // What the file is follows from what its root holds; a scene is assumed where nothing fits, so that its rules say
   // what is missing.
@@ -100,7 +104,7 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
     // Warnings do not keep a scene from being used.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
-  return faults.list();
+  return told();
 }
 
 }  // namespace navvy::scene_io

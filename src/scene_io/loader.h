@@ -3,6 +3,7 @@
 // them all). Every reader collects all faults of all files involved before it throws; warnings go to core/log.h.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,12 +52,18 @@ scene::Machine load_machine(const std::string& file);
 /// Reads every *.sdf of a directory, sorted by name. @throws InputError
 std::vector<scene::Soil> load_soils(const std::string& directory);
 
+/// How many faults a file has: of very many only the first are told one by one.
+struct FaultCount {
+  std::size_t errors = 0, warnings = 0;
+};
+
 /// All faults of a world, machine or soil file; empty when it is in order. `world` receives the scene when the file is
 /// one without errors, else it is left empty. Throws nothing but std::bad_alloc.
-/// `overrides` change a scene's values before they are read; `machine` receives the machine of a machine file.
+/// `overrides` change a scene's values before they are read; `machine` receives the machine of a machine file, `count`
+/// the number of all faults, also of those that the list leaves out.
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
                          std::optional<scene::Scene>* world = nullptr, const Overrides& overrides = {},
-                         std::optional<scene::Machine>* machine = nullptr);
+                         std::optional<scene::Machine>* machine = nullptr, FaultCount* count = nullptr);
 
 /// Where shipped data (vehicles/, terrain/, scenarios/) is looked for, first match wins: $NAVVY_DATA_DIR, the
 /// installation, the source tree.

@@ -2,9 +2,11 @@
 #include "scene_io/xml.h"
 
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include "core/edit_distance.h"
 #include "core/file.h"
@@ -96,8 +98,14 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
     return parse(std::string(bytes.begin(), bytes.end()), file, faults);
     // A file that another one names may be missing like any other; the list says so with its name.
   } catch (const FileError& failure) {
-    fault.rule = std::string("cannot be read: ") + failure.what();
-    fault.remedy = "check the path";
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+    if (!unknown && bytes > limits::kXmlBytes) {
+      fault = too_large(file, static_cast<std::size_t>(bytes));
+    } else {
+      fault.rule = std::string("cannot be read: ") + failure.what();
+      fault.remedy = "check the path";
+    }
     faults.add(fault);
     return nullptr;
   }

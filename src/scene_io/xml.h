@@ -49,6 +49,7 @@ class Faults {
   bool has_errors() const { return error_count() > 0; }
   /// All of them, told or not.
   std::size_t error_count() const { return errors_.all; }
+  std::size_t warning_count() const { return warnings_.all; }
   const std::vector<Fault>& list() const { return list_; }
   /// Throws InputError with the whole list if it holds an error; else logs the warnings.
   void finish() const;

@@ -133,13 +133,20 @@ std::size_t count_elements(const std::string& text) {
   return count;
 }
 
+Fault too_large(const std::string& file, std::size_t bytes) {
+  Fault fault;
+  fault.file = file;
+  fault.value = std::to_string(bytes) + " bytes";
+  fault.rule = "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
+  fault.remedy = "put meshes into OBJ files and machines into files of their own";
+  return fault;
+}
+
 bool check_text(const std::string& text, const std::string& file, Faults& faults) {
   Fault fault;
   fault.file = file;
   if (text.size() > limits::kXmlBytes) {
-    fault.value = std::to_string(text.size()) + " bytes";
-    fault.rule = "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
-    fault.remedy = "put meshes into OBJ files and machines into files of their own";
+    fault = too_large(file, text.size());
   } else if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos) {
     fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
     fault.rule = "the file must be text in UTF-8";

@@ -2,6 +2,7 @@
 // What a file must hold before anything of it is read: text of a bounded size, and names that fit into results.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "scene_io/xml.h"
@@ -10,6 +11,9 @@ namespace navvy::scene_io {
 
 /// Elements that begin in `text`, those in comments too.
 std::size_t count_elements(const std::string& text);
+
+/// What is wrong with a file of more bytes than core/limits.h allows, and what to do.
+Fault too_large(const std::string& file, std::size_t bytes);
 
 /// UTF-8, and no more bytes and elements than core/limits.h allows. False after a fault, which names the line.
 bool check_text(const std::string& text, const std::string& file, Faults& faults);

@@ -52,6 +52,53 @@ TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
   expect_said("janosi_k_m");
   EXPECT_EQ(run({"soils", "loem"}), 2);
   expect_complained("did you mean 'loam'?");
+  EXPECT_EQ(run({"soils", "dry_sand"}), 2);
+  expect_complained("did you mean 'sand_dry'?");
+}
+
+TEST_F(Messages, TellWhatAMachineIsMadeOf) {
+  EXPECT_EQ(run({"machines", "ew180"}), 0) << complained();
+  expect_said("Wheeled excavator of the 18 t class.");
+  expect_said("vehicles/ew180/model.sdf\n");
+  expect_said("  mass: 1");  // 10 to 19 t
+  expect_said("  links: ");
+  expect_said("  joints: ");
+  expect_said("revolute, ");
+  expect_said(" deg\n");
+  expect_said("m3 heaped, cuts ");
+  expect_said("  wheels: ");
+  expect_said("  drive: ackermann, ");
+  expect_said(" kW\n");
+  EXPECT_EQ(run({"machines", "ew81"}), 2);
+  expect_complained("no such shipped machine");
+  expect_complained("did you mean 'ew180'?");
+}
+
+TEST_F(Messages, SayWhatACommandNeeds) {
+  EXPECT_EQ(run({"check"}), 2);
+  expect_complained("`navvy check` needs files: SDF files, or names of shipped scenes (navvy check --help)");
+  EXPECT_EQ(run({"run"}), 2);
+  expect_complained("`navvy run` needs ");
+}
+
+TEST_F(Messages, NameTheSeverityOfAWarningOnce) {
+  const std::string file = scene("<slope><angle_deg>0.2618</angle_deg></slope>", "");
+  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.01", "--out", out()}), 0) << complained();
+  // As editors read it: file and line come first.
+  expect_complained(file + ":2: warning: ");
+  EXPECT_EQ(complained().find("warning: " + file), std::string::npos) << complained();
+  // Of what carries no severity it still comes first.
+  EXPECT_EQ(run({"check", file}), 0);
+  expect_said(file + ":2: warning: ");
+  EXPECT_EQ(said().find("warning: " + file), std::string::npos) << said();
+}
+
+TEST_F(Messages, CountEveryFault) {
+  std::string things;
+  for (int i = 0; i < 3000; ++i) things += "<thing/>\n";
+  EXPECT_EQ(run({"check", scene("", things)}), 2);
+  expect_said("and 2900 more that are not shown");
+  expect_said("1 file checked: 3000 errors, 0 warnings");
 }
 
 TEST_F(Messages, AskWhatWasMeant) {
@@ -114,6 +161,13 @@ TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
   EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
   expect_complained(message);
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
+}
+
+TEST_F(Messages, ARunWithoutADeviceLeavesNoFolderBehind) {
+  const std::string place = (directory_ / "results/of/today").string();
+  EXPECT_EQ(run({"run", "trench", "--device", "no such device", "--out", place}), 3);
+  expect_complained("no such device");
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "results"));
 }
 
 TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {

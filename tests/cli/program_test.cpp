@@ -408,6 +408,27 @@ TEST_F(Program, IsDrivenAtTheRateAskedFor) {
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--control", "stdio", "--control-rate", "0", "--out", out()}), 2);
 }
 
+/// Results depend on the control rate through the base step alone: whoever answers every exchange and asks for nothing
+/// has the run that the scene makes by itself when it says the same rate.
+TEST_F(Program, IsTheSameWithoutAControllerWhereTheSceneSaysTheRate) {
+  const std::vector<std::string> common = {"run", scene("bucket_path.sdf"), "--no-render", "--duration",
+                                           "0.5", "--hash-every",           "0.1"};
+  const auto hashes = [&](const std::string& out, std::vector<std::string> more, const std::string& input) {
+    more.insert(more.begin(), common.begin(), common.end());
+    more.insert(more.end(), {"--out", out});
+    EXPECT_EQ(run(more, input), 0) << complained();
+    return text_of(out + "/hashes.csv");
+  };
+  std::string lines;
+  for (int i = 0; i < 100; ++i) lines += "{}\n";
+  const std::string driven = hashes(out(), {"--control", "stdio", "--control-rate", "70"}, lines);
+  const std::string alone = hashes(out() + "2", {"--set", "solver.control_rate_hz=70"}, "");
+  EXPECT_GE(std::count(driven.begin(), driven.end(), '\n'), 5);
+  EXPECT_EQ(driven, alone);
+  // And it is the rate that does it.
+  EXPECT_NE(hashes(out() + "3", {}, ""), alone);
+}
+
 TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   const std::string snapshot = (directory_ / "middle.snapshot").string();
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out", out(), "--snapshot",

@@ -58,6 +58,26 @@ TEST(Sealed, EveryFlippedBitIsRefused) {
   }
 }
 
+TEST(Sealed, ADamagedSectionIsToldByPlaceAndName) {
+  const std::vector<char> content = seal(saved(State()));
+  const auto told = [&](std::size_t byte) {
+    std::vector<char> flipped = content;
+    flipped[byte] = static_cast<char>(flipped[byte] ^ 0x80);
+    try {
+      unseal(flipped);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not fit"), std::string::npos)
+      << told(content.size() - 1);
+  // The name itself is damaged: as much of it as letters go.
+  const std::size_t name = 32 + 8;
+  EXPECT_NE(told(name + 2).find("section 1, 'pa': "), std::string::npos) << told(name + 2);
+  EXPECT_NE(told(name).find("section 1: "), std::string::npos) << told(name);
+}
+
 TEST(Sealed, EveryLengthButTheRightOneIsRefused) {
   std::vector<char> content = seal(saved(State()));
   for (std::size_t size = 0; size < content.size(); ++size)

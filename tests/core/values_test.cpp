@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/log.h"
@@ -90,6 +91,16 @@ TEST(Random, IsUniformInItsRange) {
   }
   // Standard error of the mean is 8 / sqrt(12 n) = 0.0073; five of them.
   EXPECT_NEAR(sum / kDraws, 2, 0.037);
+}
+
+TEST(Suggestion, IsTheMostLikeAlsoWithItsWordsInAnotherOrder) {
+  const std::vector<std::string> soils = {"clay_stiff", "loam", "sand_dry", "sand_moist", "topsoil"};
+  EXPECT_EQ(suggestion("laom", soils), "did you mean 'loam'?");
+  EXPECT_EQ(suggestion("dry_sand", soils), "did you mean 'sand_dry'?");
+  EXPECT_EQ(suggestion("dry-sand", soils), "did you mean 'sand_dry'?");
+  EXPECT_EQ(suggestion("stif_clay", soils), "did you mean 'clay_stiff'?");
+  EXPECT_EQ(nearest_name(soils, "moist_sand"), "sand_moist");
+  EXPECT_EQ(suggestion("gravel", soils), "known here: clay_stiff, loam, sand_dry, sand_moist, topsoil");
 }
 
 TEST(Log, GoesToTheSinkOrNowhere) {

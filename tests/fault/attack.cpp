@@ -54,6 +54,7 @@ std::vector<std::pair<std::string, std::string>> environment_of(const Attack& wi
   auto out = with.environment;
   if (!with.fault.empty()) out.emplace_back("NAVVY_FAULT", with.fault);
   if (!with.hang.empty()) out.emplace_back("NAVVY_HANG", with.hang);
+  if (!with.abort.empty()) out.emplace_back("NAVVY_ABORT", with.abort);
   out.emplace_back("LD_PRELOAD", NAVVY_FAULT_SHIM);
   return out;
 }
@@ -68,18 +69,6 @@ std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& 
   if (got.summary != "failed") return "the summary says '" + got.summary + "'";
   const auto units = summary.value("/mass_ledger/error_units"_json_pointer, nlohmann::json(-1));
   return units == 0 ? "" : "the mass ledger is open: " + units.dump();
-}
-
-/// Processor time that a process has had [s]; 0 when it is gone.
-double processor_time(pid_t process) {
-  const std::string text = text_of("/proc/" + std::to_string(process) + "/stat");
-  // Behind the name, which may hold anything but ends in the last bracket, the 12th and 13th word.
-  std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
-  std::string word;
-  for (int i = 0; i < 11; ++i) words >> word;
-  double user = 0, system = 0;
-  words >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 /// Whether a process still gets on: a machine that is full of others gives it a second of a processor in minutes, and
@@ -120,6 +109,17 @@ bool wait_or_kill(pid_t child, double kill_after, double patience, int& status) 
 }
 
 }  // namespace
+
+double processor_time(pid_t process) {
+  const std::string text = text_of("/proc/" + std::to_string(process) + "/stat");
+  // Behind the name, which may hold anything but ends in the last bracket, the 12th and 13th word.
+  std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::string word;
+  for (int i = 0; i < 11; ++i) words >> word;
+  double user = 0, system = 0;
+  words >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
 
 std::vector<std::string> small_run(bool drawing) {
   std::vector<std::string> out{

@@ -2,6 +2,8 @@
 // One attack on a run, and the verdict on what it left. Used by the tests and by the campaign.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@ namespace navvy::fault {
 struct Attack {
   std::string fault;      ///< as the shim's NAVVY_FAULT; empty: none
   std::string hang;       ///< as its NAVVY_HANG
+  std::string abort;      ///< as its NAVVY_ABORT
   double kill_after = 0;  ///< SIGKILL after so many seconds; 0: none
   double patience = 300;  ///< [s] without any processor time, or with as much of it, count as hung: killed
   std::vector<std::pair<std::string, std::string>> environment;
@@ -27,6 +30,9 @@ struct Outcome {
   std::string broken;   ///< what is wrong with it; empty: survived
 };
 
+/// Processor time that a process has had [s], all its threads together; 0 when it is gone.
+double processor_time(pid_t process);
+
 /// Arguments of the run that is attacked: a fifth of a second of a bucket, with pictures where `drawing`.
 std::vector<std::string> small_run(bool drawing);
 
@@ -36,7 +42,7 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
                const std::string& hash = "");
 
 /// Why the files of a run are not whole; empty when they are. Tables of one that was `killed` may end in a line without
-/// its end, which readers leave out.
+/// its end, which is no row.
 std::string broken_files(const std::string& out, bool killed = false);
 
 /// Kinds of calls that the shim counts and lets fail: open, write, fsync, rename, new, buffer.

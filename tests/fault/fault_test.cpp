@@ -100,6 +100,37 @@ TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
   }
 }
 
+TEST(Fault, AnAbortInsideTheDriverIsNamedAsSuch) {
+  const test::Folder folder;
+  // An abort, a failed assertion, and one behind programs that were built.
+  for (const char* what : {"abort:1", "assert:1", "abort:3"}) {
+    Attack aborted = with(folder, "");
+    aborted.abort = what;
+    std::filesystem::remove_all(folder / "cache");
+    const Outcome got = attack(folder.path().string(), small_run(false), aborted);
+    EXPECT_EQ(got.status, 3) << what << "\n" << got.said;
+    EXPECT_EQ(got.broken, "") << what;
+    EXPECT_NE(got.said.find("error: abort inside the OpenCL driver, in "), std::string::npos) << what << "\n"
+                                                                                              << got.said;
+    EXPECT_NE(got.said.find("(signal 6)"), std::string::npos) << got.said;
+    // The driver's own words stay.
+    if (std::string(what) == "assert:1")
+      EXPECT_NE(got.said.find("driver.c:7: build: assertion 'the cache is sound' failed"), std::string::npos)
+          << got.said;
+  }
+}
+
+/// Nor is the driver blamed for what is not its own.
+TEST(Fault, AnAbortOfTheProgramsOwnIsNotTheDrivers) {
+  const test::Folder folder;
+  Attack aborted = with(folder, "");
+  aborted.abort = "own:100";
+  const Outcome got = attack(folder.path().string(), small_run(false), aborted);
+  EXPECT_EQ(got.status, -SIGABRT) << got.said;
+  EXPECT_NE(got.said.find("error: abort inside "), std::string::npos) << got.said;
+  EXPECT_EQ(got.said.find("driver"), std::string::npos) << got.said;
+}
+
 TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
   const test::Folder folder;
   const auto arguments = small_run(true);

@@ -9,7 +9,9 @@
 // kind when the program ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the
 // OpenCL driver hang in its n-th build of a program and in those after it; NAVVY_HANG=wait:n:seconds in the calls that
 // wait for the device; NAVVY_HANG=thrown:n:seconds throws out of the n-th build, and hangs where any program is
-// released from then on.
+// released from then on. NAVVY_ABORT=abort:n and NAVVY_ABORT=assert:n end the process at the first file that the driver
+// opens in its n-th build, by abort() or by an assertion that fails; NAVVY_ABORT=own:n by abort() at the n-th
+// allocation of the program's own code.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -29,6 +31,10 @@
 #include <cstring>
 #include <ctime>
 #include <new>
+
+// Where assertions are compiled out its header has none of it.
+extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
+                                           const char* function) noexcept;
 
 namespace {
 
@@ -86,7 +92,25 @@ __attribute__((destructor)) void tell_counts() {
   syscall(SYS_close, file);
 }
 
+// While the driver is in a build that is to be its last.
+std::atomic<bool> last_build{false};
+/// Whether NAVVY_ABORT asks for `kind`, and which one it is.
+bool aborts(const char* kind, long number) {
+  const char* text = getenv("NAVVY_ABORT");
+  const std::size_t size = std::strlen(kind);
+  return text != nullptr && std::strncmp(text, kind, size) == 0 && text[size] == ':' &&
+         std::atol(text + size + 1) == number;
+}
+/// Called by the driver, far inside of its own calls.
+void end_here(Call call) {
+  if (call != kOpen || !last_build.exchange(false)) return;
+  if (std::strncmp(getenv("NAVVY_ABORT"), "assert", 6) == 0)
+    __assert_fail("the cache is sound", "driver.c", 7, "build");
+  std::abort();
+}
+
 bool fails(Call call) {
+  end_here(call);
   const long n = ++counts[call];
   if (call != failing || (from_there_on ? n < at : n != at)) return false;
   if (getenv("NAVVY_FAULT_TRACE") != nullptr) {
@@ -266,7 +290,12 @@ int clBuildProgram(void* program, unsigned count, const void* devices, const cha
     thrown_out_of = program;
     throw std::bad_alloc();
   }
-  return real(program, count, devices, options, notify, data);
+  static std::atomic<long> built{0};
+  const long number = ++built;
+  last_build = aborts("abort", number) || aborts("assert", number);
+  const int result = real(program, count, devices, options, notify, data);
+  last_build = false;
+  return result;
 }
 
 }  // extern "C"
@@ -275,7 +304,10 @@ namespace {
 
 bool new_fails(void* caller) {
   const auto place = reinterpret_cast<std::uintptr_t>(caller);
-  return begun && place >= own_begin && place < own_end && fails(kNew);
+  if (!begun || place < own_begin || place >= own_end) return false;
+  static std::atomic<long> made{0};
+  if (aborts("own", ++made)) std::abort();
+  return fails(kNew);
 }
 
 }  // namespace

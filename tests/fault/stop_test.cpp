@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signals reach a run wherever it is: between steps, in a driver that compiles, in one that does not answer.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/wait.h>
 
 #include <chrono>
 #include <csignal>
@@ -45,18 +48,36 @@ class Stop : public testing::Test {
   static void wait_for_file(const std::string& path) {
     for (int i = 0; i < 1200 && !fs::exists(path); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  /// Status, and how long the process took to end [s].
-  static std::pair<int, double> send(pid_t child, int signal) {
+  /// How a process ended after a signal.
+  struct Ended {
+    int status = 0;        ///< exit status, or minus the signal that ended it
+    double seconds = 0;    ///< from the signal to the end, for people: others keep the machine busy
+    double processor = 0;  ///< [s] of it that the process had, all its threads together
+  };
+  static Ended send(pid_t child, int signal) {
     const auto sent = Clock::now();
+    const double before = processor_time(child);
     kill(child, signal);
-    const int status = test::wait_for(child);
-    return {status, std::chrono::duration<double>(Clock::now() - sent).count()};
+    int raw = 0;
+    rusage used{};
+    wait4(child, &raw, 0, &used);
+    const auto in_seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    const Ended ended{WIFEXITED(raw) ? WEXITSTATUS(raw) : -WTERMSIG(raw),
+                      std::chrono::duration<double>(Clock::now() - sent).count(),
+                      in_seconds(used.ru_utime) + in_seconds(used.ru_stime) - before};
+    std::printf("signal %d: %.2f s to the end, %.2f s of a processor\n", signal, ended.seconds, ended.processor);
+    return ended;
   }
 
   const test::Folder folder_;
 };
 
-// No verdict is a time here either, but for the order: the driver would hang for ten minutes.
+// A signal is obeyed within 2 s of the process's own: a run that goes on with its steps, or waits for a compiler, takes
+// more. One that sleeps takes none, so the driver of these tests would hang for ten minutes, and the order of that is
+// the one verdict on a clock that others on the machine turn, too.
+constexpr double kSoon = 2;         // [s] of a processor
 constexpr double kLongBefore = 60;  // [s]
 
 TEST_F(Stop, WhileTheDriverCompiles) {
@@ -64,11 +85,11 @@ TEST_F(Stop, WhileTheDriverCompiles) {
   // The folder is taken just before the device.
   wait_for_file(out() + "/navvy.run");
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  const auto [status, seconds] = send(child, SIGTERM);
-  EXPECT_EQ(status, 130) << complained();
-  EXPECT_LT(seconds, kLongBefore);
+  const Ended ended = send(child, SIGTERM);
+  EXPECT_EQ(ended.status, 130) << complained();
+  EXPECT_LT(ended.seconds, kLongBefore);
+  EXPECT_LT(ended.processor, kSoon);
   EXPECT_NE(complained().find("driver is busy"), std::string::npos) << complained();
-  std::printf("SIGTERM while the driver compiles: %.2f s\n", seconds);
 }
 
 // The compiler inside the driver has handlers of its own, which delete the file it is writing: a build that failed for
@@ -80,8 +101,9 @@ TEST_F(Stop, WhileTheDriversOwnCompilerWorks) {
     const pid_t child = start({{"POCL_CACHE_DIR", cache}});
     wait_for_file(out() + "/navvy.run");
     std::this_thread::sleep_for(std::chrono::milliseconds(pause));
-    const auto [status, seconds] = send(child, SIGTERM);
-    EXPECT_EQ(status, 130) << pause << " ms: " << complained();
+    const Ended ended = send(child, SIGTERM);
+    EXPECT_EQ(ended.status, 130) << pause << " ms: " << complained();
+    EXPECT_LT(ended.processor, kSoon) << pause << " ms";
   }
 }
 
@@ -89,12 +111,12 @@ TEST_F(Stop, WhileTheDeviceDoesNotAnswer) {
   const pid_t child = start("wait:50:600");
   wait_for_file(out() + "/terrain_start.tif");
   std::this_thread::sleep_for(std::chrono::seconds(2));
-  const auto [status, seconds] = send(child, SIGTERM);
-  EXPECT_EQ(status, 130) << complained();
-  EXPECT_LT(seconds, kLongBefore);
+  const Ended ended = send(child, SIGTERM);
+  EXPECT_EQ(ended.status, 130) << complained();
+  EXPECT_LT(ended.seconds, kLongBefore);
+  EXPECT_LT(ended.processor, kSoon);
   EXPECT_EQ(summary().at("status"), "interrupted");
   EXPECT_EQ(broken_files(out()), "");
-  std::printf("SIGTERM while the device does not answer: %.2f s\n", seconds);
 }
 
 TEST_F(Stop, AClosedTerminalAsCtrlCDoes) {
@@ -103,8 +125,9 @@ TEST_F(Stop, AClosedTerminalAsCtrlCDoes) {
     const pid_t child = start("");
     wait_for_file(out() + "/terrain_start.tif");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto [status, seconds] = send(child, signal);
-    EXPECT_EQ(status, 130) << signal << ": " << complained();
+    const Ended ended = send(child, signal);
+    EXPECT_EQ(ended.status, 130) << signal << ": " << complained();
+    EXPECT_LT(ended.processor, kSoon) << signal;
     EXPECT_EQ(summary().at("status"), "interrupted") << signal;
     EXPECT_TRUE(fs::exists(out() + "/terrain_end.tif")) << signal;
     EXPECT_FALSE(fs::exists(out() + "/summary.reserve")) << signal;

@@ -88,7 +88,8 @@ TEST(RowFile, TakesNoMemoryWhileRowsWait) {
 
 TEST(RowFile, HoldsTheRowsInTheirOrder) {
   const test::Folder folder;
-  write_file_atomically(folder / "rows.csv", std::string("of an earlier run, longer than what comes now\n"));
+  // A kill has torn the earlier run's last row: nothing is appended behind it.
+  write_file_atomically(folder / "rows.csv", std::string("of an earlier run,\nlonger than what comes now, and to"));
   {
     RowFile file(folder / "rows.csv", "a,b");
     file.flush();

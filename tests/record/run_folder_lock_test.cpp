@@ -2,8 +2,13 @@
 // Whose files lie in a run's folder: what a run wrote is moved and removed, what anybody else put there stays.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -29,6 +34,15 @@ void run(const std::string& out, int number) {
   folder.begin();
   for (const char* name : {"summary.json", "telemetry.csv", "frames/left_00001.png"})
     write_file_atomically(folder.path(name), std::to_string(number));
+}
+
+/// Every path below `folder` and what the files hold, in order.
+std::vector<std::string> everything_in(const fs::path& folder) {
+  std::vector<std::string> out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    out.push_back(entry.path().string() + (entry.is_regular_file() ? ": " + text_of(entry.path()) : "/"));
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 std::string refusal(const std::string& out, const std::vector<std::string>& reads = {}) {
@@ -70,16 +84,21 @@ TEST(RunFolderLock, AFolderOfSomebodyElsesResultsIsRefusedUntouched) {
   const std::string out = folder / "out";
   write(out + "/summary.json", "of another program");
   write(out + "/thesis.tex", "years of work");
+  const std::vector<std::string> before = everything_in(folder.path());
   EXPECT_NE(refusal(out).find("'summary.json' that no run wrote"), std::string::npos) << refusal(out);
   EXPECT_NE(refusal(out).find("--out"), std::string::npos);
-  EXPECT_EQ(text_of(out + "/summary.json"), "of another program");
-  EXPECT_EQ(text_of(out + "/thesis.tex"), "years of work");
+  EXPECT_EQ(everything_in(folder.path()), before);
   // The same where the earlier run would go.
   run(folder / "mine", 1);
   write(folder / "mine.previous/summary.json", "of another program");
+  const std::vector<std::string> with_mine = everything_in(folder.path());
   EXPECT_NE(refusal(folder / "mine"), "");
-  EXPECT_EQ(text_of(folder / "mine.previous/summary.json"), "of another program");
-  EXPECT_EQ(text_of(folder / "mine/summary.json"), "1");
+  EXPECT_EQ(everything_in(folder.path()), with_mine);
+  // A marker that another program, or another version, has left there is not ours to remove.
+  write(folder / "other/navvy.run", "something else\n");
+  const std::vector<std::string> with_other = everything_in(folder.path());
+  EXPECT_NE(refusal(folder / "other"), "");
+  EXPECT_EQ(everything_in(folder.path()), with_other);
 }
 
 TEST(RunFolderLock, TwoRunsIntoOneFolderAreRefused) {
@@ -159,6 +178,47 @@ TEST(RunFolderLock, AFolderThatWasTakenAndNotUsedGoesAgain) {
   const test::Folder folder;
   { const RunFolder unused(folder / "out"); }
   EXPECT_FALSE(fs::exists(folder / "out"));
+  // Those above it as well, as far up as they were made for it.
+  fs::create_directory(folder / "mine");
+  { const RunFolder unused(folder / "mine/of/a/run"); }
+  EXPECT_TRUE(fs::is_empty(folder / "mine"));
+  // In a folder that was there only the marker goes.
+  { const RunFolder unused(folder / "mine"); }
+  EXPECT_TRUE(fs::is_empty(folder / "mine"));
+  // What came in the meantime stays, and what holds it.
+  {
+    const RunFolder unused(folder / "mine/of/a/run");
+    write(folder / "mine/of/notes.txt", "of somebody");
+  }
+  EXPECT_EQ(text_of(folder / "mine/of/notes.txt"), "of somebody");
+  EXPECT_FALSE(fs::exists(folder / "mine/of/a"));
+  // Results stay, of course, when the next run does not come to its beginning.
+  run(folder / "out", 1);
+  const std::vector<std::string> before = everything_in(folder.path());
+  { const RunFolder unused(folder / "out"); }
+  EXPECT_EQ(everything_in(folder.path()), before);
+}
+
+/// Two that take one folder by turns: whoever has it holds a marker that the other one sees.
+TEST(RunFolderLock, AMarkerThatGoesUnderAnotherRunIsMadeAnew) {
+  const test::Folder folder;
+  const std::string out = folder / "out";
+  fs::create_directory(out);
+  std::atomic<int> taken{0}, without_marker{0};
+  const auto take = [&] {
+    for (int i = 0; i < 2000; ++i) try {
+        const RunFolder own(out);
+        ++taken;
+        without_marker += !fs::exists(out + "/navvy.run");
+      } catch (const InputError&) {  // the other one has it
+      }
+  };
+  std::thread other(take);
+  take();
+  other.join();
+  EXPECT_GT(taken, 0);
+  EXPECT_EQ(without_marker, 0) << "of " << taken;
+  EXPECT_TRUE(fs::is_empty(out));
 }
 
 TEST(LastWords, PutStatusAndMessageIntoTheLastSummary) {

@@ -88,6 +88,32 @@ TEST(Limits, TenThousandUnknownElementsAreToldInAHundredLines) {
   EXPECT_NE(messages(faults).find("and 9900 more that are not shown"), std::string::npos);
 }
 
+/// Also on the disk, where reading ends at the limit: what to do is then not to look for the file.
+TEST(Limits, AFileThatIsTooLargeIsToldSoWithWhatToDo) {
+  const test::Folder folder;
+  const std::string file = folder / "large.sdf";
+  write_file_atomically(file, world_text(std::string(limits::kXmlBytes, ' ')));
+  const std::vector<Fault> large = check(file, control::step_kinds());
+  ASSERT_EQ(large.size(), 1u);
+  EXPECT_NE(large[0].text().find("may have at most 16777216 (put meshes into OBJ files"), std::string::npos)
+      << large[0].text();
+  const std::vector<Fault> missing = check(folder / "none.sdf", control::step_kinds());
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_NE(missing[0].text().find("(check the path)"), std::string::npos) << missing[0].text();
+}
+
+TEST(Limits, EveryFaultIsCountedAlsoWhereFewAreTold) {
+  const test::Folder folder;
+  const std::string file = folder / "many.sdf";
+  write_file_atomically(
+      file, world_text(repeated("<thing/>\n", 10'000) + repeated("<light type=\"point\" name=\"l\"/>", 200)));
+  FaultCount count;
+  const std::vector<Fault> told = check(file, control::step_kinds(), nullptr, {}, nullptr, &count);
+  EXPECT_LT(told.size(), 250u);
+  EXPECT_EQ(count.errors, 10'000u);
+  EXPECT_GE(count.warnings, 200u);
+}
+
 TEST(Limits, WarningsDoNotCrowdOutErrors) {
   const Faults faults = read(world_text(repeated("<light type=\"point\" name=\"l\"/>", 200) + "<thing/>"));
   EXPECT_EQ(faults.error_count(), 1u);

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "core/saved_state.h"
@@ -62,6 +65,38 @@ TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
     EXPECT_NE(std::string(error.what()).find("'block_collapse'"), std::string::npos) << error.what();
   }
   EXPECT_THROW(load_ground(scene, folder / "none.snapshot"), FileError);
+}
+
+/// Each of the three alone, by the smallest change that a run would feel.
+TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedByWhatDiffers) {
+  const test::Folder folder;
+  const scene::Scene scene = testing::load("bucket_path.sdf");
+  heightfield::Ground ground = heightfield::make_ground(scene);
+  write(folder / "bucket.snapshot", scene, ground);
+  const auto refusal = [&](const scene::Scene& here) {
+    try {
+      load_ground(here, folder / "bucket.snapshot");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(scene), "");
+  scene::Scene heavier = scene;
+  ASSERT_FALSE(heavier.machines.at(0).machine.links.empty());
+  heavier.machines[0].machine.links.back().mass += 1;
+  scene::Scene stronger = scene;
+  stronger.soils.at(0).cohesion += 1;
+  scene::Scene aside = scene;
+  aside.machines.at(0).X_WM.translation().x() += 0.001;
+  const std::string link = heavier.machines[0].machine.links.back().name;
+  for (const auto& [here, told] :
+       {std::pair(&heavier, "link[" + link + "]/mass"), std::pair(&stronger, std::string("soil[loam]/cohesion")),
+        std::pair(&aside, std::string("machine[bucket]/pose/place"))}) {
+    const std::string said = refusal(*here);
+    EXPECT_NE(said.find(told), std::string::npos) << told << ": " << said;
+    EXPECT_NE(said.find("--resume-anyway"), std::string::npos) << said;
+  }
 }
 
 }  // namespace

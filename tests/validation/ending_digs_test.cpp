@@ -40,6 +40,13 @@ class ScoopWatch {
   double start_ = 0, rise_ = 0, curl_start_ = 0, longest_curl_ = 0;
 };
 
+/// A figure of a step's account; not a number when it is not there, which no bound holds.
+double figure(const control::StepReport& step, const std::string& name) {
+  for (const control::Figure& one : step.figures)
+    if (one.name == name) return one.value;
+  return std::nan("");
+}
+
 struct DigCase {
   const char* name;
   const char* file;
@@ -65,6 +72,18 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
   expect_between("cycles", static_cast<double>(session.cycles().size()), 3, c.most_cycles, kSource);
   expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85, 1.0,
                  "the trench [docs/validation.md, Whole digs]");
+  // What the run tells of it agrees: "finished" is said of a dig that came to its depth and of no other.
+  const session::ProgramReport program = session.programs().at(0);
+  const auto told_dig = std::find_if(program.list.begin(), program.list.end(),
+                                     [](const control::StepReport& step) { return step.element == "dig"; });
+  ASSERT_NE(told_dig, program.list.end());
+  EXPECT_EQ(told_dig->state, control::StepState::kDone) << told(program, "the machine");
+  EXPECT_TRUE(session.complete()) << told(program, "the machine");
+  EXPECT_FALSE(session.fell_short());
+  EXPECT_NEAR(figure(*told_dig, "depth_m"), dig.depth, 1e-12);
+  // Half the depth was once called finished; half of the length is at least so deep.
+  EXPECT_GT(figure(*told_dig, "depth_reached_m"), 0.75 * dig.depth);
+  EXPECT_LT(figure(*told_dig, "volume_left_m3"), 0.15 * figure(*told_dig, "design_volume_m3"));
   expect_between("nose's rise in a scoop [deg]", watch.rise(), 0, 3, kSource);
   expect_between("longest curl [s]", watch.longest_curl(), 1, 6, kSource);
   expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, kSource);
