@@ -26,6 +26,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
 struct StartCheck {
   std::vector<vehicle::Stability> standing;  ///< one a machine of the scene; none where one starts in the ground
   std::vector<Fault> faults;                 ///< overlaps, what starts in the ground, machines that tip
+  std::string terrain;                       ///< what was found in the ground's map, some lines; empty without a map
 };
 
 /// Lays the ground, puts the machines on it and lets them settle for a second (soil at rest, joints held). A ground

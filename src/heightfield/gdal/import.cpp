@@ -43,6 +43,21 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
   return corner;
 }
 
+/// Map cells that lie on the site, in part at least, and how many of them have no height. Before gaps are filled.
+void count_gaps(const HeightRaster& raster, const Vec2& size, TerrainReport& report) {
+  const auto touches = [](double centre, double cell, double length) {
+    return centre + (0.5 - 1e-6) * cell > 0 && centre - (0.5 - 1e-6) * cell < length;
+  };
+  for (int iy = 0; iy < raster.ny; ++iy) {
+    if (!touches(raster.y0 + iy * raster.cell_y, raster.cell_y, size.y())) continue;
+    for (int ix = 0; ix < raster.nx; ++ix) {
+      if (!touches(raster.x0 + ix * raster.cell_x, raster.cell_x, size.x())) continue;
+      ++report.site_cells;
+      if (std::isnan(raster.at(ix, iy))) ++report.site_gaps;
+    }
+  }
+}
+
 }  // namespace
 
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup) {
@@ -51,6 +66,7 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup) {
   const Vec2 corner = place_site(map, world.ground, setup);
   auto raster = std::make_shared<HeightRaster>(read_heights(map, corner, setup.cell * Vec2(setup.nx, setup.ny)));
   TerrainReport& report = map.report;
+  count_gaps(*raster, setup.cell * Vec2(setup.nx, setup.ny), report);
   // What the report says of heights and slopes is said of the filled map, which is what the columns come from.
   report.nodata = fill_gaps(*raster);
   const auto [least, most] = std::minmax_element(raster->z.begin(), raster->z.end());
