@@ -59,8 +59,8 @@ std::string TerrainReport::warning() const {
       static_cast<long long>(site_gaps), static_cast<long long>(site_cells), 100 * share_filled(),
       static_cast<double>(site_gaps) * cell_x * cell_y, filled_from());
   out.pop_back();
-  std::string remedy = for_gdal ? "gdal_fillnodata.py IN OUT.tif fills them otherwise"
-                                : "scipy.interpolate.griddata fills them otherwise, before numpy.save";
+  std::string remedy = for_gdal ? "gdal_fillnodata.py IN OUT.tif fills them beforehand"
+                                : "scipy.interpolate.griddata fills them before numpy.save";
   if (unmarked > 0) {
     char value[32];
     std::snprintf(value, sizeof value, "%.9g", unmarked_value);
