@@ -1,131 +1,348 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of large sites: map_bench [EDGE [RUNS]]. Procedural hills of EDGE m (1000) in columns of 0.1 m, on the host
-// alone: a first export, a second one, one from a map file of as many cells, and an update after a bucket there and on
-// 100 m.
-#include <sys/resource.h>
+// What maps for planners cost: map_bench [NAME [SECONDS]] measures the rows whose name holds NAME.
+//
+//   map_update:100m, :1km   the update after a dug bucket, all layers, against map_full:100m, :1km, the whole anew
+//   map_ask:heights, :clearances   a million heights, 100 000 clearances, on one core
+//   map_trench:whole, :publish, :wire   SECONDS simulated of `trench`, all layers published at 10 Hz over TCP to a
+//                                       reader: the loop's time, that of publishing, from a step's end to the reader
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <exception>
-#include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
-#include <utility>
+#include <thread>
 #include <vector>
 
 #include "bench.h"
+#include "control/step_kinds.h"
 #include "core/error.h"
+#include "core/random.h"
 #include "core/stopwatch.h"
-#include "heightfield/site.h"
-#include "planner/formats/formats.h"
+#include "device/device.h"
+#include "heightfield/ground.h"
+#include "paths.h"
+#include "planner/footprint.h"
+#include "planner/map_maker.h"
+#include "planner/publisher.h"
+#include "planner/queries.h"
 #include "planner/sources.h"
 #include "planner/updates.h"
+#include "scene_io/loader.h"
+#include "session/session.h"
+#include "sim/terrain_view.h"
+#include "sim/timing.h"
 
 namespace {
 
 using namespace navvy;
-namespace fs = std::filesystem;
 
-scene::Scene hills(double edge) {
-  scene::Scene out;
-  out.soils.resize(1);
-  out.soils[0].name = "sand";
-  out.ground.layers = {{"sand", 4}};
-  out.ground.size = Vec2(edge, edge);
-  out.solver.cell = 0.1;
-  scene::GroundFeature feature;
-  feature.kind = scene::GroundFeature::Kind::kHills;
-  feature.height = 4;
-  feature.length = 60;
-  feature.seed = 3;
-  out.ground.features = {feature};
+std::string wanted;  // part of a row's name
+
+bool asked(const std::string& name) { return name.find(wanted) != std::string::npos; }
+
+/// Of all threads, or of this one [s].
+double processor_time(clockid_t whose = CLOCK_PROCESS_CPUTIME_ID) {
+  std::timespec now{};
+  clock_gettime(whose, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+bench::Timing timing_of(std::vector<double> wall, const std::vector<double>& processor) {
+  std::sort(wall.begin(), wall.end());
+  bench::Timing out;
+  out.best = wall.front();
+  out.median = wall[wall.size() / 2];
+  out.spread = wall.back() / wall.front() - 1;
+  out.runs = static_cast<int>(wall.size());
+  if (!processor.empty()) out.processor = *std::min_element(processor.begin(), processor.end());
   return out;
 }
 
-/// One row of `runs` times `work`, and the most memory that this program has held so far.
-void measure(const std::string& name, double edge, int runs, const std::function<std::uint64_t()>& work) {
-  bench::Row row;
-  row.bench = name;
-  row.site = edge;
-  row.steps = 1;
-  std::vector<double> seconds, processor;
+/// Runs `work` so many times, after `before`, which is not timed.
+bench::Timing measure(int runs, const std::function<void()>& before, const std::function<void()>& work) {
+  std::vector<double> wall, processor;
   for (int run = 0; run < runs; ++run) {
-    const std::clock_t begin = std::clock();
+    before();
+    const double began = processor_time();
     const Stopwatch watch;
-    row.particles = work();
-    seconds.push_back(watch.seconds());
-    processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    work();
+    wall.push_back(watch.seconds());
+    processor.push_back(processor_time() - began);
   }
-  std::sort(seconds.begin(), seconds.end());
-  row.timing.best = seconds.front();
-  row.timing.median = seconds[seconds.size() / 2];
-  row.timing.spread = seconds.back() / seconds.front() - 1;
-  row.timing.runs = runs;
-  row.timing.processor = *std::min_element(processor.begin(), processor.end());
+  return timing_of(std::move(wall), processor);
+}
+
+void print(const bench::Row& row) {
   device::DeviceInfo host;
   host.name = "host";
   bench::print(host, row);
-  struct rusage usage {};
-  ::getrusage(RUSAGE_SELF, &usage);
-  std::fprintf(stderr, "%s at %g m: %.1f s, %.1f s of processor, at most %ld MiB so far\n", name.c_str(), edge,
-               row.timing.best, row.timing.processor, usage.ru_maxrss / 1024);
 }
 
-std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Ground& site, const std::string& file) {
-  const planner::TerrainMap map =
-      planner::map_of_site(site, planner::options_for(scene, site, {planner::Layer::kElevation}));
-  planner::format_named("geotiff").write(map, {planner::Layer::kElevation}, file);
-  return static_cast<std::uint64_t>(map.rect().area());
+/// A site of gentle hills, in columns of 0.1 m.
+heightfield::GroundSetup hills(int columns) {
+  heightfield::GroundSetup out;
+  out.nx = out.ny = columns;
+  out.cell = 0.1;
+  out.datum = -4;
+  out.soils.resize(1);
+  out.soils[0].name = "loam";
+  out.soils[0].bank_density = 1540;
+  out.layers = {{"loam", 1}};
+  out.surface = [](int ix, int iy) { return 0.3 * std::sin(0.011 * ix) + 0.2 * std::cos(0.007 * iy); };
+  return out;
 }
 
-/// An update of all layers after each of 20 buckets along a line that leaves no tile out.
-void measure_updates(double edge, int runs) {
-  const scene::Scene scene = hills(edge);
-  heightfield::Ground ground = heightfield::make_ground(scene);
-  planner::UpdateFeed feed(planner::options_for(scene, ground, planner::all_layers()));
-  feed.publish(ground.view());
-  int bucket = 0;
+/// A bucket of 1 m x 1.1 m x 0.25 m from here; columns.
+constexpr int kBucketX = 10, kBucketY = 11;
+void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
   std::vector<heightfield::Layer> taken;
-  measure("map:update", edge, runs, [&] {
-    constexpr std::uint64_t kBuckets = 20;
-    for (std::uint64_t k = 0; k < kBuckets; ++k, ++bucket) {
-      const int x0 = (7 * bucket) % (ground.nx() - 12), y0 = (5 * bucket) % (ground.ny() - 10);
-      for (int iy = y0; iy < y0 + 10; ++iy)
-        for (int ix = x0; ix < x0 + 12; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.2, taken);
-      feed.publish(ground.view(bucket));
-    }
-    return kBuckets;
+  for (int iy = y0; iy < y0 + kBucketY; ++iy)
+    for (int ix = x0; ix < x0 + kBucketX; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
+}
+
+/// One update against everything anew, for the very same ground.
+void measure_updates(const std::string& size, int columns) {
+  const std::string update_name = "map_update:" + size, full_name = "map_full:" + size;
+  if (!asked(update_name) && !asked(full_name)) return;
+  heightfield::Ground ground(hills(columns));
+  bench::Row full, update;
+  full.bench = full_name;
+  update.bench = update_name;
+  full.site = update.site = columns * 0.1;
+  full.steps = update.steps = 1;
+  full.particles = static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(columns);
+  update.particles = kBucketX * kBucketY;
+  Random random(5);
+  double time = 0;
+  const auto dig = [&] {
+    dig_bucket(ground, static_cast<int>(random.uniform(0, columns - kBucketX)),
+               static_cast<int>(random.uniform(0, columns - kBucketY)));
+  };
+  // A feed's first map is made anew; with the one before gone, the large site needs memory for one.
+  std::optional<planner::UpdateFeed> feed;
+  full.timing = measure(
+      columns > 2000 ? 1 : 5,
+      [&] {
+        dig();
+        feed.reset();
+      },
+      [&] {
+        feed.emplace(planner::MapOptions{});
+        feed->publish(ground.view(time += 0.1));
+      });
+  update.timing = measure(21, dig, [&] { feed->publish(ground.view(time += 0.1)); });
+  print(full);
+  print(update);
+  std::fprintf(stderr, "%s: an update takes %.3g ms (%.3g of processor), all anew %.3g ms (%.3g): %.0f times (%.0f)\n",
+               size.c_str(), 1e3 * update.timing.median, 1e3 * update.timing.processor, 1e3 * full.timing.best,
+               1e3 * full.timing.processor, full.timing.best / update.timing.median,
+               full.timing.processor / update.timing.processor);
+}
+
+void measure_queries() {
+  if (!asked("map_ask:heights") && !asked("map_ask:clearances")) return;
+  heightfield::Ground ground(hills(400));
+  planner::MapMaker maker({});
+  maker.update(ground.view(0));
+  const planner::TerrainMap map = maker.map();
+  const planner::Footprint excavator{2.5, 2.5, 1.3, 1.3};
+  double sum = 0;
+  const auto ask = [&](const std::string& name, int count, const std::function<double(Random&)>& question) {
+    if (!asked(name)) return;
+    bench::Row row;
+    row.bench = name;
+    row.particles = 1;
+    row.steps = static_cast<std::uint64_t>(count);
+    row.timing = measure(
+        5, [] {},
+        [&] {
+          Random random(9);
+          for (int i = 0; i < count; ++i) sum += question(random);
+        });
+    print(row);
+    std::fprintf(stderr, "%s: %.3g a second, %.3g a second of processor\n", name.c_str(), count / row.timing.best,
+                 count / row.timing.processor);
+  };
+  ask("map_ask:heights", 1000000,
+      [&](Random& random) { return planner::height(map, random.uniform(0, 40), random.uniform(0, 40)); });
+  ask("map_ask:clearances", 100000, [&](Random& random) {
+    return planner::clearance(map, excavator, random.uniform(4, 36), random.uniform(4, 36), random.uniform(-3, 3));
   });
+  if (!std::isfinite(sum)) throw Error("map_bench: a query had no answer");
+}
+
+/// Reads patches as they come and notes when the last byte of each was there.
+class Reader {
+ public:
+  explicit Reader(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (socket_ < 0 || ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+      throw Error("map_bench: cannot connect to its own port");
+    thread_ = std::thread([this] { follow(); });
+  }
+  ~Reader() { join(); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  /// Returns when the stream has ended.
+  void join() {
+    if (!thread_.joinable()) return;
+    thread_.join();
+    ::close(socket_);
+  }
+  /// Sequence and time of arrival of every patch, after `join`.
+  const std::map<std::uint64_t, double>& arrivals() const { return arrivals_; }
+  static double now() {
+    std::timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+ private:
+  bool take(std::size_t bytes, std::vector<char>& out) {
+    out.resize(bytes);
+    for (std::size_t at = 0; at < bytes;) {
+      const ssize_t got = ::recv(socket_, out.data() + at, bytes - at, 0);
+      if (got <= 0) return false;
+      at += static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+  /// The number behind a key of the header.
+  static double number(const std::string& head, const char* key) {
+    const std::size_t at = head.find(std::string("\"") + key + "\": ");
+    return at == std::string::npos ? 0 : std::atof(head.c_str() + at + std::strlen(key) + 4);
+  }
+  void follow() {
+    std::vector<char> bytes;
+    while (take(12, bytes)) {
+      std::uint32_t length = 0;
+      for (int i = 0; i < 4; ++i)
+        length |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[static_cast<std::size_t>(8 + i)]))
+                  << (8 * i);
+      if (!take(length, bytes)) return;
+      const std::string head(bytes.begin(), bytes.end());
+      // Rectangles are the last thing of the header: [[x0, y0, x1, y1], ...
+      double columns = 0;
+      std::size_t at = head.find("\"rects\": [");
+      for (std::array<int, 4> r{}; at != std::string::npos; at = head.find('[', at + 1))
+        if (std::sscanf(head.c_str() + at, "[%d, %d, %d, %d]", &r[0], &r[1], &r[2], &r[3]) == 4)
+          columns += static_cast<double>(r[2] - r[0]) * (r[3] - r[1]);
+      const auto layers = static_cast<double>(planner::kLayers);
+      if (!take(static_cast<std::size_t>(columns * layers * 4), bytes)) return;
+      arrivals_[static_cast<std::uint64_t>(number(head, "sequence"))] = now();
+    }
+  }
+
+  int socket_;
+  std::map<std::uint64_t, double> arrivals_;
+  std::thread thread_;
+};
+
+void measure_trench(double seconds) {
+  if (!asked("map_trench:whole") && !asked("map_trench:publish") && !asked("map_trench:wire")) return;
+  constexpr double kRate = 10;
+  device::Device device;
+  session::Session session(scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
+                           device);
+  const sim::World& world = session.world();
+  planner::UpdateFeed feed(
+      planner::options_for(world.description(), world.ground(), planner::all_layers(), session.design()));
+  planner::Publisher publisher(feed, "tcp:0", planner::all_layers());
+  Reader reader(publisher.port());
+  std::map<std::uint64_t, double> step_ends;
+  std::vector<double> publishing;
+  std::uint64_t changed = 0;
+  double spent = 0;
+  // The whole map goes out before the run, as `navvy run --publish` does it.
+  std::uint64_t last = feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
+  const double began = processor_time();
+  const Stopwatch whole;
+  while (!session.done() && world.time() < seconds) {
+    session.step();
+    if (!sim::sample_due(world.steps(), world.dt(), kRate)) continue;
+    const double end_of_step = Reader::now();
+    const double before = processor_time(CLOCK_THREAD_CPUTIME_ID);
+    const Stopwatch watch;
+    const planner::UpdateFeed::Update update =
+        feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
+    publishing.push_back(watch.seconds());
+    spent += processor_time(CLOCK_THREAD_CPUTIME_ID) - before;
+    // Where nothing changed, nothing goes out.
+    if (update->sequence == last) continue;
+    last = update->sequence;
+    step_ends[last] = end_of_step;
+    changed += static_cast<std::uint64_t>(update->changed);
+  }
+  device.finish();
+  bench::Row all, publish, wire;
+  all.timing.best = all.timing.median = whole.seconds();
+  all.timing.processor = processor_time() - began;
+  feed.close();
+  reader.join();
+  all.bench = "map_trench:whole";
+  all.steps = world.steps();
+  all.simulated = world.time();
+  all.hash = session.state_hash();
+  all.timing.runs = 1;
+  // The sum, as a share of the whole is wanted.
+  double sum = 0;
+  for (const double one : publishing) sum += one;
+  publish.bench = "map_trench:publish";
+  publish.timing.best = publish.timing.median = sum;
+  publish.timing.runs = 1;
+  publish.timing.processor = spent;
+  publish.steps = publishing.size();
+  publish.particles = step_ends.empty() ? 0 : changed / step_ends.size();  // columns an update
+  publish.simulated = world.time();
+  // A reader that was late got one patch for several updates: that of the last one counts for them.
+  std::vector<double> late;
+  for (const auto& [sequence, end] : step_ends)
+    if (const auto at = reader.arrivals().lower_bound(sequence); at != reader.arrivals().end())
+      late.push_back(at->second - end);
+  if (late.empty()) throw Error("map_bench: no patch arrived");
+  wire.bench = "map_trench:wire";
+  wire.steps = late.size();
+  wire.timing = timing_of(late, {});
+  if (asked(all.bench)) bench::print(device.info(), all);
+  if (asked(publish.bench)) bench::print(device.info(), publish);
+  if (asked(wire.bench)) bench::print(device.info(), wire);
+  std::fprintf(stderr,
+               "trench, %.3g s: publishing took %.3g s of %.4g s, %.2g %% (of processor %.3g s of %.4g s, %.2g %%); "
+               "patches came %.3g ms after their step (median), %.3g ms at most, %zu of %zu\n",
+               world.time(), sum, all.timing.best, 100 * sum / all.timing.best, spent, all.timing.processor,
+               100 * spent / all.timing.processor, 1e3 * wire.timing.median,
+               1e3 * wire.timing.best * (1 + wire.timing.spread), late.size(), step_ends.size());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    const double edge = argc > 1 ? std::atof(argv[1]) : 1000;
-    const int runs = argc > 2 ? std::atoi(argv[2]) : 2;
-    if (!(edge >= 10) || runs < 1 || argc > 3) {
-      std::fprintf(stderr, "usage: map_bench [EDGE [RUNS]]   EDGE of the site in m (1000), at least 10\n");
+    wanted = argc > 1 ? argv[1] : "";
+    const double seconds = argc > 2 ? std::atof(argv[2]) : 45;  // the trench: arrival and the first buckets
+    if (argc > 3 || !(seconds > 0)) {
+      std::fprintf(stderr, "usage: map_bench [NAME [SECONDS]]   rows whose name holds NAME; trench for so long (45)\n");
       return 2;
     }
-    const fs::path folder = fs::temp_directory_path() / ("navvy_map_bench_" + std::to_string(std::clock()));
-    fs::create_directories(folder);
-    const scene::Scene scene = hills(edge);
-    measure("map:first_export", edge, runs,
-            [&] { return export_elevation(scene, heightfield::make_ground(scene), folder / "site.tif"); });
-    const heightfield::Ground ground = heightfield::make_ground(scene);
-    measure("map:export", edge, runs, [&] { return export_elevation(scene, ground, folder / "site.tif"); });
-    // What was written has a cell for each column.
-    scene::Scene on_map = scene;
-    on_map.ground.features.clear();
-    on_map.ground.file = folder / "site.tif";
-    measure("map:first_export_of_file", edge, runs,
-            [&] { return export_elevation(on_map, heightfield::make_ground(on_map), folder / "again.tif"); });
-    measure_updates(100, runs);
-    measure_updates(edge, runs);
-    fs::remove_all(folder);
+    measure_queries();
+    measure_updates("100m", 1000);
+    measure_updates("1km", 10000);
+    measure_trench(seconds);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "map_bench: %s\n", error.what());

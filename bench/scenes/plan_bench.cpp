@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths for the excavator of scenarios/drive_around_trench.sdf: plan_bench [RUNS]. Host alone, no device.
+// Paths for the excavator of scenarios/drive_around_trench.sdf: plan_bench [NAME [RUNS]], rows whose name holds NAME.
+// Host alone, no device.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,9 +78,11 @@ void measure(const std::string& name, control::PathPlanner& planner, const contr
 
 int main(int argc, char** argv) {
   try {
-    const int runs = argc > 1 ? std::atoi(argv[1]) : 3;
-    if (runs < 1 || argc > 2) {
-      std::fprintf(stderr, "usage: plan_bench [RUNS]   a row a question: milliseconds a plan, mean of five seeds\n");
+    const std::string wanted = argc > 1 ? argv[1] : "";
+    const int runs = argc > 2 ? std::atoi(argv[2]) : 3;
+    if (runs < 1 || argc > 3) {
+      std::fprintf(stderr,
+                   "usage: plan_bench [NAME [RUNS]]   a row a question: milliseconds a plan, mean of five seeds\n");
       return 2;
     }
     if (!planner::path_planners()) {
@@ -94,6 +97,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, dug, across] :
          {std::tuple{"plan:open", false, false}, std::tuple{"plan:round_trench", true, false},
           std::tuple{"plan:no_way", true, true}}) {
+      if (std::string(name).find(wanted) == std::string::npos) continue;
       heightfield::Ground ground = heightfield::make_ground(scene);
       if (dug) dig(ground, across);
       const auto planner = planner::path_planners()(scene.machines.at(0).machine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts, beside 200 bodies, and
-// four of them. A row is a second of simulated time; `particles` counts machines and bodies.
+// four of them: vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time; `particles`
+// counts machines and bodies.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -109,11 +110,16 @@ void measure_case(const Case& what, const scene::Machine& excavator) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 2) {
+    std::fprintf(stderr, "usage: vehicle_bench [NAME]   rows whose name holds NAME\n");
+    return 2;
+  }
+  const std::string wanted = argc > 1 ? argv[1] : "";
   try {
     const scene::Machine excavator = scene_io::load_machine(scene_io::find_data("vehicles/ew180/model.sdf"));
     for (const Case& each : {Case{"firm"}, Case{"loam", 1, 0, true}, Case{"200_bodies", 1, 200}, Case{"four", 4}})
-      measure_case(each, excavator);
+      if (("vehicle_step:" + each.name).find(wanted) != std::string::npos) measure_case(each, excavator);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -30,9 +30,10 @@
 namespace navvy::cli {
 namespace {
 
-/// Lets the machines settle, says how each stands, and adds what is wrong with that.
+/// Tells of the map under the site, lets the machines settle, says how each stands, and adds what is wrong with that.
 void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
   sim::StartCheck start = sim::check_start(scene);
+  std::fputs(start.terrain.c_str(), stdout);
   for (std::size_t m = 0; m < start.standing.size(); ++m) {
     const vehicle::Stability& stands = start.standing[m];
     if (!stands.free) continue;

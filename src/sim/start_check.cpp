@@ -117,7 +117,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
-    heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
+    heightfield::Ground ground = heightfield::make_ground(scene, &out.terrain);
     const std::vector<Pose> X_WB = starting_poses(scene, ground);
     out.faults = check_overlaps(scene, X_WB);
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);

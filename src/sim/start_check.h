@@ -27,6 +27,7 @@ struct StartCheck {
   std::vector<vehicle::Stability> standing;  ///< one a machine of the scene; none where one starts in the ground
   std::vector<bool> falling;                 ///< likewise: it has not reached the ground yet
   std::vector<Fault> faults;                 ///< overlaps, what starts in the ground, machines that tip
+  std::string terrain;                       ///< what was found in the ground's map, some lines; empty without a map
 };
 
 /// Lays the ground, puts the machines on it and lets them settle for a second (soil at rest, joints held). A ground

@@ -73,14 +73,18 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreToldBeforeTheyAreMadeUp) {
   std::ofstream(map) << text;
   const std::string scene = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
-  expect_told("15 of 225 map cells under the site (6.67 %) have no height");
-  expect_told("15 of them hold no ground's height (1e+38)");
+  expect_told("10 of 100 map cells on the site (10 %, 10 m2) have no height");
+  expect_told("1e+38 is no ground's height, and the file does not declare it as nodata");
   expect_told("0 errors, 1 warning");
+  // And what else was found in the map.
+  expect_told("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
+  expect_told("none declared: 10 of 100 cells on the site (10 %), filled from up to 1 m away");
   // Declared it is a gap like others.
   text.insert(text.find("1.5"), "NODATA_value 1e38\n");
   std::ofstream(map) << text;
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
-  EXPECT_EQ(said().find("hold no ground's height"), std::string::npos) << said();
+  EXPECT_EQ(said().find("is no ground's height"), std::string::npos) << said();
+  expect_told("declared as 1e+38: 10 of 100 cells on the site");
 }
 
 TEST_F(RunOptions, ASnapshotOfAnotherSceneIsToldByBothNames) {

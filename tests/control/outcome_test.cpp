@@ -80,8 +80,8 @@ struct Trial {
 
 TEST(StepState, HasANameOfItsOwnEach) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(StepState::kBuried); ++i) names.insert(name_of(static_cast<StepState>(i)));
-  EXPECT_EQ(names.size(), 8u);
+  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i) names.insert(name_of(static_cast<StepState>(i)));
+  EXPECT_EQ(names.size(), 9u);
   EXPECT_FALSE(fell_short(StepState::kRunning));
   EXPECT_FALSE(fell_short(StepState::kDone));
   EXPECT_TRUE(fell_short(StepState::kBlocked));

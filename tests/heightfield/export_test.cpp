@@ -112,6 +112,45 @@ TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
 }
 
+TEST(Export, KeepsTheUnitOfHeightsWhoeverToldIt) {
+  for (const char* tool : {"gdal_translate", "gdal_edit.py", "gdalinfo"})
+    if (!testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
+  const std::string dir = folder();
+  const auto z = [](int c, int r) { return std::to_string(2800 + 0.5 * c + 1.25 * r); };
+  testing::write_text(dir + "map.asc",
+                      testing::ascii_grid(30, 20, "xllcorner 481000\nyllcorner 195000\ncellsize 1\n", z));
+  struct Case {
+    const char *crs, *tag, *written;
+    double metres, cell;
+  };
+  const double survey = 1200.0 / 3937.0;
+  // Heights in feet over metres, metres over feet, and a vertical CRS in feet (NAVD88, US survey feet).
+  for (const Case& one :
+       {Case{"EPSG:26915", "ft", "ft", 0.3048, 1}, Case{"EPSG:26915", "US survey foot", "US survey foot", survey, 1},
+        Case{"EPSG:26915", "m", "m", 1, 1}, Case{"EPSG:26915", "", "m", 1, 1}, Case{"EPSG:2263", "m", "m", 1, survey},
+        Case{"EPSG:2263", "", "US survey foot", survey, survey},
+        Case{"EPSG:26915+6360", "", "US survey foot", survey, 1}}) {
+    const std::string file = dir + "in.tif", out = dir + "out.tif", what = std::string(one.crs) + " " + one.tag;
+    testing::output_of(std::string("gdal_translate -ot Float32 -a_srs ") + one.crs + " '" + dir + "map.asc' '" + file +
+                       "'");
+    if (*one.tag != '\0') testing::output_of(std::string("gdal_edit.py -units '") + one.tag + "' '" + file + "'");
+    const Vec2 size(20 * one.cell, 12 * one.cell);
+    const Ground ground = make_ground(testing::map_world(file, one.cell, size));
+    EXPECT_NEAR(ground.setup().file_height_unit, one.metres, 1e-12) << what;
+    write_geotiff(ground, out);
+    const std::string info = testing::output_of("gdalinfo '" + out + "'");
+    EXPECT_NE(info.find(std::string("Unit Type: ") + one.written + "\n"), std::string::npos) << what << "\n" << info;
+    const Ground again = make_ground(testing::map_world(out, one.cell, size));
+    EXPECT_NEAR(again.setup().file_height_unit, one.metres, 1e-12) << what;
+    for (int iy = 0; iy < ground.ny(); ++iy)
+      for (int ix = 0; ix < ground.nx(); ++ix)
+        // An ulp of float at 2800 units, and two quanta.
+        ASSERT_NEAR(again.height(ix, iy) + again.setup().height_offset,
+                    ground.height(ix, iy) + ground.setup().height_offset, 2.5e-4 * one.metres + 1e-6)
+            << what;
+  }
+}
+
 TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   const std::string dir = folder();
   const Ground ground = marked(100, 200, 0);

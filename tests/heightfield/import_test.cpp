@@ -203,6 +203,129 @@ TEST(Import, RefusesDegreesWithTheRemedyAndSeesThroughFalseOnes) {
   EXPECT_TRUE(ground.setup().crs_wkt.empty());
 }
 
+// What is said of a map under a site of 10 x 10 m in its middle.
+TerrainReport report_of(const std::string& file) {
+  Ground::Setup setup;
+  setup.nx = setup.ny = 40, setup.cell = 0.25;
+  return import_terrain(map_world(file, 0.25, Vec2(10, 10)), setup);
+}
+
+bool notes(const TerrainReport& report, const std::string& part) {
+  return std::any_of(report.notes.begin(), report.notes.end(),
+                     [&](const std::string& note) { return contains(note, part); });
+}
+
+TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
+  const std::string dir = folder(), header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
+  const auto plane = [](int c, int r) { return std::to_string(100.125 + 0.5 * c + 0.25 * r); };
+  // A hole of 7 x 7 cells: its middle is the fourth from any height.
+  const auto holed = [&](const std::string& gap) {
+    return [=](int c, int r) { return c >= 6 && c < 13 && r >= 7 && r < 14 ? gap : plane(c, r); };
+  };
+  const std::string whole = write_text(dir + "whole.asc", ascii_grid(20, 20, header, plane));
+  EXPECT_EQ(report_of(whole).warning(), "");
+  const std::string holes =
+      write_text(dir + "holes.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", holed("-9999")));
+  const TerrainReport told = report_of(holes);
+  EXPECT_EQ(told.site_cells, 100);
+  EXPECT_EQ(told.site_gaps, 49);
+  const std::string warning = told.warning();
+  EXPECT_TRUE(contains(warning, "49 of 100 map cells on the site (49 %, 49 m2) have no height")) << warning;
+  EXPECT_TRUE(contains(warning, "from up to 4 m away")) << warning;
+  EXPECT_EQ(warning.find('\n'), std::string::npos) << warning;
+  EXPECT_TRUE(contains(told.text(), "49 of 100 cells on the site (49 %), filled from up to 4 m away")) << told.text();
+  // A gap beside the site is none of it.
+  const auto beside = [&](int c, int r) { return c == 3 ? std::string("-9999") : plane(c, r); };
+  const std::string margin =
+      write_text(dir + "beside.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", beside));
+  EXPECT_EQ(report_of(margin).nodata.gaps, 15);
+  EXPECT_EQ(report_of(margin).warning(), "");
+  // A number that nobody declared.
+  const std::string odd = write_text(dir + "odd.asc", ascii_grid(20, 20, header, holed("1e38")));
+  const std::string undeclared = report_of(odd).warning();
+  EXPECT_TRUE(contains(undeclared, "1e+38 is no ground's height")) << undeclared;
+  if (!has_tool("gdal_fillnodata.py") || !has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
+  ASSERT_TRUE(testing::run_remedy(warning, "gdal_fillnodata.py", holes, dir + "filled.tif")) << warning;
+  EXPECT_EQ(report_of(dir + "filled.tif").warning(), "");
+  ASSERT_TRUE(testing::run_remedy(undeclared, "gdal_translate", odd, dir + "declared.tif")) << undeclared;
+  EXPECT_EQ(report_of(dir + "declared.tif").unmarked, 0);
+  EXPECT_EQ(report_of(dir + "declared.tif").site_gaps, 49);
+}
+
+TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
+  const std::string dir = folder(), header = "xllcorner 981000\nyllcorner 195000\ncellsize 1\n";
+  const auto slope = [](double c, double r) { return 100 + 0.37 * c + 0.11 * r; };
+  const auto map = [&](const std::string& name, const std::function<double(double)>& rounded) {
+    const auto z = [&](int c, int r) { return std::to_string(rounded(slope(c, r))); };
+    return write_text(dir + name, ascii_grid(32, 32, header, z));
+  };
+  const std::string stairs = map("stairs.asc", [](double z) { return std::round(z); });
+  const TerrainReport told = report_of(stairs);
+  EXPECT_TRUE(notes(told, "whole numbers of the metre: a staircase with steps of 1 m")) << told.text();
+  EXPECT_FALSE(notes(report_of(map("fine.asc", [](double z) { return z; })), "staircase"));
+  EXPECT_FALSE(notes(report_of(map("tenths.asc", [](double z) { return std::round(10 * z) / 10; })), "staircase"));
+  EXPECT_FALSE(notes(report_of(map("level.asc", [](double) { return 312.0; })), "staircase"));
+  if (!has_tool("gdalwarp") || !has_tool("gdal_edit.py")) GTEST_SKIP() << "gdal-bin is missing";
+  // Its remedy leaves no staircase, and the heights that there were.
+  ASSERT_TRUE(testing::run_remedy(told.text(), "gdalwarp", stairs, dir + "smooth.tif")) << told.text();
+  const TerrainReport smooth = report_of(dir + "smooth.tif");
+  EXPECT_FALSE(notes(smooth, "staircase")) << smooth.text();
+  EXPECT_LT(smooth.slope.most, told.slope.most);
+  const Ground ground = make_ground(map_world(dir + "smooth.tif", 0.25, Vec2(10, 10)));
+  EXPECT_NEAR(ground.height(20, 20) + ground.setup().height_offset, slope(15.625, 15.375), 0.25);
+  // Whole feet, and whole metres that somebody turned into feet.
+  const std::string feet = dir + "feet.tif", turned = dir + "turned.tif";
+  output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + stairs + "' '" + feet + "'");
+  output_of("gdal_edit.py -units ft '" + feet + "'");
+  EXPECT_TRUE(notes(report_of(feet), "whole numbers of the ft: a staircase with steps of 0.3048 m"));
+  output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" +
+            map("turned.asc", [](double z) { return std::round(z) / 0.3048; }) + "' '" + turned + "'");
+  output_of("gdal_edit.py -units ft '" + turned + "'");
+  EXPECT_TRUE(notes(report_of(turned), "whole numbers of the metre"));
+}
+
+TEST(Import, NamesRemediesThatMend) {
+  for (const char* tool : {"gdal_translate", "gdalwarp", "gdal_edit.py"})
+    if (!has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
+  const std::string dir = folder();
+  const auto z = [](int c, int r) { return std::to_string(100.25 + 0.5 * c + 0.3 * r); };
+  // Turned against its axes.
+  const std::string plain =
+      write_text(dir + "plain.asc", ascii_grid(30, 30, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  output_of("gdal_translate -of VRT '" + plain + "' '" + dir + "turned.vrt'");
+  std::ifstream in(dir + "turned.vrt");
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  const std::size_t begin = text.find("<GeoTransform>"), end = text.find("</GeoTransform>");
+  ASSERT_NE(end, std::string::npos) << text;
+  write_text(dir + "turned.vrt", text.replace(begin, end - begin, "<GeoTransform>0, 0.9, 0.1, 30, 0.1, -0.9"));
+  output_of("gdal_translate '" + dir + "turned.vrt' '" + dir + "turned.tif'");
+  std::string message = message_of(map_world(dir + "turned.tif", 0.5, Vec2(4, 4)));
+  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "turned.tif", dir + "straight.tif")) << message;
+  EXPECT_EQ(message_of(map_world(dir + "straight.tif", 0.5, Vec2(4, 4))), "");
+  // Degrees.
+  write_text(dir + "degrees.asc", ascii_grid(30, 30, "xllcorner -93.1\nyllcorner 44.9\ncellsize 0.0001\n", z));
+  output_of("gdal_translate -a_srs EPSG:4326 '" + dir + "degrees.asc' '" + dir + "degrees.tif'");
+  message = message_of(map_world(dir + "degrees.tif", 0.5, Vec2(4, 4)));
+  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "degrees.tif", dir + "metres.tif")) << message;
+  EXPECT_EQ(message_of(map_world(dir + "metres.tif", 0.5, Vec2(4, 4))), "");
+  // Degrees by a wrong label, in a file that gdal_edit.py cannot write to: it says to make one that it can.
+  write_text(dir + "label.asc", ascii_grid(90, 60, "xllcorner 100\nyllcorner 20\ncellsize 1\n", z));
+  write_text(dir + "label.prj",
+             "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298.257223563]],"
+             "PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.0174532925199433]]\n");
+  message = message_of(map_world(dir + "label.asc", 0.5, Vec2(4, 4)));
+  ASSERT_TRUE(testing::run_remedy(message, "gdal_translate", dir + "label.asc", dir + "label.tif")) << message;
+  ASSERT_TRUE(testing::run_remedy(message, "gdal_edit.py", dir + "label.tif", dir + "label.tif")) << message;
+  EXPECT_EQ(message_of(map_world(dir + "label.tif", 0.5, Vec2(4, 4))), "");
+  // A unit that nobody knows is a note with its remedy.
+  output_of("gdal_translate -a_srs EPSG:26915 '" + plain + "' '" + dir + "unit.tif'");
+  output_of("gdal_edit.py -units cubit '" + dir + "unit.tif'");
+  const TerrainReport told = report_of(dir + "unit.tif");
+  EXPECT_TRUE(notes(told, "heights in 'cubit'")) << told.text();
+  ASSERT_TRUE(testing::run_remedy(told.text(), "gdal_edit.py", dir + "unit.tif", "")) << told.text();
+  EXPECT_EQ(report_of(dir + "unit.tif").height_metres, 0.3048);
+}
+
 TEST(Import, ConvertsFeetOnAllThreeAxes) {
   if (!has_tool("gdal_translate") || !has_tool("gdallocationinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc", "xllcorner 981000\nyllcorner 195000\n");

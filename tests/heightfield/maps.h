@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -73,6 +74,24 @@ inline std::vector<double> located(const std::string& file, const std::vector<Ve
   for (std::string line; std::getline(lines, line);)
     values.push_back(line.empty() ? std::nan("") : std::strtod(line.c_str(), nullptr));
   return values;
+}
+
+/// Runs the command that a message names, from its first word to a bracket, a comma or its end, with these files for
+/// IN and OUT.tif. Returns whether it did its work.
+inline bool run_remedy(const std::string& message, const std::string& first, const std::string& in,
+                       const std::string& out) {
+  const std::size_t begin = message.find(first);
+  if (begin == std::string::npos) return false;
+  std::string command = message.substr(begin);
+  for (const char* end : {",", ")", ";", "\n", " fills", " declares"})
+    command = command.substr(0, std::min(command.size(), command.find(end)));
+  const auto put = [&](const std::string& word, const std::string& file) {
+    const std::size_t at = command.find(" " + word);
+    if (at != std::string::npos) command.replace(at + 1, word.size(), "'" + file + "'");
+  };
+  put("IN", in);
+  put("OUT.tif", out);
+  return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 /// A world on a map with one soil of 30 deg.

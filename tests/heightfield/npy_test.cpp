@@ -122,7 +122,8 @@ TEST(Npy, NeedsACellAndKnowsGaps) {
   const std::string path = write_text(dir + "a.npy", npy("'<f4'", "False", "(8, 12)", bytes_of(z)));
   std::string report;
   make_ground(world_of(path), &report);
-  EXPECT_NE(report.find("1 of 96 cells, filled"), std::string::npos) << report;
+  EXPECT_NE(report.find("1 of 96 cells on the site (1.04 %), filled from up to 0.5 m away"), std::string::npos)
+      << report;
   EXPECT_NE(report.find("first row south"), std::string::npos) << report;
   scene::Scene world = world_of(path);
   world.ground.scale.cell = 0;

@@ -4,8 +4,11 @@
 #include "planner/ros/streams.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <Eigen/Geometry>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -234,6 +237,51 @@ TEST(RosBag, OfMovingBodiesIsReadByOthers) {
   const json bag = read(folder, folder / "run");
   expect_bodies(bag);
   EXPECT_EQ(bag.at("statistics")[0], 8);
+}
+
+// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is torn.
+const char* const kCount = R"(
+import sqlite3, struct, sys
+if sys.argv[1].endswith('.db3'):
+    print(sqlite3.connect(sys.argv[1]).execute('SELECT count(*) FROM messages').fetchone()[0])
+else:
+    data, at, count = open(sys.argv[1], 'rb').read(), 8, 0
+    while at + 9 <= len(data):
+        size = struct.unpack_from('<Q', data, at + 1)[0]
+        if at + 9 + size > len(data): break
+        count += data[at] == 5
+        at += 9 + size
+    print(count)
+)";
+
+TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
+  if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is missing";
+  const test::Folder folder;
+  heightfield::testing::write_text(folder / "count.py", kCount);
+  const ros::Bytes points = ros::point_cloud(example(), kTwo, 0);
+  for (const bool mcap : {true, false}) {
+    const std::string file = mcap ? folder / "run.mcap" : folder / "run/run_0.db3";
+    const std::unique_ptr<ros::Bag> bag = mcap ? ros::make_mcap(file) : ros::make_bag_folder(folder / "run");
+    rlimit before;
+    ::getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit little{200000, before.rlim_max};
+    const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+    ::setrlimit(RLIMIT_FSIZE, &little);
+    std::string message;
+    int written = 0;
+    try {
+      for (; written < 1000; ++written) bag->write("/terrain/points", ros::Kind::kPointCloud, written, points);
+    } catch (const FileError& error) {
+      message = error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    ::signal(SIGXFSZ, handler);
+    EXPECT_NE(message.find("cannot write '" + file + "': "), std::string::npos) << message;
+    EXPECT_GT(written, 10);
+    const std::string counted =
+        heightfield::testing::output_of("/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
+    EXPECT_EQ(counted, std::to_string(written) + "\n") << file;
+  }
 }
 
 TEST(Bags, ThatCannotBeWrittenAreFileErrors) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "folder.h"
+#include "heightfield/maps.h"
 #include "heightfield/site.h"
 #include "planner/grounds.h"
 #ifdef NAVVY_WITH_GDAL
@@ -95,6 +96,30 @@ TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   // A float's ulp at a metre, and a quantum of mass.
   EXPECT_NEAR(map.at(Layer::kElevation, 33, 44), dug, 2e-7);
   EXPECT_EQ(map.at(Layer::kElevationStart, 33, 44), static_cast<float>(whole));
+}
+
+TEST(MapOfRun, OfAMapInFeetHasItsHeights) {
+  for (const char* tool : {"gdal_translate", "gdal_edit.py"})
+    if (!heightfield::testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
+  const std::string dir = heightfield::testing::folder();
+  const auto z = [](int c, int r) { return std::to_string(900 + 0.5 * c + 0.25 * r); };
+  heightfield::testing::write_text(
+      dir + "map.asc", heightfield::testing::ascii_grid(30, 20, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  heightfield::testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + dir + "map.asc' '" + dir +
+                                  "map.tif'");
+  heightfield::testing::output_of("gdal_edit.py -units ft '" + dir + "map.tif'");
+  const scene::Scene scene = heightfield::testing::map_world(dir + "map.tif", 1, Vec2(20, 12));
+  const heightfield::Ground start = heightfield::make_ground(scene);
+  heightfield::Ground ground = heightfield::make_ground(scene);
+  std::vector<heightfield::Layer> taken;
+  ground.take_above(7, 5, ground.height(7, 5) - 0.5, taken);
+  heightfield::write_geotiff(ground, dir + "terrain_end.tif");
+  const TerrainMap map = map_of_run(scene, start, dir + "terrain_end.tif", {});
+  for (int iy = 0; iy < 12; ++iy)
+    for (int ix = 0; ix < 20; ++ix)
+      // An ulp of float at 900 feet; a quantum of a column of 1 m2 is less.
+      ASSERT_NEAR(static_cast<double>(map.at(Layer::kElevation, ix, iy)), ground.height(ix, iy), 3e-5)
+          << ix << " " << iy;
 }
 
 TEST(MapOfRun, RefusesAFileThatIsMissingOrOfAnotherSite) {

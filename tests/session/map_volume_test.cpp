@@ -58,6 +58,27 @@ MapVolume volume_of(const heightfield::Terrain& terrain) {
   return out;
 }
 
+/// Heights of the map against those of columns and the mass of what lies on each.
+void expect_columns_and_what_lies(const heightfield::Terrain& map, const heightfield::Terrain& columns,
+                                  const std::vector<heightfield::LooseGrain>& grains, double bank_density) {
+  const auto place = [&](int ix, int iy) { return static_cast<std::size_t>(iy) * columns.nx() + ix; };
+  std::vector<double> lying(static_cast<std::size_t>(columns.nx()) * columns.ny());
+  const double area = columns.cell() * columns.cell();
+  for (const heightfield::LooseGrain& grain : grains)
+    lying.at(place(grain.ix, grain.iy)) +=
+        kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / bank_density / area;
+  double squares = 0, highest = -1;
+  for (int iy = 0; iy < columns.ny(); ++iy)
+    for (int ix = 0; ix < columns.nx(); ++ix) {
+      const double over = map.height(ix, iy) - columns.height(ix, iy) - lying[place(ix, iy)];
+      squares += over * over;
+      highest = std::max(highest, over);
+    }
+  // Gates of a quarter of a cell; sums of floats in another order differ by far less.
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(lying.size())), 0.25 * columns.cell());
+  EXPECT_LT(highest, 1e-4) << "higher than its soil [m]";
+}
+
 TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
   device::Device device;
   Session session(sim::testing::load("bucket_path.sdf"), device);
@@ -86,6 +107,8 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
       lying_volume += kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / loam.bank_density;
     // Floats of the map round each of 4000 columns to 0.1 um: less than a litre's thousandth.
     EXPECT_NEAR(shown.fill - shown.cut, column_volume_change(world) + lying_volume, 1e-6);
+    // Column by column: the map stands over the columns by the soil that lies there, and by nothing that hangs over it.
+    expect_columns_and_what_lies(map, world.ground(), awake.lying.grains(), loam.bank_density);
     // In mass: the columns lack what lies on them, what is carried and what flies, and nothing else.
     EXPECT_NEAR(kilograms_of(ledger.columns) + lies + held + elsewhere + kilograms_of(ledger.left_site), 0, 1e-9);
     // Soil that lies is neither denser than pressed soil nor looser than swell allows.

@@ -57,7 +57,9 @@ class SnapshotFile : public testing::Test {
 const std::vector<std::string> kCoarse = {"solver.cell_m=0.2"};
 
 TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
-  const auto session = make("bucket_path.sdf", kCoarse, 0.1);
+  // With the bucket in the soil.
+  const auto session = make("bucket_path.sdf", kCoarse, 1.5);
+  ASSERT_GT(session->world().soil_counts().particles, 0u);
   session->save(path_);
   const std::vector<char> whole = read_file(path_);
   const std::string hash = session->state_hash();
@@ -73,12 +75,13 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
       ++cuts;
     } else if (i % 5 == 4) {
       // Two runs of bytes change places.
-      const std::size_t size = 1 + any(64), from = any(bytes.size() - size), to = any(bytes.size() - size);
-      std::swap_ranges(
-          bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, to)),
-          bytes.begin() + static_cast<std::ptrdiff_t>(std::min(std::min(from, to) + size, std::max(from, to))),
-          bytes.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)));
-      if (bytes == whole) continue;
+      while (bytes == whole) {  // equal bytes in each other's place are no damage
+        const std::size_t size = 1 + any(64), from = any(bytes.size() - size), to = any(bytes.size() - size);
+        std::swap_ranges(
+            bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, to)),
+            bytes.begin() + static_cast<std::ptrdiff_t>(std::min(std::min(from, to) + size, std::max(from, to))),
+            bytes.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)));
+      }
       ++swaps;
     } else {
       bytes[any(bytes.size())] ^= static_cast<char>(1 << any(8));
@@ -87,6 +90,7 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
     put(bytes);
     ASSERT_NE(refusal(*session), "") << "damage " << i << " of " << bytes.size() << " bytes was accepted";
   }
+  EXPECT_EQ(flips + cuts + swaps, 10000);
   std::printf("%zu bytes: %d flipped bits, %d cuts, %d swaps, all refused\n", whole.size(), flips, cuts, swaps);
   // Refused before it touched anything: the run could go on.
   EXPECT_EQ(session->state_hash(), hash);

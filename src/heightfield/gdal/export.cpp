@@ -30,13 +30,13 @@ constexpr int kChunkRows = 8 * kStripRows;
 /// Fills `out` with rows [y0, y1) of the rectangle, row y0 first. Called by one thread at a time.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
-/// One band of the file: where its values come from; name and unit, empty for heights in the file's own unit.
+/// One band of the file: where its values come from; name and unit, empty where it has none.
 struct Band {
   RowSource rows;
   std::string name, unit;
 };
 
-/// Of the file's heights, by a name that GDAL's readers know.
+/// Of the file's heights, by a name that GDAL's readers know; empty for a rare one, which only its CRS can tell.
 std::string height_unit(const GroundSetup& setup) {
   if (setup.file_height_unit == 1) return "m";
   // The international foot and the one of US surveys differ in the sixth digit.
@@ -123,8 +123,9 @@ void write_geotiff(const Terrain& terrain, const std::string& path) {
 
 void write_geotiff(const Terrain& terrain, const std::string& path, const std::vector<std::string>& layers) {
   const CellRect site{0, 0, terrain.nx(), terrain.ny()};
-  std::vector<Band> bands = {
-      {[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "", ""}};
+  // Without its unit, a reader takes heights for metres, or for what the coordinates count in.
+  std::vector<Band> bands = {{[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "",
+                              height_unit(terrain.setup())}};
   for (const std::string& name : layers) {
     const MapLayer& layer = map_layer(name);
     const auto rows = [&terrain, &layer](int y0, int y1, std::vector<float>& out) {

@@ -12,9 +12,9 @@
 namespace navvy::heightfield {
 
 /// Writes the present heights of the whole site as float32 GeoTIFF (DEFLATE, PREDICTOR 3, nodata -9999): north up, in
-/// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none. Strip by
-/// strip, so a large site needs no copy; while strips are packed another thread computes the next. A kill leaves the
-/// old file or the new one.
+/// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none; the unit
+/// of heights is the band's, too. Strip by strip, so a large site needs no copy; while strips are packed another thread
+/// computes the next. A kill leaves the old file or the new one.
 /// @throws FileError naming path and cause.
 void write_geotiff(const Terrain& terrain, const std::string& path);
 /// The same with map layers (heightfield/map_view.h) as further bands, under their names and in the layers' own units;

@@ -27,6 +27,7 @@ struct TerrainReport {
   Vec2 site_min = Vec2::Zero(), site_max = Vec2::Zero();  ///< extent of the site, file coordinates
   std::int64_t source_cells = 0;                          ///< map cells under the site and a margin of two
   GapFill nodata;                                         ///< of those
+  std::int64_t site_cells = 0, site_gaps = 0;             ///< of those on the site, in part at least; without a height
   std::string nodata_value;                               ///< as declared; "none"
   double height_offset = 0;                               ///< W z = file z - offset [m]
   double lowest = 0, highest = 0;                         ///< file datum [m]
@@ -36,12 +37,15 @@ struct TerrainReport {
   std::vector<std::string> notes;  ///< traps found in the file
   std::int64_t unmarked = 0;       ///< cells with a number that is no ground's height and not declared as nodata
   double unmarked_value = 0;       ///< of the first of them, as the file has it
+  bool for_gdal = true;            ///< its tools read the file: those that a remedy names can mend it
 
   /// Some lines for a person.
   std::string text() const;
-  /// What was made up and may not have been meant: heights that are none and not declared, gaps that are many or wide.
-  /// Empty where a reader need not stop.
+  /// What was made up on the site: how much of it, from how far, what mends the file. One line; empty where the map has
+  /// a height everywhere on the site.
   std::string warning() const;
+  double share_filled() const;  ///< of the site's map cells, 0 .. 1
+  double filled_from() const;   ///< most cells between a gap and a height, as a length [m]
 };
 
 /// Reads the part of `world.ground.file` that the site covers and fills in the surface, datum and georeference of

@@ -23,11 +23,11 @@ void require_same_crs(const MapFile& map, const GroundSetup& setup) {
   if (map.crs_wkt.empty() && setup.file_unit != 1)
     map.fail("CRS", "none",
              "the site counts in units of " + number_text(setup.file_unit) + " m, this file does not say",
-             "assign the site's CRS with gdal_edit.py -a_srs");
+             "assign the site's CRS: gdal_translate -a_srs EPSG:CODE IN OUT.tif");
   if (map.crs_wkt.empty()) return;
   if (setup.crs_wkt.empty())
     map.fail("CRS", name_of(map.crs_wkt), "the site has no CRS, so the two cannot be laid together",
-             "give the ground's map its CRS too, or take this file's away: gdal_edit.py -a_srs \"\"");
+             "give the ground's map its CRS too, or take this file's away: " + map.edit("-a_srs \"\""));
   OGRSpatialReference a, b;
   a.importFromWkt(map.crs_wkt.c_str());
   b.importFromWkt(setup.crs_wkt.c_str());
@@ -37,7 +37,7 @@ void require_same_crs(const MapFile& map, const GroundSetup& setup) {
                                  nullptr};
   if (a.IsSame(&b, options) == 0)
     map.fail("CRS", name_of(map.crs_wkt), "the site's map is in " + name_of(setup.crs_wkt),
-             "reproject it: gdalwarp -t_srs with the site's CRS");
+             "reproject it: gdalwarp -t_srs EPSG:CODE IN OUT.tif, with the code of the site's CRS");
 }
 
 /// Bilinear; where a neighbour is a gap, of the cell that holds the place alone.

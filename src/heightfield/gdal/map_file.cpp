@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/limits.h"
@@ -25,6 +26,8 @@ constexpr int kMargin = 2;
 // No ground lies above or below this; such a number is a nodata value that nobody declared [m].
 constexpr double kHighest = 12000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Puts a map of whatever format to its place.
+constexpr const char* kPlaceIt = "put it to its place: gdal_translate -a_ullr LEFT TOP RIGHT BOTTOM IN OUT.tif";
 
 /// GDAL has no driver for NPY: the numbers lie in memory, and a dataset looks at them there.
 void open_npy(MapFile& map) {
@@ -42,6 +45,7 @@ void open_npy(MapFile& map) {
   if (!map.data || map.data->AddBand(type, const_cast<char**>(options)) != CE_None)
     map.fail("", "", map.session.cause("cannot be held in memory"), "give a GeoTIFF");
   map.report.format = "NumPy NPY";
+  map.report.for_gdal = false;
 }
 
 /// Everything that GDAL has a driver for and we want.
@@ -116,7 +120,11 @@ void open(MapFile& map) {
   if (map.data->GetRasterCount() > 1)
     map.report.notes.push_back(std::to_string(map.data->GetRasterCount()) + " bands: the first one is taken as height");
   if (map.band->GetRasterDataType() == GDT_Byte)
-    map.report.notes.push_back("8-bit heights: steps of a whole unit, and nodata may have become 0");
+    map.report.notes.push_back("8-bit heights: steps of " +
+                               (map.scale.has_heights
+                                    ? number_text(std::abs(map.scale.high - map.scale.low) / 255, "%.3g") + " m"
+                                    : std::string("a whole unit")) +
+                               ", and nodata may have become 0");
   int block_x = 0, block_y = 0;
   map.band->GetBlockSize(&block_x, &block_y);
   // A block of pixel-interleaved bands holds them all.
@@ -146,12 +154,11 @@ void read_transform(MapFile& map) {
                                (is_npy(map) ? (north_first ? ", first row north" : ", first row south") : ""));
   }
   for (const double value : g)
-    if (!std::isfinite(value))
-      map.fail("georeference", number_text(value), "must be finite", "repair it with gdal_edit.py -a_ullr");
+    if (!std::isfinite(value)) map.fail("georeference", number_text(value), "must be finite", kPlaceIt);
   if (g[2] != 0 || g[4] != 0)
     map.fail("georeference", number_text(g[2]) + ", " + number_text(g[4]),
-             "the map is turned against its coordinate axes", "straighten it with gdalwarp");
-  if (g[1] == 0 || g[5] == 0) map.fail("georeference", "0", "cells need an extent", "repair it with gdal_edit.py -tr");
+             "the map is turned against its coordinate axes", "straighten it: gdalwarp IN OUT.tif");
+  if (g[1] == 0 || g[5] == 0) map.fail("georeference", "0", "cells need an extent", kPlaceIt);
   // Either axis may run backwards; we always begin at least x and least y.
   // Row 0 of a usual map is its northern edge.
   map.step_x = std::abs(g[1]);
@@ -174,7 +181,7 @@ void refuse_degrees(MapFile& map) {
   const int epsg = (middle.y() < 0 ? 32700 : 32600) + zone;
   map.fail("CRS", map.report.crs, "coordinates are degrees, a site needs lengths",
            "reproject it: gdalwarp -t_srs EPSG:" + std::to_string(epsg) +
-               " -r bilinear IN OUT; if they are metres in truth, drop the CRS: gdal_edit.py -a_srs \"\" IN");
+               " -r bilinear IN OUT.tif; if they are metres in truth, drop the CRS: " + map.edit("-a_srs \"\""));
 }
 
 void read_crs(MapFile& map) {
@@ -205,13 +212,12 @@ void read_crs(MapFile& map) {
   }
   if (!std::isfinite(report.metres) || !(report.metres > 0))
     map.fail("CRS", number_text(report.metres), "a unit of length must be > 0 m",
-             "assign the right CRS with gdal_edit.py -a_srs");
+             "assign the right CRS: gdal_translate -a_srs EPSG:CODE IN OUT.tif");
   report.cell_x = map.step_x * report.metres;
   report.cell_y = map.step_y * report.metres;
   const Vec2 extent = (report.file_max - report.file_min) * report.metres;
   if (!extent.allFinite() || !report.file_min.allFinite() || !(report.cell_x > 0) || !(report.cell_y > 0))
-    map.fail("georeference", number_text(map.step_x), "cells must have a finite size",
-             "repair it with gdal_edit.py -tr");
+    map.fail("georeference", number_text(map.step_x), "cells must have a finite size", kPlaceIt);
 }
 
 // The unit of heights: the band's, else that of a vertical CRS, else the horizontal one.
@@ -219,17 +225,34 @@ void read_height_unit(MapFile& map) {
   TerrainReport& report = map.report;
   const std::string unit = map.band->GetUnitType() != nullptr ? map.band->GetUnitType() : "";
   const OGRSpatialReference* declared = map.data->GetSpatialRef();
-  if (EQUAL(unit.c_str(), "m") || EQUAL(unit.c_str(), "metre") || EQUAL(unit.c_str(), "meter") ||
-      EQUAL(unit.c_str(), "metres") || EQUAL(unit.c_str(), "meters")) {
-    report.height_metres = 1;
-  } else if (EQUAL(unit.c_str(), "ft") || EQUAL(unit.c_str(), "foot") || EQUAL(unit.c_str(), "feet")) {
-    report.height_unit = unit;
-    report.height_metres = 0.3048;
-  } else if (EQUAL(unit.c_str(), "US survey foot") || EQUAL(unit.c_str(), "ftUS") || EQUAL(unit.c_str(), "us-ft")) {
-    report.height_unit = unit;
-    report.height_metres = 1200.0 / 3937.0;
+  // As GDAL, PROJ, Esri and people write them.
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  static constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937.0;
+  static constexpr Unit kUnits[] = {{"m", 1},
+                                    {"metre", 1},
+                                    {"meter", 1},
+                                    {"metres", 1},
+                                    {"meters", 1},
+                                    {"ft", kFoot},
+                                    {"foot", kFoot},
+                                    {"feet", kFoot},
+                                    {"international foot", kFoot},
+                                    {"US survey foot", kSurveyFoot},
+                                    {"US survey feet", kSurveyFoot},
+                                    {"Foot_US", kSurveyFoot},
+                                    {"ftUS", kSurveyFoot},
+                                    {"us-ft", kSurveyFoot}};
+  const auto* const known = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                         [&](const Unit& each) { return EQUAL(each.name, unit.c_str()); });
+  if (known != std::end(kUnits)) {
+    report.height_metres = known->metres;
+    if (known->metres != 1) report.height_unit = unit;
   } else if (!unit.empty()) {
-    report.notes.push_back("heights in '" + unit + "', which is no known unit: taken as metres");
+    report.notes.push_back("heights in '" + unit +
+                           "', which is no known unit: taken as metres; to assign one: " + map.edit("-units ft"));
   } else if (declared != nullptr && declared->IsVertical() != 0) {
     const char* name = nullptr;
     report.height_metres = declared->GetTargetLinearUnits("VERT_CS", &name);
@@ -240,7 +263,36 @@ void read_height_unit(MapFile& map) {
     report.notes.push_back("heights carry no unit: taken in the unit of the coordinates (" + report.unit + ")");
   }
   if (!std::isfinite(report.height_metres) || !(report.height_metres > 0))
-    map.fail("heights", report.height_unit, "a unit of length must be > 0 m", "assign a vertical unit");
+    map.fail("heights", report.height_unit, "a unit of length must be > 0 m", "assign one: " + map.edit("-units m"));
+}
+
+/// Heights that are whole numbers of a unit only: a staircase, unless they are all one.
+class Staircase {
+ public:
+  explicit Staircase(double unit) : unit_(unit) {}
+  void look(double height) {
+    const double steps = height / unit_;
+    // A float of a whole metre in feet is off by less.
+    whole_ = whole_ && std::abs(steps - std::round(steps)) < 1e-4;
+    least_ = std::min(least_, height);
+    most_ = std::max(most_, height);
+  }
+  bool found() const { return whole_ && most_ - least_ > 0.5 * unit_; }
+
+ private:
+  double unit_, least_ = kHighest, most_ = -kHighest;
+  bool whole_ = true;
+};
+
+void note_staircase(MapFile& map, const std::string& unit, double metres) {
+  TerrainReport& report = map.report;
+  // Means of some cells lie between two steps, and what is bilinear between them has the slopes of the ground.
+  const double wide = 4 * std::max(map.step_x, map.step_y);
+  report.notes.push_back("all heights are whole numbers of the " + unit + ": a staircase with steps of " +
+                         number_text(metres, "%.4g") + " m; get them with decimals, or smooth them: " +
+                         (report.for_gdal ? "gdalwarp -ot Float32 -r average -tr " + number_text(wide) + " " +
+                                                number_text(wide) + " IN OUT.tif"
+                                          : "scipy.ndimage.uniform_filter before numpy.save"));
 }
 
 // Turns what a file says into metres, and every spelling of "no data" into NaN.
@@ -328,6 +380,11 @@ void MapFile::fail(const std::string& part, const std::string& value, const std:
   throw InputError(Fault{Fault::Severity::kError, file, 0, where, value, rule, remedy});
 }
 
+std::string MapFile::edit(const std::string& option) const {
+  if (EQUAL(data->GetDriver()->GetDescription(), "GTiff")) return "gdal_edit.py " + option + " IN";
+  return "gdal_translate IN OUT.tif, then gdal_edit.py " + option + " OUT.tif";
+}
+
 MapFile::MapFile(const std::string& path, const scene::RasterScale& how, const std::string& what)
     : file(path), element(what), scale(how) {
   open(*this);
@@ -393,7 +450,7 @@ bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells, std::
 /// Heights as they come out of the file: counts them, takes their mean, notes what is odd.
 class Intake {
  public:
-  Intake(MapFile& map) : map_(map), decode_(map) {}
+  Intake(MapFile& map) : map_(map), decode_(map), in_units_(map.report.height_metres), in_metres_(1) {}
   const Decoder& decoder() const { return decode_; }
   /// Above `first()`, as it is known so far; NaN for a gap.
   float take(double raw) {
@@ -402,23 +459,63 @@ class Intake {
     if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0) report.unmarked_value = raw;
     // The first height found stands in for the offset until the mean is known.
     if (!std::isnan(height) && known_++ == 0) first_ = std::floor(height);
-    if (!std::isnan(height)) sum_ += height - first_;
+    if (!std::isnan(height)) {
+      sum_ += height - first_;
+      in_units_.look(height);
+      in_metres_.look(height);
+    }
     return static_cast<float>(height - first_);
   }
   double first() const { return first_; }
   /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError without a height.
+  /// Tells of a staircase.
   double shift() const {
     if (known_ == 0)
       map_.fail("at", "", "there is no height anywhere under the site, all is nodata",
                 "move the site to where the map has data");
+    if (in_metres_.found())
+      note_staircase(map_, "metre", 1);
+    else if (in_units_.found())
+      note_staircase(map_, map_.report.height_unit, map_.report.height_metres);
     return std::floor(sum_ / static_cast<double>(known_));
   }
 
  private:
   MapFile& map_;
   Decoder decode_;
+  Staircase in_units_, in_metres_;  ///< the latter also of metres that somebody turned into feet
   double first_ = 0, sum_ = 0;
   std::int64_t known_ = 0;
+};
+
+/// Map cells that lie on the site, in part at least, and how many of them have no height.
+class SiteCells {
+ public:
+  SiteCells(const HeightRaster& frame, const Vec2& size, TerrainReport& report)
+      : x_(range(frame.x0, frame.cell_x, size.x(), frame.nx)),
+        y_(range(frame.y0, frame.cell_y, size.y(), frame.ny)),
+        report_(report) {
+    report.site_cells = static_cast<std::int64_t>(x_.second - x_.first) * (y_.second - y_.first);
+  }
+  /// The cell has no height.
+  void gap(int ix, int iy) {
+    if (ix >= x_.first && ix < x_.second && iy >= y_.first && iy < y_.second) ++report_.site_gaps;
+  }
+
+ private:
+  /// First cell along an axis that touches [0, length], and the one after the last.
+  static std::pair<int, int> range(double first, double cell, double length, int count) {
+    const auto touches = [&](int i) {
+      const double centre = first + i * cell;
+      return centre + (0.5 - 1e-6) * cell > 0 && centre - (0.5 - 1e-6) * cell < length;
+    };
+    int begin = 0, end = count;
+    while (begin < end && !touches(begin)) ++begin;
+    while (end > begin && !touches(end - 1)) --end;
+    return {begin, end};
+  }
+  std::pair<int, int> x_, y_;
+  TerrainReport& report_;
 };
 
 [[noreturn]] void fail_row(const MapFile& map, int row) {
@@ -491,12 +588,14 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
   check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
   raster.z.resize(static_cast<std::size_t>(report.source_cells));
   Intake intake(map);
+  SiteCells on_site(raster, size, report);
   std::vector<double> line;
   find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
   for (int iy = 0; iy < raster.ny; ++iy) {
     if (!read_raw(*map.band, cut, {0, iy, raster.nx, iy + 1}, line))
       fail_row(map, map.rows_fall ? report.rows - 1 - (cut.y0 + iy) : cut.y0 + iy);
-    for (int ix = 0; ix < raster.nx; ++ix) raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)]);
+    for (int ix = 0; ix < raster.nx; ++ix)
+      if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)]))) on_site.gap(ix, iy);
   }
   const double shift = intake.shift();
   for (float& z : raster.z) z = static_cast<float>(z - shift);
@@ -518,6 +617,7 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
   find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
   // One pass for the mean and the gaps; what it decodes is read again when it is needed.
   Intake intake(map);
+  SiteCells on_site(frame, size, report);
   std::vector<std::int64_t> gaps;
   std::vector<double> raw;
   for (int y0 = 0; y0 < frame.ny; y0 += side) {
@@ -526,7 +626,10 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
       fail_row(map, map.rows_fall ? report.rows - (cut.y0 + strip.y1) : cut.y0 + strip.y0);
     const std::int64_t begin = static_cast<std::int64_t>(y0) * frame.nx;
     for (std::size_t i = 0; i < raw.size(); ++i)
-      if (std::isnan(intake.take(raw[i]))) gaps.push_back(begin + static_cast<std::int64_t>(i));
+      if (std::isnan(intake.take(raw[i]))) {
+        gaps.push_back(begin + static_cast<std::int64_t>(i));
+        on_site.gap(static_cast<int>(i) % frame.nx, y0 + static_cast<int>(i) / frame.nx);
+      }
     if (static_cast<double>(gaps.size()) > limits::kMapCells)
       map.fail("nodata", std::to_string(gaps.size()) + " cells",
                "more than " + number_text(limits::kMapCells) + " cells without a height under the site",

@@ -39,6 +39,8 @@ struct MapFile {
   int block_x = 1, block_y = 1;
   double block_bytes = 0;  ///< decoded
 
+  /// The command that changes what the file says of itself: gdal_edit.py can write to GeoTIFF alone.
+  std::string edit(const std::string& option) const;
   [[noreturn]] void fail(const std::string& part, const std::string& value, const std::string& rule,
                          const std::string& remedy) const;
 };

@@ -36,32 +36,38 @@ std::string TerrainReport::text() const {
   if (nodata.gaps == 0)
     out += line("  nodata   %s, no such cell here", nodata_value.c_str());
   else
-    out += line("  nodata   %s: %lld of %lld cells, filled from their neighbours (at most %d cells away)",
-                nodata_value.c_str(), static_cast<long long>(nodata.gaps), static_cast<long long>(source_cells),
-                nodata.farthest);
+    out += line("  nodata   %s: %lld of %lld cells on the site (%.3g %%), filled from up to %.3g m away",
+                nodata_value.c_str(), static_cast<long long>(site_gaps), static_cast<long long>(site_cells),
+                100 * share_filled(), filled_from());
   out += line("  slopes   %.1f .. %.1f deg, median %.1f; %.2f %% above the repose of %.1f deg", degrees(slope.least),
               degrees(slope.most), degrees(slope.median), 100 * slope.share_above, degrees(repose));
   for (const std::string& note : notes) out += "  note     " + note + "\n";
   return out;
 }
 
+double TerrainReport::share_filled() const {
+  return site_cells > 0 ? static_cast<double>(site_gaps) / static_cast<double>(site_cells) : 0;
+}
+
+double TerrainReport::filled_from() const { return nodata.farthest * std::max(cell_x, cell_y); }
+
 std::string TerrainReport::warning() const {
-  constexpr double kMany = 0.05, kWide = 2;  // share of the cells; [m] to the nearest height
-  const double share = source_cells > 0 ? static_cast<double>(nodata.gaps) / static_cast<double>(source_cells) : 0;
-  const double wide = nodata.farthest * std::max(cell_x, cell_y);
-  if (nodata.gaps == 0 || (unmarked == 0 && share < kMany && wide <= kWide)) return "";
+  if (site_gaps == 0) return "";
   std::string out = line(
-      "%lld of %lld map cells under the site (%.3g %%) have no height and were filled from their "
+      "%lld of %lld map cells on the site (%.3g %%, %.3g m2) have no height and were filled from their "
       "neighbours, from up to %.3g m away",
-      static_cast<long long>(nodata.gaps), static_cast<long long>(source_cells), 100 * share, wide);
+      static_cast<long long>(site_gaps), static_cast<long long>(site_cells), 100 * share_filled(),
+      static_cast<double>(site_gaps) * cell_x * cell_y, filled_from());
   out.pop_back();
+  std::string remedy = for_gdal ? "gdal_fillnodata.py IN OUT.tif fills them beforehand"
+                                : "scipy.interpolate.griddata fills them before numpy.save";
   if (unmarked > 0) {
-    out += line("; %lld of them hold no ground's height (%g) that the file does not declare as nodata",
-                static_cast<long long>(unmarked), unmarked_value);
-    out.pop_back();
+    char value[32];
+    std::snprintf(value, sizeof value, "%.9g", unmarked_value);
+    out += std::string("; ") + value + " is no ground's height, and the file does not declare it as nodata";
+    if (for_gdal) remedy = std::string("gdal_translate -a_nodata ") + value + " IN OUT.tif declares it, " + remedy;
   }
-  return file + ": " + out +
-         " (gdal_edit.py -a_nodata declares it, gdal_fillnodata.py fills gaps, --at moves the site)";
+  return file + ": " + out + " (" + remedy + ", --at moves the site)";
 }
 
 }  // namespace navvy::heightfield
