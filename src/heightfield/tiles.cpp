@@ -11,6 +11,10 @@
 namespace navvy::heightfield {
 namespace {
 
+/// No column of a ground reaches as high above its rock [m]; one of a snapshot that does would wake to more soil than
+/// memory holds.
+constexpr double kMostHeight = 3e4;
+
 /// The changed columns of a tile as they are hashed and saved: field after field, as a Layer has gaps and a tile of
 /// plain runs takes a fifth of the time that its numbers take one by one.
 struct TileColumns {
@@ -178,7 +182,9 @@ void Tiles::visit(Archive& a) {
         // The last tiles of a row or column reach beyond the site.
         a.require(ix < site_->setup().nx && iy < site_->setup().ny, "place", "a column is outside the site");
         // Touching it counts its start mass; its layers are those that were saved.
-        columns.give(c, layer, touch_column(ix, iy));
+        Column& column = touch_column(ix, iy);
+        columns.give(c, layer, column);
+        a.require(column_height(column, unit()) < kMostHeight, "layers", "a column reaches higher than any ground");
       }
     });
   }
