@@ -49,10 +49,11 @@ scene::Bed read_bed(Element& element, const Names& names, Faults& faults) {
   require_name(element, "link", "link", names.links, faults);
   require_name(element, "shell", "navvy:shell", names.shells, faults);
   require_name(element, "joint", "joint", names.joints, faults);
+  const Element* joint = element.FirstChildElement("joint");
   const auto type = names.joint_type.find(bed.joint);
-  if (type != names.joint_type.end() && type->second != "revolute")
-    faults.error(*element.FirstChildElement("joint"), type->second, "a bed tips on a revolute joint",
-                 "name the joint of its hinge");
+  // A joint without a name is none that was meant.
+  if (joint != nullptr && type != names.joint_type.end() && type->second != "revolute")
+    faults.error(*joint, type->second, "a bed tips on a revolute joint", "name the joint of its hinge");
   return bed;
 }
 
