@@ -153,6 +153,12 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
     key_fault("", "", "a setting must be text in UTF-8", "check the terminal's encoding", faults);
     return;
   }
+  // The scene is written out as it ran, and no XML holds them.
+  const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; };
+  if (std::any_of(value.begin(), value.end(), is_control) || std::any_of(key.begin(), key.end(), is_control)) {
+    key_fault("", "", "a setting must hold no control characters", "look for what the shell made of its value", faults);
+    return;
+  }
   if (!known) {
     key_fault(key, value, "unknown object '" + parts[0].name + "'", faults.nearest(parts[0].name, objects), faults);
     return;

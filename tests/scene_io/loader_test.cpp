@@ -355,6 +355,8 @@ TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
   EXPECT_NE(failure(kBody, set("machine[first].xm=1")).find("did you mean 'x_m'?"), std::string::npos);
   EXPECT_NE(failure(kBody, set("soil=1")).find("object.element=value"), std::string::npos);
   EXPECT_NE(failure(kBody, set("machine[first].x_m=900")).find("must stand on the site"), std::string::npos);
+  // It would stand in the scene that a run writes out, where no XML may hold it.
+  EXPECT_NE(failure(kBody, set("machine[first].z_m=1\v")).find("no control characters"), std::string::npos);
   EXPECT_THROW(parse_setting("soil.swell"), InputError);
 }
 
