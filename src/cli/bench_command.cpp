@@ -77,8 +77,8 @@ void add_bench(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "measure how fast soil is stepped here");
   command->add_option("only", options->only, "only cases whose name holds this word");
   command->add_option("--device", options->devices, "OpenCL device, as in `navvy run`; again for more, or 'all'")
-      ->expected(1);
-  command->get_option("--device")->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--csv", options->csv, "write the rows to this file (compare two: bench/compare.py)");
   command->add_option("--json", options->json, "write the rows to this file");
   command->add_flag("--quick", options->quick, "only the short cases");

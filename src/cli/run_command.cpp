@@ -257,36 +257,40 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
     // What an unset variable of a shell leaves; the default would be another folder than the one that was meant.
     return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>" : "";
   });
-  command->add_option("--control", options->control,
-                      "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
+  // Options that need each other are named by pointer: where the library looks up their names, memory that ends is the
+  // end of the program.
+  CLI::Option* control = command->add_option(
+      "--control", options->control,
+      "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
       ->check(CLI::Range(0.001, 1e5))
-      ->needs("--control");
-  command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
-  command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")
-      ->check(not_negative)
-      ->needs("--snapshot");
+      ->needs(control);
+  CLI::Option* snapshot =
+      command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
+  CLI::Option* snapshot_at =
+      command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")
+          ->check(not_negative)
+          ->needs(snapshot);
   // Either of the two alone is a slip.
-  command->get_option("--snapshot")->needs("--snapshot-at");
-  command->add_option("--resume", options->resume, "snapshot to go on from");
+  snapshot->needs(snapshot_at);
+  CLI::Option* resume = command->add_option("--resume", options->resume, "snapshot to go on from");
   command
       ->add_flag("--resume-anyway", options->resume_anyway,
                  "go on although the scene has other parameters than the snapshot's; says which")
-      ->needs("--resume");
+      ->needs(resume);
   command
       ->add_option("--hash-every", options->hash_every,
                    "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
       ->check(above_zero);
-  command->add_option(
+  CLI::Option* publish = command->add_option(
       "--publish", options->publish.place,
       "the map as it changes, for other processes: tcp:PORT (on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
       ->check(CLI::Range(0.001, 1e4))
-      ->needs("--publish");
-  command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
-      ->needs("--publish");
+      ->needs(publish);
+  command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")->needs(publish);
   command->add_flag(
       "--energy", options->energy,
       "also tell in the summary where the soil's energy came from and went; takes up to three times as long");
