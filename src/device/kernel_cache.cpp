@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -107,7 +108,11 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
 
 // The lock goes with its file descriptor, so a process that is killed leaves none behind.
 KernelCache::~KernelCache() {
-  seal();
+  try {
+    seal();
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
+    // Memory ended: what is not listed is compiled anew by the next process, and this one ends as it would have.
+  }
   ::close(lock_);
 }
 
@@ -328,8 +333,13 @@ ProcessCache::~ProcessCache() {
   // The cache closes its lock before the folder of a temporary one is removed.
   cache.reset();
   temporary_folder = nullptr;
-  std::error_code ignored;
-  if (status.temporary) fs::remove_all(status.folder, ignored);
+  if (!status.temporary) return;
+  try {
+    std::error_code ignored;
+    fs::remove_all(status.folder, ignored);
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
+    // The folder stays in /tmp.
+  }
 }
 
 ProcessCache& process_cache() {
