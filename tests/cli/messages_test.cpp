@@ -40,7 +40,8 @@ TEST_F(Messages, ListWhatIsShippedOneLineEach) {
   expect_said("trench");
   expect_said("An 18 t wheeled excavator drives 5 m to its place");
   EXPECT_EQ(run({"machines"}), 0);
-  expect_said("ew180        Wheeled excavator of the 18 t class.");
+  expect_said("\new180  ");
+  expect_said("  Wheeled excavator of the 18 t class.");
   EXPECT_EQ(run({"soils"}), 0);
   expect_said("loam");
 }

@@ -80,7 +80,7 @@ class BulletEngine final : public Engine {
                                 stands ? kMachineGroup : kMachineGroup | kStandingGroup);
     }
     materials_.mark(*machines_.back());
-    // The order in which rows are given to the solver is part of the result: joints, balls, then rock, machine by machine.
+    // The order in which rows are given to the solver is part of the result: joints, balls, then rock, by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
     for (const auto& ball : machines_.back()->balls()) constraints_.push_back(ball.get());

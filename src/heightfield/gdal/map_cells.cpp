@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cells of a map file as heights: units, gaps, a whole number of metres taken off, whole or by windows.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/limits.h"
+#include "heightfield/ascii_words.h"
+#include "heightfield/gdal/map_file_private.h"
+
+namespace navvy::heightfield {
+namespace {
+
+// Cells round the site, for interpolation and for filling gaps at its edge.
+constexpr int kMargin = 2;
+// No ground lies above or below this; such a number is a nodata value that nobody declared [m].
+constexpr double kHighest = 12000;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
+
+/// Heights that are whole numbers of a unit only: a staircase, unless they are all one.
+class Staircase {
+ public:
+  explicit Staircase(double unit) : unit_(unit) {}
+  void look(double height) {
+    const double steps = height / unit_;
+    // A float of a whole metre in feet is off by less.
+    whole_ = whole_ && std::abs(steps - std::round(steps)) < 1e-4;
+    least_ = std::min(least_, height);
+    most_ = std::max(most_, height);
+  }
+  bool found() const { return whole_ && most_ - least_ > 0.5 * unit_; }
+
+ private:
+  double unit_, least_ = kHighest, most_ = -kHighest;
+  bool whole_ = true;
+};
+
+void note_staircase(MapFile& map, const std::string& unit, double metres) {
+  TerrainReport& report = map.report;
+  // Means of some cells lie between two steps, and what is bilinear between them has the slopes of the ground.
+  const double wide = 4 * std::max(map.step_x, map.step_y);
+  report.notes.push_back("all heights are whole numbers of the " + unit + ": a staircase with steps of " +
+                         number_text(metres, "%.4g") + " m; get them with decimals, or smooth them: " +
+                         (report.for_gdal ? "gdalwarp -ot Float32 -r average -tr " + number_text(wide) + " " +
+                                                number_text(wide) + " IN OUT.tif"
+                                          : "scipy.ndimage.uniform_filter before numpy.save"));
+}
+
+// Turns what a file says into metres, and every spelling of "no data" into NaN.
+class Decoder {
+ public:
+  explicit Decoder(MapFile& map) {
+    int has = 0;
+    const double value = map.band->GetNoDataValue(&has);
+    if (has != 0) nodata_ = static_cast<float>(value);
+    has_nodata_ = has != 0;
+    map.report.nodata_value = has != 0 ? "declared as " + number_text(value) : "none declared";
+    // GDAL does not apply scale and offset itself.
+    const double scale = map.band->GetScale(&has);
+    if (has != 0 && std::isfinite(scale) && scale != 0) scale_ = scale;
+    const double offset = map.band->GetOffset(&has);
+    if (has != 0 && std::isfinite(offset)) offset_ = offset;
+    // Black and white of a picture.
+    if (map.scale.has_heights) {
+      offset_ = map.scale.low;
+      scale_ = (map.scale.high - map.scale.low) / (map.band->GetRasterDataType() == GDT_Byte ? 255 : 65535);
+    }
+    metres_ = map.report.height_metres;
+  }
+  double operator()(double raw) const {
+    if (is_nodata(raw)) return kNaN;
+    // What no ground can be is nodata that nobody declared.
+    const double height = (raw * scale_ + offset_) * metres_;
+    return std::abs(height) <= kHighest ? height : kNaN;
+  }
+  /// As the file declares it, or as many write it without.
+  bool is_nodata(double raw) const {
+    // Compared in float32: a double that went through a float file is no longer equal.
+    const auto single = static_cast<float>(raw);
+    if (std::isnan(single) || (has_nodata_ && single == nodata_)) return true;
+    const double usual[] = {-9999.0, -9999.005859375, -32768.0, -32767.0};
+    return std::find(std::begin(usual), std::end(usual), raw) != std::end(usual);
+  }
+
+ private:
+  bool has_nodata_ = false;
+  float nodata_ = 0;
+  double scale_ = 1, offset_ = 0, metres_ = 1;
+};
+
+/// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start of a row by reading
+/// those before it and goes on after a row that fails: asked for the last row of a cut file it tries 2^rows times.
+void find_rows(MapFile& map, int last_row) {
+  if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
+  check_words(map.file, (static_cast<std::int64_t>(last_row) + 1) * map.report.columns);
+  for (int row = 0; row <= last_row; ++row) {
+    double value = 0;
+    if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) != CE_None)
+      map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
+               "the file is damaged: get it again");
+  }
+}
+
+/// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side are decoded for every
+/// row anew.
+void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
+  const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1, blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
+  const double across = blocks_x, down = blocks_y;
+  const bool kept = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
+  const double decoded = across * (kept ? down : y1 - y0 + 1.0) * map.block_bytes;
+  if (decoded > limits::kMapDecodedBytes)
+    map.fail("", number_text(decoded) + " bytes",
+             "more than " + number_text(limits::kMapDecodedBytes) +
+                 " to decode for this site: its blocks hold far more than the site",
+             "rewrite it with gdal_translate -co TILED=YES");
+}
+
+/// Which of a file's cells are read, and how they are turned into our order.
+struct Cut {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< of the map's cells in our order, the last ones inclusive
+  int columns = 0, rows = 0;           ///< of the whole file
+  bool columns_fall = false, rows_fall = true;
+};
+
+/// Cells that the site needs, with a margin; clamped in double, as a damaged header may give any number.
+Cut cut_of(const MapFile& map, const Vec2& corner, const Vec2& size) {
+  const TerrainReport& report = map.report;
+  const auto first = [](double x, double cell, int n) {
+    return static_cast<int>(std::clamp(std::floor(x / cell) - kMargin, 0.0, n - 1.0));
+  };
+  const auto last = [](double x, double cell, int n) {
+    return static_cast<int>(std::clamp(std::floor(x / cell) + kMargin, 0.0, n - 1.0));
+  };
+  return {first(corner.x(), report.cell_x, report.columns),
+          first(corner.y(), report.cell_y, report.rows),
+          last(corner.x() + size.x(), report.cell_x, report.columns),
+          last(corner.y() + size.y(), report.cell_y, report.rows),
+          report.columns,
+          report.rows,
+          map.columns_fall,
+          map.rows_fall};
+}
+
+/// The raster of a cut without its heights.
+HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& corner) {
+  HeightRaster raster;
+  raster.nx = cut.x1 - cut.x0 + 1;
+  raster.ny = cut.y1 - cut.y0 + 1;
+  raster.cell_x = report.cell_x;
+  raster.cell_y = report.cell_y;
+  raster.x0 = (cut.x0 + 0.5) * report.cell_x - corner.x();
+  raster.y0 = (cut.y0 + 0.5) * report.cell_y - corner.y();
+  return raster;
+}
+
+/// Raw numbers of some cells of the cut, counted from its first, x fastest. False where the file cannot be read.
+bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells, std::vector<double>& raw) {
+  const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
+  const int column = cut.columns_fall ? cut.columns - (cut.x0 + cells.x1) : cut.x0 + cells.x0;
+  const int row = cut.rows_fall ? cut.rows - (cut.y0 + cells.y1) : cut.y0 + cells.y0;
+  raw.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  if (band.RasterIO(GF_Read, column, row, nx, ny, raw.data(), nx, ny, GDT_Float64, 0, 0, nullptr) != CE_None)
+    return false;
+  const auto line = [&](int y) { return raw.begin() + static_cast<std::ptrdiff_t>(y) * nx; };
+  for (int y = 0; cut.columns_fall && y < ny; ++y) std::reverse(line(y), line(y + 1));
+  for (int y = 0; cut.rows_fall && y < ny / 2; ++y) std::swap_ranges(line(y), line(y + 1), line(ny - 1 - y));
+  return true;
+}
+
+/// Heights as they come out of the file: counts them, takes their mean, notes what is odd.
+class Intake {
+ public:
+  Intake(MapFile& map) : map_(map), decode_(map), in_units_(map.report.height_metres), in_metres_(1) {}
+  const Decoder& decoder() const { return decode_; }
+  /// Above `first()`, as it is known so far; NaN for a gap.
+  float take(double raw) {
+    TerrainReport& report = map_.report;
+    const double height = decode_(raw);
+    if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0) report.unmarked_value = raw;
+    // The first height found stands in for the offset until the mean is known.
+    if (!std::isnan(height) && known_++ == 0) first_ = std::floor(height);
+    if (!std::isnan(height)) {
+      sum_ += height - first_;
+      in_units_.look(height);
+      in_metres_.look(height);
+    }
+    return static_cast<float>(height - first_);
+  }
+  double first() const { return first_; }
+  /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError without a height.
+  /// Tells of a staircase.
+  double shift() const {
+    if (known_ == 0)
+      map_.fail("at", "", "there is no height anywhere under the site, all is nodata",
+                "move the site to where the map has data");
+    if (in_metres_.found())
+      note_staircase(map_, "metre", 1);
+    else if (in_units_.found())
+      note_staircase(map_, map_.report.height_unit, map_.report.height_metres);
+    return std::floor(sum_ / static_cast<double>(known_));
+  }
+
+ private:
+  MapFile& map_;
+  Decoder decode_;
+  Staircase in_units_, in_metres_;  ///< the latter also of metres that somebody turned into feet
+  double first_ = 0, sum_ = 0;
+  std::int64_t known_ = 0;
+};
+
+/// Map cells that lie on the site, in part at least, and how many of them have no height.
+class SiteCells {
+ public:
+  SiteCells(const HeightRaster& frame, const Vec2& size, TerrainReport& report)
+      : x_(range(frame.x0, frame.cell_x, size.x(), frame.nx)),
+        y_(range(frame.y0, frame.cell_y, size.y(), frame.ny)),
+        report_(report) {
+    report.site_cells = static_cast<std::int64_t>(x_.second - x_.first) * (y_.second - y_.first);
+  }
+  /// The cell has no height.
+  void gap(int ix, int iy) {
+    if (ix >= x_.first && ix < x_.second && iy >= y_.first && iy < y_.second) ++report_.site_gaps;
+  }
+
+ private:
+  /// First cell along an axis that touches [0, length], and the one after the last.
+  static std::pair<int, int> range(double first, double cell, double length, int count) {
+    const auto touches = [&](int i) {
+      const double centre = first + i * cell;
+      return centre + (0.5 - 1e-6) * cell > 0 && centre - (0.5 - 1e-6) * cell < length;
+    };
+    int begin = 0, end = count;
+    while (begin < end && !touches(begin)) ++begin;
+    while (end > begin && !touches(end - 1)) --end;
+    return {begin, end};
+  }
+  std::pair<int, int> x_, y_;
+  TerrainReport& report_;
+};
+
+[[noreturn]] void fail_row(const MapFile& map, int row) {
+  map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"), "the file is damaged: get it again");
+}
+
+/// A map that stays open: its cells as heights, whenever they are asked for.
+class OpenMap {
+ public:
+  /// Takes the file over.
+  OpenMap(MapFile& map, const Cut& cut, const Decoder& decode, double first, double shift)
+      : file_(map.file),
+        element_(map.element),
+        numbers_(std::move(map.numbers)),
+        data_(std::move(map.data)),
+        band_(map.band),
+        cut_(cut),
+        decode_(decode),
+        first_(first),
+        shift_(shift) {
+    map.band = nullptr;
+  }
+  ~OpenMap() {
+    // Closing may complain.
+    const GdalSession session;
+    data_.reset();
+  }
+  OpenMap(const OpenMap&) = delete;
+  OpenMap& operator=(const OpenMap&) = delete;
+
+  /// As read_heights makes them. @throws InputError.
+  void read(const CellRect& cells, float* out) {
+    const GdalSession session;
+    if (!read_raw(*band_, cut_, cells, raw_))
+      throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "", session.cause("cannot be read"),
+                             "the file is damaged or gone: get it again"});
+    // Rounded to float before and after the shift, as a map that is held is.
+    std::transform(raw_.begin(), raw_.end(), out,
+                   [&](double raw) { return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_); });
+  }
+
+ private:
+  std::string file_, element_;
+  std::vector<char> numbers_;
+  std::unique_ptr<GDALDataset> data_;
+  GDALRasterBand* band_;
+  Cut cut_;
+  Decoder decode_;
+  double first_, shift_;
+  std::vector<double> raw_;
+};
+
+}  // namespace
+
+std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size) {
+  const Cut cut = cut_of(map, corner, size);
+  return static_cast<std::int64_t>(cut.x1 - cut.x0 + 1) * (cut.y1 - cut.y0 + 1);
+}
+
+HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
+  TerrainReport& report = map.report;
+  const Cut cut = cut_of(map, corner, size);
+  HeightRaster raster = frame_of(report, cut, corner);
+  report.source_cells = static_cast<std::int64_t>(raster.nx) * raster.ny;
+  // Before memory is asked for.
+  if (static_cast<double>(report.source_cells) > limits::kMapCells)
+    map.fail("size", std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " map cells",
+             "more than " + number_text(limits::kMapCells) + " cells under the site",
+             "choose a smaller --size or a coarser map");
+  check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
+  raster.z.resize(static_cast<std::size_t>(report.source_cells));
+  Intake intake(map);
+  SiteCells on_site(raster, size, report);
+  std::vector<double> line;
+  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
+  for (int iy = 0; iy < raster.ny; ++iy) {
+    if (!read_raw(*map.band, cut, {0, iy, raster.nx, iy + 1}, line))
+      fail_row(map, map.rows_fall ? report.rows - 1 - (cut.y0 + iy) : cut.y0 + iy);
+    for (int ix = 0; ix < raster.nx; ++ix)
+      if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)]))) on_site.gap(ix, iy);
+  }
+  const double shift = intake.shift();
+  for (float& z : raster.z) z = static_cast<float>(z - shift);
+  report.height_offset = intake.first() + shift;
+  return raster;
+}
+
+std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner, const Vec2& size, int side) {
+  TerrainReport& report = map.report;
+  const Cut cut = cut_of(map, corner, size);
+  const HeightRaster frame = frame_of(report, cut, corner);
+  report.source_cells = static_cast<std::int64_t>(frame.nx) * frame.ny;
+  // A picture is decoded from its beginning for every window.
+  if (is_png(map))
+    map.fail("size", std::to_string(frame.nx) + " x " + std::to_string(frame.ny) + " map cells",
+             "more than " + number_text(limits::kMapCells) + " cells of a picture under the site",
+             "convert it with gdal_translate -of GTiff -co TILED=YES");
+  check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
+  find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
+  // One pass for the mean and the gaps; what it decodes is read again when it is needed.
+  Intake intake(map);
+  SiteCells on_site(frame, size, report);
+  std::vector<std::int64_t> gaps;
+  std::vector<double> raw;
+  for (int y0 = 0; y0 < frame.ny; y0 += side) {
+    const CellRect strip{0, y0, frame.nx, std::min(y0 + side, frame.ny)};
+    if (!read_raw(*map.band, cut, strip, raw))
+      fail_row(map, map.rows_fall ? report.rows - (cut.y0 + strip.y1) : cut.y0 + strip.y0);
+    const std::int64_t begin = static_cast<std::int64_t>(y0) * frame.nx;
+    for (std::size_t i = 0; i < raw.size(); ++i)
+      if (std::isnan(intake.take(raw[i]))) {
+        gaps.push_back(begin + static_cast<std::int64_t>(i));
+        on_site.gap(static_cast<int>(i) % frame.nx, y0 + static_cast<int>(i) / frame.nx);
+      }
+    if (static_cast<double>(gaps.size()) > limits::kMapCells)
+      map.fail("nodata", std::to_string(gaps.size()) + " cells",
+               "more than " + number_text(limits::kMapCells) + " cells without a height under the site",
+               "choose a smaller --size, or fill them with gdal_fillnodata.py");
+  }
+  const double shift = intake.shift();
+  report.height_offset = intake.first() + shift;
+  const auto open_map = std::make_shared<OpenMap>(map, cut, intake.decoder(), intake.first(), shift);
+  const auto out = std::make_shared<WindowedRaster>(
+      frame, [open_map](const CellRect& cells, float* to) { open_map->read(cells, to); }, side);
+  report.nodata = out->fill_gaps(std::move(gaps));
+  return out;
+}
+
+}  // namespace navvy::heightfield
