@@ -88,7 +88,8 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   bool inside = true;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+    const Vec2& a = hull[i];
+    const Vec2 edge = hull[(i + 1) % hull.size()] - a;
     inside = inside && cross(edge, p - a) >= 0;
     // To the edge itself and not to its line: beyond a corner the corner is nearest.
     const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
