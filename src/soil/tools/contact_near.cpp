@@ -35,8 +35,13 @@ ShellFeature feature(const Vec3& normal, bool free) {
 constexpr double kSteps = 1 << 18;
 Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix() / kSteps; }
 
-/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks.
-int floor_div(double cells) { return static_cast<int>(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells)); }
+/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks. Where no ground
+/// reaches all coordinates share a block.
+int floor_div(double cells) {
+  constexpr double kFarthest = 1e9;
+  return static_cast<int>(
+      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthest, kFarthest));
+}
 
 /// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,
