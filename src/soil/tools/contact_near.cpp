@@ -38,9 +38,9 @@ Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix
 /// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks. Where no ground
 /// reaches all coordinates share a block.
 int floor_div(double cells) {
-  constexpr double kFarthest = 1e9;
+  constexpr double kFarthestBlock = 1e9;
   return static_cast<int>(
-      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthest, kFarthest));
+      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthest));
 }
 
 /// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
