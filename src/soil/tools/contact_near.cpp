@@ -40,7 +40,7 @@ Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix
 int floor_div(double cells) {
   constexpr double kFarthestBlock = 1e9;
   return static_cast<int>(
-      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthest));
+      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthestBlock));
 }
 
 /// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
