@@ -38,7 +38,7 @@ Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix
 /// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks. Where no ground
 /// reaches all coordinates share a block.
 int floor_div(double cells) {
-  constexpr double kFarthestBlock = 1e9;
+  constexpr double kFarthestBlock = 1e8;  // its cells are an int, too
   return static_cast<int>(
       std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthestBlock));
 }
