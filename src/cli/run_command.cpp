@@ -152,9 +152,7 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
 /// The programs that did not come to their end, one a line: what a user must not miss.
 void tell_programs(std::FILE* say, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
-    // Step 0 is no program's: the machine fell over by itself, or while inputs drove it.
-    const bool fell = report.last().step == 0;
-    if ((report.taken && !fell) || report.last().state == control::StepState::kDone) continue;
+    if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
     const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
     std::fprintf(say, "incomplete: %s\n", session::told(report, name).c_str());
   }

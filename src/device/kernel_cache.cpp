@@ -29,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kManifestName = "navvy.manifest";
+/// Held while the manifest is read and written anew; begins as its name does, so that no list speaks of it.
+const char* const kManifestLockName = "navvy.manifest.lock";
 /// The manifest's first line; another one means another layout, and everything is compiled anew.
 constexpr std::string_view kManifestHead = "navvy kernel cache 1";
 /// All our kernels of one version take a few MB compiled. Above this the folder holds many versions: it is emptied.
@@ -56,6 +58,24 @@ bool is_listed(const fs::path& relative) {
 
 /// What the driver writes to before it gives a file its name.
 bool is_temporary(const fs::path& relative) { return relative.filename().string().rfind("tempfile_", 0) == 0; }
+
+/// Keeps neighbours from writing the manifest between our reading and our writing. Where it cannot be had nobody waits:
+/// a list that lacks files only makes the next process compile again.
+class ManifestLock {
+ public:
+  explicit ManifestLock(const fs::path& folder)
+      : file_(::open((folder / kManifestLockName).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+    if (file_ >= 0) flock(file_, LOCK_EX);
+  }
+  ~ManifestLock() {
+    if (file_ >= 0) ::close(file_);
+  }
+  ManifestLock(const ManifestLock&) = delete;
+  ManifestLock& operator=(const ManifestLock&) = delete;
+
+ private:
+  int file_;
+};
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -173,7 +193,10 @@ void KernelCache::remove_programs(const std::set<fs::path>& programs, Manifest m
 }
 
 void KernelCache::check(bool alone) {
+  const ManifestLock held(folder_);
   const Manifest manifest = read_manifest();
+  std::error_code unlisted;
+  const fs::file_time_type listed = fs::last_write_time(folder_ / kManifestName, unlisted);
   const std::vector<fs::path> files = files_in(folder_);
   // Three things are gathered: the programs of which one file is wrong, the files that were seen, and the size of all.
   std::uintmax_t bytes = 0;
@@ -202,6 +225,9 @@ void KernelCache::check(bool alone) {
       } catch (const FileError&) {
         good = false;  // there, but not to be read
       }
+      // Two neighbours that compile one program both name their file so: the later one is not listed yet.
+      std::error_code gone;
+      good = good || (!alone && fs::last_write_time(folder_ / file, gone) > listed && !gone);
     }
     if (!good) bad.insert(program_of(file));
   }
@@ -212,6 +238,7 @@ void KernelCache::check(bool alone) {
     if (!is_listed(file) || is_temporary(file)) continue;
     const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
     ++(remove ? removed_ : whole_);
+    if (!remove) found_.insert(file.generic_string());
   }
   remove_programs(bad, manifest);
   // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
@@ -226,15 +253,28 @@ void KernelCache::check(bool alone) {
 
 void KernelCache::seal() noexcept {
   try {
+    const ManifestLock held(folder_);
     // Read again, as neighbours may have listed files of theirs since this process began.
-    Manifest old = read_manifest(), now;
+    const Manifest old = read_manifest();
+    Manifest now;
     for (const fs::path& file : files_in(folder_)) {
       // PoCL writes to a file of this name first and renames it; half of one must not be vouched for.
       if (!is_listed(file) || is_temporary(file)) continue;
       const std::string name = file.generic_string();
       const auto entry = old.find(name);
-      // What is listed stays as listed: a file that changed since is found out by the next check.
-      now[name] = entry != old.end() ? entry->second : Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
+      // What was listed when this process began stays as listed: a file that changed since is found out by the next
+      // check. What a neighbour has listed since is looked at again: where both compiled one program, this process's
+      // file has taken the place of the other's, and the driver does not write the same bytes twice.
+      if (entry != old.end() && found_.count(name) > 0) {
+        now[name] = entry->second;
+        continue;
+      }
+      try {
+        now[name] = Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
+      } catch (const FileError&) {             // NOLINT(bugprone-empty-catch)
+      } catch (const fs::filesystem_error&) {  // NOLINT(bugprone-empty-catch)
+        // A neighbour has removed it meanwhile.
+      }
     }
     write_manifest(now);
   } catch (const std::exception&) {

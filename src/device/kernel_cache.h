@@ -35,7 +35,8 @@ class KernelCache {
   std::size_t whole() const { return whole_; }
   std::size_t removed() const { return removed_; }
 
-  /// Lists the files that are new since the folder was opened. Never throws: a list that cannot be written only makes
+  /// Lists the files that are new since the folder was opened, also those that a neighbour has listed, whose places
+  /// this process's own may have taken. Never throws: a list that cannot be written only makes
   /// the next process compile again.
   void seal() noexcept;
 
@@ -59,6 +60,7 @@ class KernelCache {
   int lock_ = -1;      ///< file descriptor
   bool alone_ = true;  ///< nobody else used the folder when it was opened
   std::size_t whole_ = 0, removed_ = 0;
+  std::set<std::string> found_;  ///< files that were there, and whole, when it opened
 };
 
 /// What happened to the process's own cache folder.

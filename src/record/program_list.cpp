@@ -50,9 +50,7 @@ json program_list(const session::Session& session, const std::string& status) {
                   {"reason", last["reason"]},
                   {"time_s", last["end_s"]},
                   {"place_m", last["place_m"]}};
-    // What became of the step that was taken from it nobody knows.
-    const bool fell = report.last().step == 0;
-    if (report.taken && !fell) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
+    if (report.by_inputs()) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
     entry["step_list"] = std::move(steps);
     out.push_back(std::move(entry));
   }

@@ -41,11 +41,9 @@ std::string told(const ProgramReport& report, const std::string& name) {
   const control::StepReport& last = report.last();
   std::array<char, 96> where{};
   std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(), last.place.y());
-  // A fall is told also when no program was there to be blamed.
-  const bool fell = last.step == 0 && control::fell_short(last.state);
-  const std::string state = report.taken && !fell ? "inputs" : control::name_of(last.state);
+  const std::string state = report.by_inputs() ? "inputs" : control::name_of(last.state);
   const std::string step = ", step " + std::to_string(last.step) + " of " + std::to_string(report.steps);
-  return "'" + name + "'" + (fell ? "" : step) + " (" + last.element + "): " + state +
+  return "'" + name + "'" + (report.fell() ? "" : step) + " (" + last.element + "): " + state +
          (last.reason.empty() ? "" : ": " + last.reason) + where.data();
 }
 

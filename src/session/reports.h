@@ -60,6 +60,10 @@ struct ProgramReport {
 
   /// The step that the program is at, or ended with.
   const control::StepReport& last() const { return list.back(); }
+  /// The machine fell over by itself, or while inputs drove it: the last entry, of step 0, says so.
+  bool fell() const { return last().step == 0; }
+  /// Inputs drive it and all is well: what became of the step that it was taken from nobody knows.
+  bool by_inputs() const { return taken && !fell(); }
 };
 
 /// "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s, at 3.20, 4.50)": one line for people. `name` is the

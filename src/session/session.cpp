@@ -53,7 +53,7 @@ struct Session::State {
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
-  std::vector<Bystander> bystanders;  ///< every machine, watched while no program drives it
+  std::vector<Bystander> bystanders;  ///< every machine that can tip, watched while no program drives it
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
@@ -156,8 +156,9 @@ Session::Session(scene::Scene description, device::Device& device, const control
   const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
-  // Only sound programs get their operators. Machines without a program have none; inputs drive them.
-  for (int m = 0; m < s.world.machine_count(); ++m) s.bystanders.emplace_back(s.world, m);
+  // Only sound programs get their operators. Machines without a program have none; inputs drive them, or nobody.
+  for (int m = 0; m < s.world.machine_count(); ++m)
+    if (s.world.machine(m).stability().free) s.bystanders.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machine_count(); ++m)
     if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
       s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);

@@ -38,9 +38,11 @@ class Session {
   /// True when every program has ended, done or not, and the settling time has passed, or the scene's duration is over.
   /// A machine taken by inputs keeps the run from ending by its program.
   bool done() const;
-  /// True when every program is done, or was taken by inputs: the run came to what its scene asked for.
+  /// True when every program is done, or was taken by inputs, and no machine fell over: the run came to what its scene
+  /// asked for.
   bool complete() const;
-  /// True when a step of some program fell short of its aim; that program has ended.
+  /// True when a step of some program fell short of its aim, which ended that program, or a machine that no program
+  /// drives fell over.
   bool fell_short() const;
 
   /// Read only: what drives it goes through this session.
@@ -59,10 +61,11 @@ class Session {
   /// The scene's design on the columns of its site; null where it has none.
   const heightfield::DesignSurface* design() const;
   /// What the operator of this machine is at (control::Operator::phase); "idle" for a machine without a program,
-  /// "inputs" once it was taken from it.
+  /// "inputs" once it was taken from it, "tipped" or "buried" when either fell.
   std::string phase(int machine) const;
   /// How the programs stand, in the order of the machines. A program that still runs when the duration is over is out
-  /// of time. Costs a look at the surface where a step's account asks for it.
+  /// of time. A machine that fell over without one has a report of no steps. Costs a look at the surface where a step's
+  /// account asks for it.
   std::vector<ProgramReport> programs() const;
   /// Closed ones, in the order in which they ended.
   const std::vector<Cycle>& cycles() const;

@@ -59,7 +59,7 @@ bool goes_with_base(const scene::Machine& machine, int link) {
 }
 
 /// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or slides along.
-/// @param feet mean height of the wheels' feet along the base's z axis [m]
+/// @param feet mean height of the wheels' feet along the base's z axis; `radius` of the smallest wheel [m]
 std::vector<Vec3> skids(const scene::Machine& machine, const Engine& engine, int index, double feet, double radius) {
   using Kind = scene::Geometry::Kind;
   const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
@@ -81,10 +81,8 @@ std::vector<Vec3> skids(const scene::Machine& machine, const Engine& engine, int
 }  // namespace
 
 double support_margin(std::vector<Vec2> feet, const Vec2& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2& foot : feet) nearest = std::min(nearest, (p - foot).norm());
   const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
-  if (hull.size() < 3) return -nearest;
+  if (hull.size() < 3) return 0;
   bool inside = true;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -132,7 +130,6 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
     radius = std::min(radius, machine.wheels[w].radius);
   }
   for (const Vec3& p : skids(machine, engine, index, height, radius)) feet.push_back(p.head<2>());
-  if (feet.size() < 3 || hull_of(feet).size() < 3) return out;
   out.margin = support_margin(std::move(feet), centre_of_mass(machine, engine, index).head<2>());
   return out;
 }

@@ -10,8 +10,7 @@
 
 namespace navvy::vehicle {
 
-/// Signed distance [m] of `p` from the border of the convex hull of `feet`, positive within; of fewer than three feet
-/// in a row (no area) minus the distance from the nearest of them.
+/// Signed distance [m] of `p` from the border of the convex hull of `feet`, positive within; 0 where they span no area.
 double support_margin(std::vector<Vec2> feet, const Vec2& p);
 
 /// Centre of mass of all links of machine `index` of the engine [m] in W; soil that it carries does not count.

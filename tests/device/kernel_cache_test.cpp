@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -102,6 +103,34 @@ TEST(KernelCache, LeavesWhatANeighbourCompilesInPlaceOfADamagedProgram) {
   write(code, "machine co");
   const KernelCache second(folder.path());
   EXPECT_EQ(second.removed(), 0u);
+  EXPECT_TRUE(fs::exists(code));
+}
+
+// PoCL's bitcode names the temporary file that it was compiled from: no two processes write the same bytes.
+TEST(KernelCache, TwoThatCompileOneProgramLeaveItWhole) {
+  const test::Folder folder;
+  const fs::path code = folder.path() / "AB/one/program.bc";
+  {
+    KernelCache first(folder.path());
+    const KernelCache second(folder.path());  // lists what it finds at its end
+    write(code, "compiled by the first");
+    first.seal();
+    write(code, "compiled by the second");
+  }
+  const KernelCache cache(folder.path());
+  EXPECT_EQ(cache.removed(), 0u);
+  EXPECT_EQ(text_of(code), "compiled by the second");
+}
+
+TEST(KernelCache, ThatOpensBesideTwoThatCompileOneProgramRemovesNothing) {
+  const test::Folder folder;
+  const fs::path code = folder.path() / "AB/one/program.bc";
+  KernelCache first(folder.path());
+  write(code, "compiled by the first");
+  first.seal();
+  write(code, "compiled by another");
+  fs::last_write_time(code, fs::last_write_time(folder.path() / "navvy.manifest") + std::chrono::seconds(1));
+  EXPECT_EQ(KernelCache(folder.path()).removed(), 0u);
   EXPECT_TRUE(fs::exists(code));
 }
 

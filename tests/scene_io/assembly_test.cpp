@@ -45,7 +45,7 @@ const std::string kCart =
     "<navvy:wheel><joint>spin</joint><radius_m>0.3</radius_m><width_m>0.2</width_m></navvy:wheel>\n"
     "</model>";
 
-/// The file that the issue of trailers asks for: two parts and a joint.
+/// A trailer hitched as the guide shows it: two parts and a joint.
 const std::string kTrain =
     "<model name=\"train\">\n<include><uri>cart</uri><name>first</name></include>\n"
     "<include><uri>cart/model.sdf</uri><name>second</name><pose>-4 0 0 0 0 3.141592653589793</pose></include>\n"

@@ -8,7 +8,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kFree = kPi - 1e-6;
+constexpr double kFree = kPi - 1e-6;  // [rad] 180 deg of a file, whatever they are rounded to
 
 }  // namespace
 
@@ -16,8 +16,6 @@ BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3
     : WorldConstraint(body, link, 3), R_CJ_(R_CJ), R_PJ_(R_PJ), cone_(cone), twist_(twist) {
   finalizeMultiDof();
 }
-
-void BallLimits::finalizeMultiDof() { WorldConstraint::finalizeMultiDof(); }
 
 void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                                       const btContactSolverInfo& info) {
@@ -44,13 +42,10 @@ void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiB
 
 void BallLimits::keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows,
                            btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
-  const double dt = info.m_timeStep;
   const btScalar* qd = m_bodyA->getJointVelMultiDof(m_linkA);
-  const double rate = axis.x() * qd[0] + axis.y() * qd[1] + axis.z() * qd[2];
-  if (gap >= 2 * dt * std::abs(rate) + 1e-3) return;
   const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
   for (int d = 0; d < 3; ++d) jacobianA(row)[offset + d] = axis[d];
-  add_row(row, gap > 0 ? -gap / dt : -0.1 * gap / dt, 0, 1e12, rows, data, info);
+  add_stop(row, gap, axis.x() * qd[0] + axis.y() * qd[1] + axis.z() * qd[2], rows, data, info);
 }
 
 }  // namespace navvy::vehicle

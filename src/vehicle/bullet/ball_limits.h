@@ -17,13 +17,12 @@ class BallLimits final : public WorldConstraint {
   /// @param cone, twist [rad]; pi and more: free
   BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist);
 
-  // Called by Bullet: memory once, rows in every step.
-  void finalizeMultiDof() override;
+  // Called by Bullet in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
 
  private:
-  /// A row that keeps `gap` [rad] open, which closes as the child turns against `axis`, in the child's frame.
+  /// A row that keeps `gap` [rad] open, which grows as the child turns about `axis`, in the child's frame.
   void keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                  const btContactSolverInfo& info);
 

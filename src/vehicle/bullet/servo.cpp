@@ -22,14 +22,9 @@ void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows, btM
   for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
   if (low_ < high_) add_row(0, velocity_, low_, high_, rows, data, info);
   if (!has_limits_) return;
-  // A limit acts from the step in which the joint could reach it: it may use up the gap, and leaves an overrun slowly.
-  const double dt = info.m_timeStep, q = m_bodyA->getJointPos(m_linkA);
-  const double qd = m_bodyA->getJointVel(m_linkA);
-  const double gap_low = q - lower_, gap_high = upper_ - q;
-  const double near = 2 * dt * (qd < 0 ? -qd : qd) + 1e-3;
-  const auto allowed = [dt](double gap) { return gap > 0 ? -gap / dt : -0.1 * gap / dt; };
-  if (gap_low < near) add_row(1, allowed(gap_low), 0, 1e12, rows, data, info);
-  if (gap_high < near) add_row(2, allowed(gap_high), 0, 1e12, rows, data, info);
+  const double q = m_bodyA->getJointPos(m_linkA), qd = m_bodyA->getJointVel(m_linkA);
+  add_stop(1, q - lower_, qd, rows, data, info);
+  add_stop(2, upper_ - q, -qd, rows, data, info);
 }
 
 }  // namespace navvy::vehicle

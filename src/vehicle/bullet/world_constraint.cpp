@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/bullet/world_constraint.h"
 
+#include <cmath>
+
 namespace navvy::vehicle {
 namespace {
 
@@ -37,6 +39,13 @@ void WorldConstraint::add_row(int row, double velocity, double low, double high,
   fillMultiBodyConstraint(c, data, jacobianA(row), nullptr, zero, zero, zero, zero, 0, info, low, high, true, 1, false,
                           velocity);
   c.m_solverBodyIdB = -1;  // nothing to push there
+}
+
+void WorldConstraint::add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows,
+                               btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  const double dt = info.m_timeStep;
+  if (gap >= 2 * dt * std::abs(rate) + 1e-3) return;
+  add_row(row, gap > 0 ? -gap / dt : -0.1 * gap / dt, 0, 1e12, rows, data, info);
 }
 
 }  // namespace navvy::vehicle
