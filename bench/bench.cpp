@@ -20,6 +20,12 @@ void print(const device::DeviceInfo& device, const Row& row, double bandwidth) {
   append_csv(full);
 }
 
+void print_host(const Row& row) {
+  device::DeviceInfo host;
+  host.name = "host";
+  print(host, row);
+}
+
 void append_csv(const Row& row) {
   const char* file = std::getenv("NAVVY_BENCH_CSV");
   if (file != nullptr) std::ofstream(file, std::ios::app) << csv_line(row) << "\n";

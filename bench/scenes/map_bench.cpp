@@ -52,42 +52,11 @@ std::string wanted;  // part of a row's name
 
 bool asked(const std::string& name) { return name.find(wanted) != std::string::npos; }
 
-/// Of all threads, or of this one [s].
-double processor_time(clockid_t whose = CLOCK_PROCESS_CPUTIME_ID) {
+/// Of this thread alone [s].
+double thread_seconds() {
   std::timespec now{};
-  clock_gettime(whose, &now);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-bench::Timing timing_of(std::vector<double> wall, const std::vector<double>& processor) {
-  std::sort(wall.begin(), wall.end());
-  bench::Timing out;
-  out.best = wall.front();
-  out.median = wall[wall.size() / 2];
-  out.spread = wall.back() / wall.front() - 1;
-  out.runs = static_cast<int>(wall.size());
-  if (!processor.empty()) out.processor = *std::min_element(processor.begin(), processor.end());
-  return out;
-}
-
-/// Runs `work` so many times, after `before`, which is not timed.
-bench::Timing measure(int runs, const std::function<void()>& before, const std::function<void()>& work) {
-  std::vector<double> wall, processor;
-  for (int run = 0; run < runs; ++run) {
-    before();
-    const double began = processor_time();
-    const Stopwatch watch;
-    work();
-    wall.push_back(watch.seconds());
-    processor.push_back(processor_time() - began);
-  }
-  return timing_of(std::move(wall), processor);
-}
-
-void print(const bench::Row& row) {
-  device::DeviceInfo host;
-  host.name = "host";
-  bench::print(host, row);
 }
 
 /// A site of gentle hills, in columns of 0.1 m.
@@ -112,6 +81,17 @@ void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
     for (int ix = x0; ix < x0 + kBucketX; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
 }
 
+/// Reads every value of every layer, strip by strip: untouched ground is computed when somebody asks.
+void read_all(const planner::TerrainMap& map) {
+  double sum = 0;
+  for (int iy = 0; iy < map.ny(); iy += planner::LayerTiles::kSide) {
+    const int end = std::min(map.ny(), iy + planner::LayerTiles::kSide);
+    for (const planner::Layer layer : planner::all_layers()) sum += map.copy(layer, {0, iy, map.nx(), end}).back();
+  }
+  volatile double kept = sum;  // so that nobody finds the reading useless
+  static_cast<void>(kept);
+}
+
 /// One update against everything anew, for the very same ground.
 void measure_updates(const std::string& size, int columns) {
   const std::string update_name = "map_update:" + size, full_name = "map_full:" + size;
@@ -130,9 +110,9 @@ void measure_updates(const std::string& size, int columns) {
     dig_bucket(ground, static_cast<int>(random.uniform(0, columns - kBucketX)),
                static_cast<int>(random.uniform(0, columns - kBucketY)));
   };
-  // A feed's first map is made anew; with the one before gone, the large site needs memory for one.
+  // A feed's first map is made anew, and read whole; with the one before gone, the large site needs memory for one.
   std::optional<planner::UpdateFeed> feed;
-  full.timing = measure(
+  full.timing = bench::measure(
       columns > 2000 ? 1 : 5,
       [&] {
         dig();
@@ -140,11 +120,11 @@ void measure_updates(const std::string& size, int columns) {
       },
       [&] {
         feed.emplace(planner::MapOptions{});
-        feed->publish(ground.view(time += 0.1));
+        read_all(feed->publish(ground.view(time += 0.1))->map);
       });
-  update.timing = measure(21, dig, [&] { feed->publish(ground.view(time += 0.1)); });
-  print(full);
-  print(update);
+  update.timing = bench::measure(21, dig, [&] { feed->publish(ground.view(time += 0.1)); });
+  bench::print_host(full);
+  bench::print_host(update);
   std::fprintf(stderr, "%s: an update takes %.3g ms (%.3g of processor), all anew %.3g ms (%.3g): %.0f times (%.0f)\n",
                size.c_str(), 1e3 * update.timing.median, 1e3 * update.timing.processor, 1e3 * full.timing.best,
                1e3 * full.timing.processor, full.timing.best / update.timing.median,
@@ -165,13 +145,13 @@ void measure_queries() {
     row.bench = name;
     row.particles = 1;
     row.steps = static_cast<std::uint64_t>(count);
-    row.timing = measure(
+    row.timing = bench::measure(
         5, [] {},
         [&] {
           Random random(9);
           for (int i = 0; i < count; ++i) sum += question(random);
         });
-    print(row);
+    bench::print_host(row);
     std::fprintf(stderr, "%s: %.3g a second, %.3g a second of processor\n", name.c_str(), count / row.timing.best,
                  count / row.timing.processor);
   };
@@ -270,18 +250,18 @@ void measure_trench(double seconds) {
   double spent = 0;
   // The whole map goes out before the run, as `navvy run --publish` does it.
   std::uint64_t last = feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
-  const double began = processor_time();
+  const double began = bench::processor_seconds();
   const Stopwatch whole;
   while (!session.done() && world.time() < seconds) {
     session.step();
     if (!sim::sample_due(world.steps(), world.dt(), kRate)) continue;
     const double end_of_step = Reader::now();
-    const double before = processor_time(CLOCK_THREAD_CPUTIME_ID);
+    const double before = thread_seconds();
     const Stopwatch watch;
     const planner::UpdateFeed::Update update =
         feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
     publishing.push_back(watch.seconds());
-    spent += processor_time(CLOCK_THREAD_CPUTIME_ID) - before;
+    spent += thread_seconds() - before;
     // Where nothing changed, nothing goes out.
     if (update->sequence == last) continue;
     last = update->sequence;
@@ -291,7 +271,7 @@ void measure_trench(double seconds) {
   device.finish();
   bench::Row all, publish, wire;
   all.timing.best = all.timing.median = whole.seconds();
-  all.timing.processor = processor_time() - began;
+  all.timing.processor = bench::processor_seconds() - began;
   feed.close();
   reader.join();
   all.bench = "map_trench:whole";
@@ -317,7 +297,7 @@ void measure_trench(double seconds) {
   if (late.empty()) throw Error("map_bench: no patch arrived");
   wire.bench = "map_trench:wire";
   wire.steps = late.size();
-  wire.timing = timing_of(late, {});
+  wire.timing = bench::timing_of(late, {});
   if (asked(all.bench)) bench::print(device.info(), all);
   if (asked(publish.bench)) bench::print(device.info(), publish);
   if (asked(wire.bench)) bench::print(device.info(), wire);

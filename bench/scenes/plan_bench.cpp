@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths for the excavator of scenarios/drive_around_trench.sdf: plan_bench [NAME [RUNS]], rows whose name holds NAME.
 // Host alone, no device.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bench.h"
@@ -48,7 +47,7 @@ void measure(const std::string& name, control::PathPlanner& planner, const contr
   std::vector<double> seconds, processor;
   StateHash hash;
   for (int run = 0; run < runs; ++run) {
-    const std::clock_t begin = std::clock();
+    const double began = bench::processor_seconds();
     const Stopwatch watch;
     for (int plan = 0; plan < plans; ++plan) {
       control::PathQuery query = asked;
@@ -60,18 +59,11 @@ void measure(const std::string& name, control::PathPlanner& planner, const contr
                      path ? path->length() : 0.0, path ? path->cusps() : 0);
     }
     seconds.push_back(watch.seconds() / plans);
-    processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / plans);
+    processor.push_back((bench::processor_seconds() - began) / plans);
   }
-  std::sort(seconds.begin(), seconds.end());
-  row.timing.best = seconds.front();
-  row.timing.median = seconds[seconds.size() / 2];
-  row.timing.spread = seconds.back() / seconds.front() - 1;
-  row.timing.runs = runs;
-  row.timing.processor = *std::min_element(processor.begin(), processor.end());
+  row.timing = bench::timing_of(std::move(seconds), processor);
   row.hash = hash.hex();
-  device::DeviceInfo host;
-  host.name = "host";
-  bench::print(host, row);
+  bench::print_host(row);
 }
 
 }  // namespace

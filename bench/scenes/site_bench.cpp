@@ -4,7 +4,6 @@
 // 100 m.
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -12,12 +11,10 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench.h"
 #include "core/error.h"
-#include "core/stopwatch.h"
 #include "heightfield/site.h"
 #include "planner/formats/formats.h"
 #include "planner/sources.h"
@@ -50,23 +47,9 @@ void measure(const std::string& name, double edge, int runs, const std::function
   row.bench = name;
   row.site = edge;
   row.steps = 1;
-  std::vector<double> seconds, processor;
-  for (int run = 0; run < runs; ++run) {
-    const std::clock_t begin = std::clock();
-    const Stopwatch watch;
-    row.particles = work();
-    seconds.push_back(watch.seconds());
-    processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  std::sort(seconds.begin(), seconds.end());
-  row.timing.best = seconds.front();
-  row.timing.median = seconds[seconds.size() / 2];
-  row.timing.spread = seconds.back() / seconds.front() - 1;
-  row.timing.runs = runs;
-  row.timing.processor = *std::min_element(processor.begin(), processor.end());
-  device::DeviceInfo host;
-  host.name = "host";
-  bench::print(host, row);
+  row.timing = bench::measure(
+      runs, [] {}, [&] { row.particles = work(); });
+  bench::print_host(row);
   struct rusage usage {};
   ::getrusage(RUSAGE_SELF, &usage);
   std::fprintf(stderr, "%s at %g m: %.1f s, %.1f s of processor, at most %ld MiB so far\n", name.c_str(), edge,

@@ -2,16 +2,13 @@
 // Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts, beside 200 bodies, and
 // four of them: vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time; `particles`
 // counts machines and bodies.
-#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "bench.h"
-#include "core/stopwatch.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "heightfield/site.h"
@@ -51,12 +48,6 @@ struct Case {
   bool loam = false;
 };
 
-double processor_time() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 void measure_case(const Case& what, const scene::Machine& excavator) {
   const auto engine = vehicle::make_bullet_engine(Vec3(0, 0, -kGravity));
   for (int i = 0; i < what.excavators; ++i) engine->add_machine(excavator, make_pose(0, 6.0 * i, 0));
@@ -84,28 +75,14 @@ void measure_case(const Case& what, const scene::Machine& excavator) {
     }
   };
   second();
-  std::vector<double> wall;
   bench::Row row;
-  row.timing.processor = 1e9;
-  for (int run = 0; run < kRuns; ++run) {
-    const double before = processor_time();
-    const Stopwatch watch;
-    second();
-    wall.push_back(watch.seconds());
-    row.timing.processor = std::min(row.timing.processor, processor_time() - before);
-  }
-  std::sort(wall.begin(), wall.end());
-  row.timing.best = wall.front();
-  row.timing.median = wall[wall.size() / 2];
-  row.timing.spread = (wall.back() - wall.front()) / wall.front();
-  row.timing.runs = kRuns;
+  row.timing = bench::measure(
+      kRuns, [] {}, second);
   row.bench = "vehicle_step:" + what.name;
   row.particles = static_cast<std::uint64_t>(what.excavators + what.boxes);
   row.steps = kSteps;
   row.simulated = kSteps * kStep;
-  device::DeviceInfo host;
-  host.name = "host, one thread";
-  bench::print(host, row);
+  bench::print_host(row);
 }
 
 }  // namespace

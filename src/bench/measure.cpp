@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/stopwatch.h"
 #include "device/buffer.h"
 #include "device/device.h"
@@ -53,6 +55,39 @@ class Profiling {
 
 }  // namespace
 
+// It hardly grows when other programs take the machine.
+double processor_seconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The best run is the one that was disturbed least; noise only ever adds time.
+Timing timing_of(std::vector<double> wall, const std::vector<double>& processor) {
+  if (wall.empty()) throw Error("bench: a timing of no runs");
+  std::sort(wall.begin(), wall.end());
+  Timing out;
+  out.best = wall.front();
+  out.median = wall[wall.size() / 2];
+  out.spread = (wall.back() - out.best) / out.best;
+  out.runs = static_cast<int>(wall.size());
+  if (!processor.empty()) out.processor = *std::min_element(processor.begin(), processor.end());
+  return out;
+}
+
+Timing measure(int runs, const std::function<void()>& restore, const std::function<void()>& work) {
+  std::vector<double> wall, processor;
+  for (int run = 0; run < runs; ++run) {
+    restore();
+    const double began = processor_seconds();
+    const Stopwatch watch;
+    work();
+    wall.push_back(watch.seconds());
+    processor.push_back(processor_seconds() - began);
+  }
+  return timing_of(std::move(wall), processor);
+}
+
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs) {
   // The run with number -1 warms up: drivers compile machine code and touch memory at the first use.
@@ -61,25 +96,15 @@ Timing measure(device::Device& device, const std::function<void()>& restore, con
     // Restoring queues copies; they must not run within the measured time.
     restore();
     device.finish();
-    // Time of all threads of the process, in which a CPU's driver runs its kernels: it hardly grows when other programs
-    // take the machine.
-    const std::clock_t start = std::clock();
+    const double began = processor_seconds();
     const Stopwatch watch;
     work();
     device.finish();
     if (run < 0) continue;
     times.push_back(watch.seconds());
-    processor.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    processor.push_back(processor_seconds() - began);
   }
-  // The best run is the one that was disturbed least; noise only ever adds time.
-  std::sort(times.begin(), times.end());
-  Timing out;
-  out.best = times.front();
-  out.median = times[times.size() / 2];
-  out.spread = (times.back() - out.best) / out.best;
-  out.runs = runs;
-  out.processor = *std::min_element(processor.begin(), processor.end());
-  return out;
+  return timing_of(std::move(times), processor);
 }
 
 double kernel_seconds(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,

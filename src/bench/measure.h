@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "bench/row.h"
 
@@ -19,6 +20,16 @@ namespace navvy::bench {
 /// small, so best, median and spread are kept, not a mean.
 Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
                int runs = 5);
+
+/// The same for work of the host, without a run to warm up.
+Timing measure(int runs, const std::function<void()>& restore, const std::function<void()>& work);
+
+/// Processor time of all threads of this process [s]: in a CPU's driver the kernels are among them.
+double processor_seconds();
+
+/// Best, median and spread of runs that took so long each, in any order, and the least of their processor times
+/// (0 where none was taken) [s]. @throws Error without a run.
+Timing timing_of(std::vector<double> wall, const std::vector<double>& processor);
 
 /// Least time that the device's kernels take in one of `runs` runs of `work`, added up by its own clock: no launches,
 /// no copies, no host [s]. The clock slows a run down a little, so it is never on in `measure`.
