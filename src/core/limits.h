@@ -68,4 +68,7 @@ inline constexpr std::size_t kLandXmlElements = 1'500'000;  ///< points and face
 inline constexpr std::size_t kDesignCorners = 1000;         ///< of an area
 inline constexpr std::size_t kDesignAreas = 100;
 
+// Snapshots.
+inline constexpr double kFarthest = 1e7;  ///< [m] of a machine or tool from the world's origin: no site lies there
+
 }  // namespace navvy::limits

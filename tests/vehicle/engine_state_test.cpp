@@ -73,21 +73,22 @@ TEST_P(EngineState, IsRefusedByOtherMachines) {
 
 TEST_P(EngineState, WithoutAFinitePlaceIsRefusedByName) {
   const auto engine = build();
-  ByteMap map;
-  std::vector<char> bytes = saved(*engine, &map);
-  // The base's place: the first number of the one engine, the last three of a pose in the other.
-  for (const ByteMap::Field& field : map.fields) {
-    const bool tree = field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
-    if (!tree && field.path != "kinematic[1]/X_WB") continue;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    std::memcpy(bytes.data() + field.offset, &nan, sizeof nan);
-  }
-  try {
-    load_saved(bytes, *engine);
-    FAIL() << "a machine without a place was loaded";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos) << error.what();
+  for (const double place : {std::numeric_limits<double>::quiet_NaN(), 1e8}) {
+    ByteMap map;
+    std::vector<char> bytes = saved(*engine, &map);
+    // The base's place: the first numbers of the one engine, the last of a pose in the other.
+    for (const ByteMap::Field& field : map.fields) {
+      const bool tree = field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
+      if (!tree && field.path != "kinematic[1]/X_WB") continue;
+      std::memcpy(bytes.data() + field.offset + (tree ? 0 : field.size - sizeof place), &place, sizeof place);
+    }
+    try {
+      load_saved(bytes, *engine);
+      FAIL() << "a machine was loaded at " << place;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos) << error.what();
+    }
   }
 }
 

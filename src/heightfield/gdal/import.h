@@ -10,6 +10,7 @@
 #include "core/math.h"
 #include "heightfield/ground.h"
 #include "heightfield/raster.h"
+#include "heightfield/windowed_raster.h"
 #include "scene/scene.h"
 
 namespace navvy::heightfield {
@@ -55,6 +56,6 @@ struct TerrainReport {
 /// @throws InputError when the file is missing, unreadable, in degrees, turned, without heights here, or when the site
 /// is off the map.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held = limits::kMapCells,
-                             int side = 256);
+                             int side = WindowedRaster::kSide);
 
 }  // namespace navvy::heightfield

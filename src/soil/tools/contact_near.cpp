@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/archive.h"
+#include "core/limits.h"
 #include "soil/particles/buffers.h"
 #include "soil/tools/contact.h"
 
@@ -15,8 +16,6 @@ namespace {
 constexpr double kDrift = 1.0;
 /// How far a pose that is loaded may be from a rigid one: turns gather rounding over a run.
 constexpr double kRigid = 1e-6;
-/// Where a tool may be at most [m]: sites end far before, and so does the range of block numbers.
-constexpr double kFarthest = 1e7;
 
 void put(float (&out)[3], const Vec3& v) {
   for (int a = 0; a < 3; ++a) out[a] = static_cast<float>(v[a]);
@@ -279,9 +278,9 @@ void Contact::Registered::visit(Archive& a) {
   a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for", "must be finite and not negative");
   for (const Pose* pose : {&X_listed, &X}) {
     const Mat3 R = pose->linear();
-    a.require(
-        pose->matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) && pose->translation().norm() < kFarthest,
-        "X_listed", "must be a rigid pose on the site, as must X");
+    a.require(pose->matrix().allFinite() && (R * R.transpose()).isIdentity(kRigid) &&
+                  pose->translation().norm() < limits::kFarthest,
+              "X_listed", "must be a rigid pose on the site, as must X");
   }
 }
 

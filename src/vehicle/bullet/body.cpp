@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/limits.h"
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/refuse.h"
 #include "vehicle/kinematics.h"
@@ -380,6 +381,11 @@ void TreeBody::place_colliders() {
   body_->updateCollisionObjectWorldTransforms(turns, places);
 }
 
+void TreeBody::stop() {
+  place(coordinates(), std::vector<double>(6 + index(body_->getNumDofs()), 0.0));
+  kinematics_valid_ = false;
+}
+
 std::vector<double> TreeBody::coordinates() const {
   const btVector3 p = body_->getBasePos();
   const btQuaternion q = body_->getWorldToBaseRot();
@@ -422,7 +428,8 @@ void TreeBody::visit(Archive& a) {
   a.fixed("velocities", qd);
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
-  a.require(std::all_of(q.begin(), q.end(), finite), "coordinates", "a machine has no finite place");
+  const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
+  a.require(near, "coordinates", "a machine has no finite place, or none near any site");
   a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
   place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.

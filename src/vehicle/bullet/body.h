@@ -68,6 +68,8 @@ class TreeBody {
 
   /// Gravity and added forces change the velocities by one explicit step.
   void step_velocities(const Vec3& gravity, double dt);
+  /// Takes all speed from it.
+  void stop();
   /// The solver's velocity changes, then positions.
   void step_positions(double dt);
   /// Positions changed from outside: what was worked out from them is void.

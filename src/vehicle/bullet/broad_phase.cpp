@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/bullet/broad_phase.h"
 
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+
 #include <algorithm>
 
 namespace navvy::vehicle {
+
+bool SweepBroadphase::is_active(int handle) const {
+  return static_cast<const btCollisionObject*>(m_pHandles[handle].m_clientObject)->isActive();
+}
 
 void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   // The engine drops all pairs after every step, so there are none to keep or to remove here.
@@ -18,7 +24,8 @@ void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
     // What ends before this one begins meets nobody further on.
     std::erase_if(active_, [&](int j) { return m_pHandles[j].m_aabbMax.x() < low(i); });
     for (const int j : active_)
-      if (aabbOverlap(&m_pHandles[i], &m_pHandles[j])) pairs_.emplace_back(std::min(i, j), std::max(i, j));
+      if ((is_active(i) || is_active(j)) && aabbOverlap(&m_pHandles[i], &m_pHandles[j]))
+        pairs_.emplace_back(std::min(i, j), std::max(i, j));
     active_.push_back(i);
   }
   std::sort(pairs_.begin(), pairs_.end());

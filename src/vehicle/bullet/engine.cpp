@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines as Bullet multibodies in one collision world.
 //
-// The step is put together here instead of in btMultiBodyDynamicsWorld: nothing sleeps, no islands are split, and no
-// contact outlives its step, so a step depends on the saved state alone.
+// The step is put together here instead of in btMultiBodyDynamicsWorld: no islands are split, no contact outlives its
+// step, and who sleeps is state (rest.h), so a step depends on the saved state alone.
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "vehicle/bullet/broad_phase.h"
@@ -29,7 +30,7 @@ constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 constexpr int kMostShapes = 16384;  // links with shapes of all machines together; 130 bytes each
 // A machine this far below the surface has fallen through it: no ground is as thick as that over a body [m].
 constexpr double kLost = 10;
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 class BulletEngine final : public Engine {
  public:
@@ -47,7 +48,10 @@ class BulletEngine final : public Engine {
     // Bullet multiplies friction of both bodies: the machine's counts alone.
     ground_.setFriction(1);
     ground_.setRestitution(0);
+    // Two that do not stir do not meet: a body that sleeps asks nothing of the ground.
+    ground_.forceActivationState(ISLAND_SLEEPING);
     world_.addCollisionObject(&ground_, kGroundGroup, kMachineGroup);
+    world_.setForceUpdateAllAabbs(false);
     info_.m_numIterations = kIterations;
     info_.m_leastSquaresResidualThreshold = kResidual;
     info_.m_splitImpulse = false;
@@ -108,7 +112,7 @@ class BulletEngine final : public Engine {
     for (auto& machine : machines_) machine->begin_step(ground, dt);
     tyre_bodies_.push(machines_, world_, dt);
     ground_shape_.set_ground(&ground);
-    world_.performDiscreteCollisionDetection();
+    detect();
     turn_ground_contacts();
     ground_shape_.set_ground(nullptr);
     // Detection looks at poses alone. Materials ask who rests, before forces give everything a speed.
@@ -116,7 +120,8 @@ class BulletEngine final : public Engine {
     for (auto& machine : machines_) machine->accelerate(gravity_, dt);
     solve(dt);
     for (auto& machine : machines_) {
-      machine->end_step(contact_impulse(*machine), dt);
+      if (machine->asleep()) continue;
+      machine->end_step(ground, contact_impulse(*machine), dt);
       // A broken run stops here, where step and machine are known, before its numbers spread.
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
@@ -152,6 +157,10 @@ class BulletEngine final : public Engine {
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
       tyre_bodies_.visit(a, machines_);
     });
+    // What does not stir is not looked at in a step.
+    if (a.loading())
+      for (const auto& machine : machines_)
+        for (btMultiBodyLinkCollider* collider : machine->all_colliders()) world_.updateSingleAabb(collider);
   }
 
  private:
@@ -167,6 +176,33 @@ class BulletEngine final : public Engine {
     solver_.solveMultiBodyGroup(
         &objects[0], objects.size(), manifolds > 0 ? dispatcher_.getInternalManifoldPointer() : nullptr, manifolds,
         nullptr, 0, constraints_.data(), static_cast<int>(constraints_.size()), info_, nullptr, &dispatcher_);
+  }
+
+  /// All contacts of this step. Who is woken has neighbours and ground of its own to meet, so pairs are looked for
+  /// again.
+  void detect() {
+    world_.updateAabbs();
+    do world_.computeOverlappingPairs();
+    while (wake_neighbours());
+    dispatcher_.dispatchAllCollisionPairs(broadphase_.getOverlappingPairCache(), world_.getDispatchInfo(),
+                                          &dispatcher_);
+  }
+  /// Wakes what lies still and has something that does not as near as its box: says whether there was any.
+  bool wake_neighbours() {
+    bool woken = false;
+    const btBroadphasePairArray& pairs = broadphase_.getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+      const auto* one = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
+      const auto* other = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
+      if (one->isActive() == other->isActive()) continue;
+      if (other->isActive()) std::swap(one, other);
+      // What stands does not wake, and the ground is no machine.
+      auto* machine = static_cast<BulletMachine*>(other->getUserPointer());
+      if (machine == nullptr || !machine->asleep()) continue;
+      machine->wake(static_cast<const BulletMachine*>(one->getUserPointer())->still());
+      woken = true;
+    }
+    return woken;
   }
 
   /// Gives each contact with the ground a normal that the ground has there.

@@ -24,6 +24,10 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
   add_rock();
   add_steel();
   place_colliders();
+  // Wheels and shells are at work even where they stand.
+  if (!tree_.fixed_base() && machine_.links.size() == 1 && machine_.wheels.empty() && machine_.shells.empty() &&
+      colliders_[0])
+    rest_.emplace();
 }
 
 void BulletMachine::add_colliders() {
@@ -51,7 +55,9 @@ std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const Link
   collider->setRestitution(0);
   // Firm but not rigid: ground that was raised under a body must not launch it.
   collider->setContactStiffnessAndDamping(kContactStiffness, kContactDamping);
-  collider->setActivationState(DISABLE_DEACTIVATION);
+  // What stands for ever meets only what stirs.
+  const bool stands = tree_.fixed_base() && link == 0;
+  collider->forceActivationState(stands ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);
   return collider;
 }
 
@@ -92,14 +98,46 @@ void BulletMachine::set_joint(int joint, const JointInput& input) {
   actuator.driven = false;
 }
 
-void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) { pushes_.push_back({link, f_W, p_W}); }
+void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) {
+  disturb();
+  pushes_.push_back({link, f_W, p_W});
+}
 
 void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) {
+  disturb();
   tree_.apply_impulse(link, J_W, L_W, p_W);
   external_impulse_ += J_W;
 }
 
+// Pairs of which neither is active are none of Bullet's business; what stands is not, either.
+void BulletMachine::set_active(bool active) {
+  colliders_[0]->forceActivationState(active ? DISABLE_DEACTIVATION : ISLAND_SLEEPING);
+}
+
+void BulletMachine::wake(double still) {
+  if (!asleep()) return;
+  rest_->wake(still);
+  set_active(true);
+}
+
+void BulletMachine::disturb() {
+  if (!rest_) return;
+  rest_->disturb();
+  set_active(true);
+}
+
+void BulletMachine::box(btVector3& low, btVector3& high) const {
+  colliders_[0]->getCollisionShape()->getAabb(colliders_[0]->getWorldTransform(), low, high);
+}
+
 void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
+  if (asleep()) {
+    btVector3 low, high;
+    box(low, high);
+    rest_->feel(ground, low, high);
+    if (rest_->asleep()) return;
+    set_active(true);
+  }
   joints_.note_speeds();
   // The drive commands joints, so it comes before them; forces are summed by the tree and may come in any order.
   drive_.begin_step(dt);
@@ -112,7 +150,15 @@ void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
   pushes_.clear();
 }
 
-void BulletMachine::end_step(const Vec3& contact, double dt) {
+void BulletMachine::accelerate(const Vec3& gravity, double dt) {
+  if (asleep())
+    // What lies still is carried.
+    ground_impulse_ = -dt * tree_.total_mass() * gravity;
+  else
+    tree_.step_velocities(gravity, dt);
+}
+
+void BulletMachine::end_step(const GroundQuery& ground, const Vec3& contact, double dt) {
   // All that ground and rock gave in this step, whatever way it came.
   ground_impulse_ = tyre_impulse_ + contact;
   for (const auto& rock : rock_) {
@@ -123,6 +169,13 @@ void BulletMachine::end_step(const Vec3& contact, double dt) {
   tree_.step_positions(dt);
   place_colliders();
   joints_.end_step(dt);
+  if (!rest_) return;
+  if (!rest_->tire(tree_.link(0).X_WL, dt)) return;
+  tree_.stop();
+  set_active(false);
+  btVector3 low, high;
+  box(low, high);
+  rest_->lie_down(ground, low, high);
 }
 
 void BulletMachine::Push::visit(Archive& a) {
@@ -145,7 +198,10 @@ void BulletMachine::visit(Archive& a) {
             "pushes", "the machine has no such link");
   a("ground_impulse", ground_impulse_);
   a("external_impulse", external_impulse_);
-  if (a.loading()) place_colliders();
+  if (rest_) a("rest", *rest_);
+  if (!a.loading()) return;
+  place_colliders();
+  if (rest_) set_active(!rest_->asleep());
 }
 
 }  // namespace navvy::vehicle

@@ -5,11 +5,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "vehicle/bullet/body.h"
 #include "vehicle/bullet/drive.h"
 #include "vehicle/bullet/joints.h"
+#include "vehicle/bullet/rest.h"
 #include "vehicle/bullet/rock.h"
 #include "vehicle/bullet/shapes.h"
 #include "vehicle/bullet/wheels.h"
@@ -50,11 +52,20 @@ class BulletMachine {
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
   void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W);
 
+  /// It lies still and takes no part in the step but as what others may come near. Loose bodies of one link alone do.
+  bool asleep() const { return rest_ && rest_->asleep(); }
+  /// For how long it has been still [s]; 0 of what never sleeps.
+  double still() const { return rest_ ? rest_->still() : 0; }
+  /// Something has come near that has been still for so long [s].
+  void wake(double still);
+  /// It is pushed.
+  void disturb();
+
   /// Before the solver: servo demands, drive, tyres on the ground; then gravity and all forces change the velocities.
   void begin_step(const GroundQuery& ground, double dt);
-  void accelerate(const Vec3& gravity, double dt) { tree_.step_velocities(gravity, dt); }
+  void accelerate(const Vec3& gravity, double dt);
   /// After it: positions, efforts, work. `contact`: impulse of the rigid contacts with the ground [N s].
-  void end_step(const Vec3& contact, double dt);
+  void end_step(const GroundQuery& ground, const Vec3& contact, double dt);
 
   /// As they are between two steps; indices of scene::Machine.
   JointState joint(int joint) const { return joints_.state(joint); }
@@ -83,6 +94,8 @@ class BulletMachine {
   void add_rock();
   std::unique_ptr<btMultiBodyLinkCollider> make_collider(const LinkShape& shape, int link);
   void place_colliders();
+  void box(btVector3& low, btVector3& high) const;
+  void set_active(bool active);
 
   // In the order in which each needs the ones before it.
   scene::Machine machine_;
@@ -96,7 +109,8 @@ class BulletMachine {
   std::vector<LinkShape> plates_;  // by shell
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> steel_;
   std::vector<Push> pushes_;  // for the next step
-                              // [N s]; the tyres' part belongs to the present step only.
+  std::optional<Rest> rest_;  // of loose bodies of one link
+  // [N s]; the tyres' part belongs to the present step only.
   Vec3 ground_impulse_ = Vec3::Zero(), tyre_impulse_ = Vec3::Zero(), external_impulse_ = Vec3::Zero();
 };
 

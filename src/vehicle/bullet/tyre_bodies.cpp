@@ -118,6 +118,7 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
     const Vec3 f = terramechanics::tyre_body_force(own.wheels().about(wheel), motion, one->at, dt, bristle);
     // To both, at one place: nothing is lost between them.
     own.tree().add_force(at.wheel_link, f, Vec3::Zero(), one->at.p_W);
+    one->body->machine->disturb();
     one->body->machine->tree().add_force(one->body->link, -f, Vec3::Zero(), one->at.p_W);
     at.body_W += f;
   }

@@ -23,8 +23,9 @@ class WorldConstraint : public btMultiBodyConstraint {
   /// Adds a row: what jacobianA(row) tells of the body's velocity shall become `velocity` within [low, high] impulse.
   void add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
                btMultiBodyJacobianData& data, const btContactSolverInfo& info);
-  /// Adds a row that keeps `gap` [rad|m] open, whose growth jacobianA(row) tells and which changes by `rate` [rad/s|m/s]
-  /// now: from the step on in which it could close, which may use it up, and leaves an overrun slowly. No row before.
+  /// Adds a row that keeps `gap` [rad|m] open, whose growth jacobianA(row) tells and which changes by `rate`
+  /// [rad/s|m/s] now: from the step on in which it could close, which may use it up, and leaves an overrun slowly. No
+  /// row before.
   void add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                 const btContactSolverInfo& info);
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/limits.h"
 #include "vehicle/drive/drive_line.h"
 #include "vehicle/engine.h"
 #include "vehicle/kinematics.h"
@@ -14,7 +15,6 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr std::uint32_t kVersion = 2;
-constexpr double kFarthest = 1e7;  // [m] from the world's origin: no site lies there
 
 struct Body {
   scene::Machine machine;
@@ -131,7 +131,7 @@ class KinematicEngine final : public Engine {
     a.fixed("qd", body.qd);
     a.fixed("input", body.input);
     a("drive", body.drive);
-    a.require(body.X_WB.matrix().allFinite() && body.X_WB.translation().norm() < kFarthest, "X_WB",
+    a.require(body.X_WB.matrix().allFinite() && body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
               "a machine has no finite place, or none near any site");
     // Poses of all links follow from base and joints.
     if (a.loading()) update_links(body);
