@@ -19,15 +19,6 @@ namespace {
 
 using planner::Layer;
 
-bool is_bag(const scene::MapRecord& record) { return record.format == "mcap" || record.format == "bag"; }
-
-/// Formats of more than one file go by the list of a run's folder only where it knows their names.
-std::vector<std::string> files_of(const planner::Format& format, const std::string& stem) {
-  if (format.name == "nav2") return {stem + ".yaml", stem + ".pgm"};
-  if (format.name == "nav2-scale") return {stem + ".yaml", stem + ".png"};
-  return {stem + format.extension};
-}
-
 std::vector<Layer> layers_of(const scene::MapRecord& record) {
   if (record.layers.empty()) return planner::format_named(record.format).by_default;
   std::vector<Layer> out;
@@ -47,12 +38,7 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
       faults.push_back(std::move(fault));
     };
     try {
-      const planner::Format& format = planner::format_named(record.format);
-      // A folder of many files a time is no record.
-      if (format.extension.empty() && !is_bag(record))
-        add(Fault{Fault::Severity::kError, "", 0, "", record.format, "is not written while a scene runs",
-                  "write it afterwards with navvy map"},
-            "format");
+      planner::format_named(record.format);
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }
@@ -116,12 +102,11 @@ void MapRecorder::observe() {
     char number[24];
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(sim::sample_number(world.steps(), world.dt(), record.rate)));
-    std::string first;
-    for (const std::string& file : files_of(format, "maps/" + record.name + number)) {
-      const std::string path = folder_.path(file);
-      if (first.empty()) first = path;
-    }
-    format.write(map, stream->layers, first);
+    // All its files are the run's before they are there.
+    const std::string stem = "maps/" + record.name + number;
+    if (!format.extension.empty()) folder_.path(stem + format.extension);
+    for (const std::string& end : format.others) folder_.path(stem + end);
+    format.write(map, stream->layers, folder_.directory() + "/" + stem + format.extension);
   }
 }
 

@@ -198,6 +198,16 @@ void RunFolder::write_list(const std::string& folder, int file, const std::set<s
 
 namespace {
 
+/// Adds the folders that lie between `folder` and a file in it.
+void add_folders_of(const fs::path& file, const fs::path& folder, std::set<fs::path>& folders) {
+  for (fs::path path = file.parent_path(); path != folder; path = path.parent_path()) folders.insert(path);
+}
+
+/// Empty ones only: what else lies in them is not ours. Inner ones first, which sort behind those that hold them.
+void remove_empty(const std::set<fs::path>& folders) {
+  for (auto path = folders.rbegin(); path != folders.rend(); ++path) ::rmdir(path->c_str());
+}
+
 /// A listed file and what a kill may have left of its writing.
 void remove_listed(const std::string& folder, const std::set<std::string>& names) {
   std::error_code code;
@@ -208,10 +218,9 @@ void remove_listed(const std::string& folder, const std::set<std::string>& names
     if (!fs::is_directory(fs::symlink_status(path, code))) fs::remove(path, code);
     if (code) throw FileError("cannot remove the earlier result '" + path.string() + "': " + code.message());
     fs::remove(partial_name(path.string()), code);
-    if (path.parent_path() != fs::path(folder)) folders.insert(path.parent_path());
+    add_folders_of(path, folder, folders);
   }
-  // Empty ones only: what else lies in them is not ours.
-  for (const fs::path& path : folders) ::rmdir(path.c_str());
+  remove_empty(folders);
 }
 
 }  // namespace
@@ -240,9 +249,9 @@ void RunFolder::begin() {
       fs::create_directories(to.parent_path(), code);
       fs::rename(from, to, code);
       if (code) throw FileError("cannot move '" + from.string() + "' to '" + to.string() + "': " + code.message());
-      if (from.parent_path() != fs::path(directory_)) folders.insert(from.parent_path());
+      add_folders_of(from, directory_, folders);
     }
-    for (const fs::path& path : folders) ::rmdir(path.c_str());
+    remove_empty(folders);
     write_list(previous_, previous_lock_, listed_, false);
     close_previous();
   }

@@ -409,5 +409,28 @@ TEST(Formats, AreFoundByNameOrTheNearestIsTold) {
   EXPECT_THROW(write_geotiff(example(), {}, folder / "map.tif"), Error);
 }
 
+// Two readers that know nothing of each other see the same pixels.
+TEST(Pictures, AreReadByPillowAsTheStandardTells) {
+  if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
+  const char* const script = R"(
+from PIL import Image
+i = Image.open(sys.argv[1])
+i.load()
+assert i.format == 'PNG'
+print(json.dumps([i.width, i.height, len(i.getbands()), list(i.tobytes())]))
+)";
+  const test::Folder folder;
+  write_hillshade(example(), {Layer::kElevation}, folder / "shade.png");
+  write_relief(example(), {Layer::kTraversability}, folder / "good.png");
+  write_nav2_scale(example(), {Layer::kTraversability}, folder / "map.yaml");
+  for (const char* name : {"shade.png", "good.png", "map.png"}) {
+    const nlohmann::json seen = python(folder, script, folder / name);
+    ASSERT_FALSE(seen.is_discarded()) << name;
+    EXPECT_EQ(seen[0], kNx) << name;
+    EXPECT_EQ(seen, python(folder, kPng, folder / name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace navvy::planner

@@ -64,6 +64,21 @@ TEST(RunFolderLock, KeepsOneEarlierRun) {
   EXPECT_EQ(text_of(out + ".previous/frames/left_00001.png"), "2");
 }
 
+TEST(RunFolderLock, FoldersInFoldersGoWithWhatTheyHeld) {
+  const test::Folder folder;
+  const std::string out = folder / "out", deep = "maps/dig_00001/images/img_1.npy";
+  {
+    RunFolder first(out);
+    first.begin();
+    write(first.path(deep), "a map");
+  }
+  run(out, 1);
+  EXPECT_FALSE(fs::exists(out + "/maps"));
+  EXPECT_EQ(text_of(out + ".previous/" + deep), "a map");
+  run(out, 2);
+  EXPECT_FALSE(fs::exists(out + ".previous/maps"));
+}
+
 TEST(RunFolderLock, FilesOfOnesOwnSurviveAnyNumberOfRuns) {
   const test::Folder folder;
   const std::string out = folder / "out";

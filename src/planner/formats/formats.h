@@ -67,10 +67,12 @@ void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const st
 /// A format as the program offers it.
 struct Format {
   std::string name;               ///< "geotiff"
-  std::string extension;          ///< ".tif"
+  std::string extension;          ///< ".tif"; none: a folder
   std::string meaning;            ///< one line
   std::vector<Layer> by_default;  ///< written when none is asked for
   void (*write)(const TerrainMap&, const std::vector<Layer>&, const std::string&) = nullptr;
+  /// Ends of the other files that come with it: ".pgm" beside ".yaml", of a folder "/images/img_1.npy".
+  std::vector<std::string> others = {};
 };
 const std::vector<Format>& formats();
 /// @throws InputError naming the nearest one.
