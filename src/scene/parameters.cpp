@@ -317,7 +317,7 @@ void put(const Writer& w, const Machine& machine) {
 }
 
 void put(const Writer& w, const MachineInWorld& placed) {
-  const auto& [name, machine, X_WM, on_ground, load, program] = placed;
+  [[maybe_unused]] const auto& [name, machine, X_WM, on_ground, load, program, line] = placed;
   put(w, machine);
   w("pose", X_WM);
   w("on_ground", on_ground);

@@ -41,6 +41,7 @@ struct MachineInWorld {
   bool on_ground = true;  ///< z of the pose counts from the ground under the machine
   BedLoad load;
   Program program;
+  int line = 0;  ///< of the scene's file, for messages
 };
 
 /// A camera that records pictures at a rate. The frame in which its two points are given follows from the kind.

@@ -356,6 +356,7 @@ void read_machines(Element& world_element, scene::Scene& world, const Known& kno
       instance.name = instance.machine.name;
       read_instance(*e, instance, world, known, faults);
     }
+    instance.line = e->GetLineNum();
     take_planes(world_element, *e, instance, world, faults);
     if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
       faults.error(*e, instance.name, "there is already a machine of this name", "give this one a <name>");

@@ -49,9 +49,9 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
   return out;
 }
 
-Fault error(const scene::Scene& scene, const std::string& machine, const std::string& value, const std::string& rule,
-            const std::string& remedy) {
-  return {Fault::Severity::kError, scene.file, 0, "include[" + machine + "]", value, rule, remedy};
+Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine, const std::string& value,
+            const std::string& rule, const std::string& remedy) {
+  return {Fault::Severity::kError, scene.file, machine.line, "include[" + machine.name + "]", value, rule, remedy};
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
           if (depth > deepest) deepest = depth, of_a = one.link, of_b = other.link;
         }
       if (!of_a) continue;
-      const std::string &first = scene.machines[a].name, &second = scene.machines[b].name;
-      faults.push_back(error(scene, second, text("%.2f m", deepest),
+      const std::string& first = scene.machines[a].name;
+      faults.push_back(error(scene, scene.machines[b], text("%.2f m", deepest),
                              "it overlaps '" + first + "' at the start: its link '" + of_b->name + "' reaches into '" +
                                  of_a->name + "' of '" + first + "'",
                              "move one of them by its <pose>"));
@@ -107,7 +107,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
       look(X_WL[static_cast<std::size_t>(spin.child)] * Vec3(spin.X_LcJ.translation()), "wheel '" + wheel.joint + "'");
     }
     if (what.empty()) continue;
-    faults.push_back(error(scene, placed.name, text("%.2f m", deepest),
+    faults.push_back(error(scene, placed, text("%.2f m", deepest),
                            "its " + what + " starts with its middle that far below the ground",
                            "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
   }
@@ -135,7 +135,7 @@ StartCheck check_start(const scene::Scene& scene) {
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
       out.faults.push_back(error(
-          scene, scene.machines[m].name, tilt,
+          scene, scene.machines[m], tilt,
           std::string("the machine tips over within its first second") +
               (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its feet"
                                  : ""),

@@ -65,6 +65,7 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
     // The solver knows no file: the message gets the place in the scene that asked for the load.
     Fault fault = error.faults().front();
     fault.file = description.file;
+    fault.line = placed.line;
     fault.element = "include[" + placed.name + "]/" + fault.element;
     throw InputError(fault);
   }

@@ -45,13 +45,13 @@ void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>
 
 TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
   expect_one(faults_of(stone("-0.35", "")),
-             {"w.sdf", "include[stone]", "0.35 m", "link 'rock' starts with its middle that far below the ground",
+             {"w.sdf:", "include[stone]", "0.35 m", "link 'rock' starts with its middle that far below the ground",
               "raise it by its <pose>"});
 }
 
 TEST(StartCheck, NamesAWheelThatStartsBelowTheGround) {
   // The wheels' centres are 0.525 m up; the chassis stays above.
-  expect_one(faults_of(digger("-0.8")), {"w.sdf", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
+  expect_one(faults_of(digger("-0.8")), {"w.sdf:", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
 }
 
 TEST(StartCheck, LetsABodyLieInTheGroundToItsMiddleAndAMachineSink) {
