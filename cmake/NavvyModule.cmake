@@ -37,6 +37,9 @@ if(NAVVY_FUZZ)
   if(NAVVY_FUZZ_SANITIZE)
     target_compile_options(navvy_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined)
     target_link_options(navvy_flags INTERFACE -fsanitize=address,undefined)
+  else()
+    # Built for speed: comparisons are watched in the walks under sanitizers, and take a third of the time.
+    target_compile_options(navvy_flags INTERFACE -fno-sanitize-coverage=trace-cmp,indirect-calls)
   endif()
 endif()
 
