@@ -17,8 +17,8 @@ std::vector<Fault> check_records(const scene::Scene& scene);
 
 /// Writes each record of the scene at its rate, into the run's folder: a format of one instant as
 /// `maps/<name>_<number>.<extension>` (`terra` as a folder), the number counting periods from time zero; `mcap` and
-/// `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run, with clock, tf, odometry and joint states
-/// of all machines. Costs nothing in steps in which none is due; then a map brought up to date and the file.
+/// `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run, with clock, tf, odometry and joint
+/// states of all machines. Costs nothing in steps in which none is due; then a map brought up to date and the file.
 class MapRecorder {
  public:
   /// @throws InputError as check_records, FileError.
