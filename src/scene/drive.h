@@ -45,7 +45,25 @@ struct DifferentialDrive : Powertrain {
   double track = 0.5;  ///< between the middles of left and right wheels [m]; of skid-steered machines an effective one
 };
 
-using Drive = std::variant<AckermannDrive, DifferentialDrive>;
+/// An open differential, and two steered wheels that one motor turns through a trapezoid of arms and tie rod, which
+/// meets a common centre only nearly. It steers by the motor's position [rad, at the motor], positive to the left.
+struct LinkageDrive : AckermannDrive {
+  static constexpr const char* kName = "linkage";
+  static constexpr const char* kSteerUnit = "rad";
+  static constexpr const char* kSteerMeaning = "position of the steering motor, positive to the left";
+
+  double arm = 0.2;       ///< from a king pin to the tie rod [m]
+  double tie_rod = 1.77;  ///< [m]; shorter than the track behind the axle, longer ahead of it
+  bool ahead = false;     ///< the arms point ahead, else backwards
+  double gear_ratio = 1;  ///< turns of the motor for one of the left wheel's king pin
+};
+/// From the left king pin to its arm's end in M with the wheels straight [m]; not finite where the tie rod does not
+/// reach.
+Vec2 steering_arm(const LinkageDrive& drive);
+/// Whether the linkage turns the inner wheel as far as `max_steer` without locking.
+bool turns_freely(const LinkageDrive& drive);
+
+using Drive = std::variant<AckermannDrive, DifferentialDrive, LinkageDrive>;
 
 /// What all kinds share.
 inline const Powertrain& powertrain(const Drive& drive) {

@@ -252,6 +252,13 @@ void put(const Writer& w, const AckermannDrive& drive) {
   w("steer_rate", drive.steer_rate);
 }
 void put(const Writer& w, const DifferentialDrive& drive) { w("track", drive.track); }
+void put(const Writer& w, const LinkageDrive& drive) {
+  put(w, static_cast<const AckermannDrive&>(drive));
+  w("arm", drive.arm);
+  w("tie_rod", drive.tie_rod);
+  w("ahead", drive.ahead);
+  w("gear_ratio", drive.gear_ratio);
+}
 
 void put(const Writer& w, const Drive& drive) {
   w("type", drive_name(drive));

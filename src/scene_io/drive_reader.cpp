@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/drive_reader.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "scene_io/fields.h"
@@ -17,14 +18,35 @@ Fields& read_powertrain(Fields& fields, scene::Powertrain& powertrain) {
       .number("brake_force_n", powertrain.brake_force, {0, 1e7});
 }
 
-void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
-  Fields fields(element, faults);
-  read_powertrain(fields, drive)
+Fields& read_steering(Fields& fields, scene::AckermannDrive& drive) {
+  return read_powertrain(fields, drive)
       .number("max_steer_deg", drive.max_steer, {0, 80}, kDegree)
       .number("wheelbase_m", drive.wheelbase, {0.01, 50})
       .number("track_m", drive.track, {0.01, 50})
-      .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree)
+      .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree);
+}
+
+void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_steering(fields, drive).finish();
+}
+
+void read_kind(Element& element, scene::LinkageDrive& drive, Faults& faults) {
+  Fields fields(element, faults);
+  read_steering(fields, drive)
+      .number("arm_m", drive.arm, {0.001, 5})
+      .number("tie_rod_m", drive.tie_rod, {0.01, 50})
+      .required("arm_m")
+      .required("tie_rod_m")
+      .flag("ahead", drive.ahead)
+      .number("gear_ratio", drive.gear_ratio, {0.001, 1e4})
       .finish();
+  if (scene::turns_freely(drive)) return;
+  faults.error(element, "tie_rod_m " + std::to_string(drive.tie_rod),
+               scene::steering_arm(drive).allFinite()
+                   ? "the linkage locks before a wheel is at max_steer_deg"
+                   : "the tie rod does not reach from arm to arm: it differs from track_m by more than twice arm_m",
+               "a tie rod nearer to track_m, a longer arm_m, a smaller max_steer_deg");
 }
 
 void read_kind(Element& element, scene::DifferentialDrive& drive, Faults& faults) {
@@ -51,6 +73,13 @@ void check_kind(const Element& element, const scene::DifferentialDrive&, const s
                  "set <driven>true</driven> in wheels of both sides");
 }
 void check_kind(const Element&, const scene::AckermannDrive&, const scene::Machine&, Faults&) {}
+void check_kind(const Element& element, const scene::LinkageDrive&, const scene::Machine& machine, Faults& faults) {
+  const auto steered = std::count_if(machine.wheels.begin(), machine.wheels.end(),
+                                     [](const scene::Wheel& wheel) { return !wheel.steer_joint.empty(); });
+  if (steered != 2)
+    faults.error(element, std::to_string(steered), "a steering linkage turns two wheels",
+                 "give <steer_joint> to the two wheels between which the tie rod lies");
+}
 
 }  // namespace
 
@@ -78,7 +107,7 @@ scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
 scene::Drive read_drive(Element& element, Faults& faults) {
   const std::string type = attribute(element, "type");
   // Every kind of the variant by its name, so that a new one is offered here as soon as it has a read_kind.
-  const std::vector<scene::Drive> kinds = {scene::AckermannDrive(), scene::DifferentialDrive()};
+  const std::vector<scene::Drive> kinds = {scene::AckermannDrive(), scene::DifferentialDrive(), scene::LinkageDrive()};
   std::vector<std::string> names;
   for (scene::Drive drive : kinds) {
     names.push_back(scene::drive_name(drive));

@@ -21,7 +21,7 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle);
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 
 /// One governor turns all driven wheels together; each gets the same torque.
-class AckermannLine final : public DriveLine {
+class AckermannLine : public DriveLine {
  public:
   /// @param wheels of the machine; the driven ones are one group.
   AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels);

@@ -3,6 +3,7 @@
 
 #include "vehicle/drive/ackermann.h"
 #include "vehicle/drive/differential.h"
+#include "vehicle/drive/linkage.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -13,6 +14,9 @@ std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive, const std
 }
 std::unique_ptr<DriveLine> line_of(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels) {
   return std::make_unique<DifferentialLine>(drive, wheels);
+}
+std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive, const std::vector<DriveWheel>& wheels) {
+  return std::make_unique<LinkageLine>(drive, wheels);
 }
 
 }  // namespace
