@@ -125,6 +125,24 @@ struct Wheel {
   double rolling_resistance = 0.02;  ///< share of the load [-]
 };
 
+/// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a real robot hands it to its
+/// controller [docs/machines.md, encoders]. It measures the joint and may be told to measure wrongly.
+struct Encoder {
+  std::string joint;
+  double counts_per_turn = 4096;  ///< of the joint, gears included [1]
+  int bits = 16;                  ///< of the counter: it goes from 0 to 2^bits - 1
+  double slip = 0;                ///< longitudinal slip that the counts pretend, s = 1 - v / (w r) [-]
+  double missed = 0;              ///< share of the counts that are lost, by chance [-]
+};
+
+/// Two levers of an excavator's operator, [ISO 10968] or the pattern of backhoes with boom and stick exchanged.
+struct Levers {
+  enum class Pattern { kIso, kSae };
+  bool given = false;  ///< by the machine's file
+  Pattern pattern = Pattern::kIso;
+  double dead_band = 0.05;  ///< share of a lever's way either side of its middle that opens no valve [-]
+};
+
 /// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate, bed. The triangles'
 /// front is the inside. Edges used by one triangle only are free edges (lip, rim). It has two sides and a thickness and
 /// may be open: what it holds is the soil on its front [docs/tools.md, shells].
@@ -193,6 +211,8 @@ struct Machine {
   std::vector<Bed> beds;
   Arm arm;
   Traversability traversability;
+  std::vector<Encoder> encoders;  ///< one a joint at most
+  Levers levers;
   // What the file leaves to be derived, in words: collision shapes from visuals, masses from densities.
   std::vector<std::string> derived;
 

@@ -282,9 +282,17 @@ void put(const Writer& w, const Shell& shell) {
   w("adhesion_share", shell.adhesion_share);
 }
 
+void put(const Writer& w, const Encoder& encoder) {
+  const auto& [joint, counts_per_turn, bits, slip, missed] = encoder;
+  w("counts_per_turn", counts_per_turn);
+  w("bits", bits);
+  w("slip", slip);
+  w("missed", missed);
+}
+
 void put(const Writer& w, const Machine& machine) {
   const auto& [name, file, kinematic, fixed_base, links, joints, cylinders, has_pump, pump, wheels, has_drive, drive,
-               shells, buckets, beds, arm, traversability, derived] = machine;
+               shells, buckets, beds, arm, traversability, encoders, levers, derived] = machine;
   w("kinematic", kinematic);
   w("fixed_base", fixed_base);
   for (const Link& link : links) put(w.at("link", link.name), link);
@@ -321,6 +329,11 @@ void put(const Writer& w, const Machine& machine) {
   }
   const auto& [swing, boom, stick, bucket] = arm;
   w("arm", swing + " " + boom + " " + stick + " " + bucket);
+  for (const Encoder& encoder : encoders) put(w.at("encoder", encoder.joint), encoder);
+  const auto& [given, pattern, dead_band] = levers;
+  // Usual levers do nothing that a machine without any could do otherwise: it hashes as before there were any.
+  if (given && pattern != Levers().pattern) w("levers/pattern", static_cast<int>(pattern));
+  if (given && dead_band != Levers().dead_band) w("levers/dead_band", dead_band);
 }
 
 void put(const Writer& w, const MachineInWorld& placed) {

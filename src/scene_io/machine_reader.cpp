@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/machine_reader.h"
 
+#include "scene_io/channel_reader.h"
 #include "scene_io/derived_parts.h"
 #include "scene_io/drive_reader.h"
 #include "scene_io/fields.h"
@@ -210,6 +211,7 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
       beds.push_back(e);
     }
     if (kind == "navvy:arm") read_arm(*e, names, machine, faults);
+    if (kind == "navvy:encoder") read_encoder(*e, names, machine, faults);
     if (kind == "navvy:traversability") read_traversability(*e, machine.traversability, faults);
     if (kind == "navvy:joint" && has_joints) read_initial_position(*e, machine, faults);
     if (kind == "navvy:pump") {
@@ -228,6 +230,8 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
         faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>");
     }
   }
+  // After the arm, wherever it stands in the file.
+  if (Element* levers = model.FirstChildElement("navvy:levers")) read_levers(*levers, machine, faults);
   for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
   if (drive != nullptr && has_joints && !machine.wheels.empty()) check_wheels(*drive, machine, faults);
 }

@@ -190,6 +190,9 @@ void Resolver::include(Element& element) {
       if (text_of(*child) != "true" && text_of(*child) != "1") continue;
       while (Element* own = inlined.FirstChildElement("static")) inlined.DeleteChild(own);
     }
+    // The scene's choice takes the place of the file's.
+    if (is_called(child, "navvy:engine"))
+      while (Element* own = inlined.FirstChildElement("navvy:engine")) inlined.DeleteChild(own);
     inlined.InsertEndChild(child->DeepClone(element.GetDocument()));
   }
   // In its place, as machines are numbered in the order of the file.

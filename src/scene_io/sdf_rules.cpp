@@ -251,6 +251,9 @@ const Extension kExtensions[] = {
     {"model", "navvy:on_ground"},
     {"model", "navvy:joint"},
     {"model", "navvy:engine"},
+    {"include", "navvy:engine"},
+    {"model", "navvy:encoder"},
+    {"model", "navvy:levers"},
     {"model", "navvy:arm"},
     {"model", "navvy:cylinder"},
     {"model", "navvy:wheel"},
@@ -349,9 +352,10 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
 bool may_repeat(const char* name) {
   // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
   // first and drop the others.
-  for (const char* repeatable : {"model", "include", "light", "link", "joint", "frame", "visual", "collision", "plugin",
-                                 "sensor", "physics", "navvy:soil", "navvy:camera", "navvy:record", "navvy:joint",
-                                 "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket"})
+  for (const char* repeatable :
+       {"model",       "include",        "light",       "link",        "joint",        "frame",        "visual",
+        "collision",   "plugin",         "sensor",      "physics",     "navvy:soil",   "navvy:camera", "navvy:record",
+        "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket", "navvy:encoder"})
     if (std::strcmp(name, repeatable) == 0) return true;
   return false;
 }

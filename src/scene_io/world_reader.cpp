@@ -229,6 +229,18 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
     instance.program = read_program(*e, known.kinds, &instance.machine, known.ground ? &world.ground : nullptr, faults);
 }
 
+/// A scene may move a machine by its commands alone that its file gives masses; it cannot give masses to one without.
+void choose_engine(const Element& engine, scene::Machine& machine, Faults& faults) {
+  const std::string value = text_of(engine);
+  if (value != "kinematic" && value != "dynamic")
+    faults.error(engine, value, "must be dynamic or kinematic");
+  else if (value == "dynamic" && machine.kinematic)
+    faults.error(engine, value, "the machine's own file says kinematic: its links need no masses",
+                 "set <navvy:engine>dynamic</navvy:engine> in " + machine.file);
+  else if (value == "kinematic")
+    machine.kinematic = true;
+}
+
 scene::MachineInWorld read_include(Element& element, const scene::Scene& world, const Known& known, Faults& faults) {
   scene::MachineInWorld instance;
   Element* uri = element.FirstChildElement("uri");
@@ -250,6 +262,8 @@ scene::MachineInWorld read_include(Element& element, const scene::Scene& world, 
   if (const Element* name = element.FirstChildElement("name")) check_name(*name, instance.name, faults);
   const std::string is_static = child_text(element, "static");
   if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
+  if (const Element* engine = element.FirstChildElement("navvy:engine"))
+    choose_engine(*engine, instance.machine, faults);
   read_instance(element, instance, world, known, faults);
   return instance;
 }

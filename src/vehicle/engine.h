@@ -35,6 +35,11 @@ class Engine {
   /// The command the drive follows now.
   virtual DriveInput drive(int machine) const = 0;
 
+  /// Moves a base that no forces move. @throws InputError from an engine with forces.
+  virtual void set_base(int machine, const BaseInput& input);
+  /// The place it is on its way to, or where it is as long as nothing was told.
+  virtual BaseInput base(int machine) const;
+
   /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
   /// articulated inertia. Counted in `external_impulse`.
   virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) = 0;

@@ -18,6 +18,8 @@ constexpr double kLeastShare = 0.01;  // of the oil asked for
 
 double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const {
   double wanted = input_.target;
+  // All of it is what the actuator can do here and now, another speed up than down.
+  if (input_.mode == JointMode::kOpening) wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
   if (input_.mode == JointMode::kPosition) {
     // A target beyond a stop is the stop: the servo brakes for it as for any other place.
     const double target = joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
@@ -64,7 +66,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   // Short of oil all functions slow down by one share; the valve stays as open as it is.
   const double flowing = share_ * velocity_;
   out.velocity = flowing;
-  if (input_.mode == JointMode::kVelocity) {
+  if (input_.mode != JointMode::kPosition) {
     // A velocity of zero is no brake by itself: what solver errors and loads shift is driven back.
     if (!holding_ || saturated_) held_ = q;
     holding_ = true;

@@ -46,7 +46,7 @@ class JointServo {
 
  private:
   static constexpr double kStallTime = 0.05;  // [s] shorter is the solver's own settling
-  bool has_valve() const { return input_.mode == JointMode::kPosition || input_.mode == JointMode::kVelocity; }
+  bool has_valve() const { return input_.mode != JointMode::kFree && input_.mode != JointMode::kEffort; }
   double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const;
 
   JointInput input_;

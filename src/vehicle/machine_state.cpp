@@ -5,8 +5,14 @@ namespace navvy::vehicle {
 
 // Commands are held until replaced, so they are part of the state of whoever holds them.
 void JointInput::visit(Archive& a) {
-  a.ranged("mode", mode, JointMode::kFree, JointMode::kEffort);
+  a.ranged("mode", mode, JointMode::kFree, JointMode::kOpening);
   a("target", target);
+}
+
+void BaseInput::visit(Archive& a) {
+  a("p_W", p_W);
+  a("angles", angles);
+  a("duration", duration);
 }
 
 void DriveInput::visit(Archive& a) {

@@ -9,14 +9,24 @@
 
 namespace navvy::vehicle {
 
-/// How a joint is commanded: not at all (it swings freely), to a place, at a rate, or by an effort.
-enum class JointMode { kFree, kPosition, kVelocity, kEffort };
+/// How a joint is commanded: not at all (it swings freely), to a place, at a rate, by an effort, or by how far its
+/// valve is open, as a lever does it.
+enum class JointMode { kFree, kPosition, kVelocity, kEffort, kOpening };
 
 /// Command of one joint; held until replaced. Position and velocity servos are limited by effort, velocity and, where a
 /// cylinder acts on the joint, by its pressure x area x lever arm, its flow and its share of the pump's.
 struct JointInput {
   JointMode mode = JointMode::kPosition;
-  double target = 0;  ///< [rad|m], [rad/s|m/s] or [N m|N]
+  double target = 0;  ///< [rad|m], [rad/s|m/s], [N m|N], or -1 to 1: share of the speed it can have where it is
+
+  void visit(Archive& a);
+};
+
+/// Where the base link of a machine without masses shall be; held until replaced, and until its drive is commanded.
+struct BaseInput {
+  Vec3 p_W = Vec3::Zero();     ///< of the base link's origin [m]
+  Vec3 angles = Vec3::Zero();  ///< fixed-axis roll, pitch and yaw, yaw last [rad]
+  double duration = 0.1;       ///< it gets there evenly within this time, at once (in a step) with 0 [s]
 
   void visit(Archive& a);
 };

@@ -127,7 +127,7 @@ TEST(JointServo, HashesEveryByteItSaves) {
   EXPECT_EQ(test::flip_every_byte(servo, target), "");
   // A mode beyond the last is no command.
   std::vector<char> bytes = saved(servo);
-  bytes[0] = 4;
+  bytes[0] = 5;
   EXPECT_THROW(load_saved(bytes, target), InputError);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "core/saved_state.h"
 #include "vehicle/machines.h"
 
@@ -50,6 +51,55 @@ TEST(KinematicEngine, DrivesTheExactArc) {
   EXPECT_NEAR(X.translation().z(), ground.height(X.translation().x(), X.translation().y()), 1e-9);
   EXPECT_NEAR(engine->wheel(0, 2).spin, 1 / 0.525, 1e-9);
   EXPECT_GT(engine->wheel(0, 0).steer, engine->wheel(0, 1).steer);
+}
+
+TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
+  auto engine = make_kinematic_engine();
+  engine->add_machine(arm(), make_pose(1, 2, 0.5));
+  EXPECT_EQ(engine->base(0).p_W, Vec3(1, 2, 0.5));
+  engine->set_base(0, {Vec3(2, 2, 0.5), Vec3(0, 0, 4), 0.5});
+  run(*engine, flat(), 0.25, kStep);
+  const LinkState half = engine->link(0, 0);
+  EXPECT_NEAR(half.X_WL.translation().x(), 1.5, 1e-12);
+  EXPECT_NEAR(half.v_WL.x(), 2, 1e-9);
+  // The short way round: 4 rad are 2.28 to the right.
+  EXPECT_NEAR(half.w_WL.z(), (4 - 2 * kPi) / 0.5, 1e-9);
+  EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi), 1e-12);
+  run(*engine, flat(), 0.5, kStep);
+  const LinkState there = engine->link(0, 0);
+  EXPECT_EQ(there.X_WL.matrix(), make_pose(2, 2, 0.5, 0, 0, 4).matrix());
+  EXPECT_TRUE(there.v_WL.isZero() && there.w_WL.isZero());
+  // At once, in all six, and its links go along.
+  engine->set_base(0, {Vec3(0, 1, 2), Vec3(0.1, -0.2, 0.3), 0});
+  engine->step(kStep, flat());
+  EXPECT_EQ(engine->link(0, 0).X_WL.matrix(), make_pose(0, 1, 2, 0.1, -0.2, 0.3).matrix());
+  EXPECT_LT((engine->link(0, 2).X_WL.translation() - Vec3(0, 1, 2)).norm(), 9);
+}
+
+TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
+  const auto build = [] {
+    auto engine = make_kinematic_engine();
+    engine->add_machine(cart(), Pose::Identity());
+    return engine;
+  };
+  auto whole = build(), resumed = build();
+  whole->set_drive(0, {1, 0, false});
+  whole->set_base(0, {Vec3(0, 3, 1), Vec3(0, 0, 0), 1});
+  run(*whole, flat(), 0.5, kStep);
+  load_saved(saved(*whole), *resumed);
+  for (Engine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
+  EXPECT_EQ(digest(*resumed), digest(*whole));
+  EXPECT_EQ(whole->link(0, 0).X_WL.translation(), Vec3(0, 3, 1));
+  whole->set_drive(0, {1, 0, false});
+  run(*whole, flat(), 1, kStep);
+  // On the ground again, ahead from where it was put.
+  EXPECT_LT((whole->link(0, 0).X_WL.translation() - Vec3(1, 3, 0)).norm(), 1e-9);
+}
+
+TEST(KinematicEngine, AloneMovesABaseAsTold) {
+  auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
+  engine->add_machine(testing::box(), make_pose(0, 0, 1));
+  EXPECT_THROW(engine->set_base(0, {}), InputError);
 }
 
 TEST(KinematicEngine, ResumesEqual) {

@@ -5,6 +5,13 @@
 #include <cmath>
 
 namespace navvy::vehicle {
+namespace {
+
+// Wheels may be commanded across the machine, where no bicycle follows: bounds that no drive's own angles reach.
+constexpr double kLeastShare = 0.05;
+constexpr double kSharpest = 20;  // tangent of a bicycle angle
+
+}  // namespace
 
 double max_bicycle_angle(const scene::AckermannDrive& drive) {
   // A wheel across the machine would be an infinite tangent.
@@ -21,12 +28,32 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle) {
 }
 
 AckermannLine::AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels)
-    : DriveLine(drive, {all_driven(wheels)}), drive_(drive) {}
+    : DriveLine(drive, {all_driven(wheels)}), drive_(drive), wheels_(wheels) {}
 
 Roll AckermannLine::roll(const DriveInput& input) const {
   const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
   const double most = max_bicycle_angle(drive_);
   return {speed, speed * std::tan(std::clamp(input.steer, -most, most)) / drive_.wheelbase};
+}
+
+Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
+  double speed = 0, tangent = 0;
+  int driven = 0, steered = 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    if (wheels_[w].driven) {
+      speed += motion[w].spin * wheels_[w].radius;
+      ++driven;
+    }
+    if (!motion[w].steer) continue;
+    // The bicycle's tangent by this wheel alone: ackermann() the other way round, the left wheel the inner one. Angles
+    // that do not fit each other drag a wheel, and the machine follows their mean.
+    const double t = std::tan(*motion[w].steer), half = 0.5 * drive_.track / drive_.wheelbase;
+    const double share = std::max(wheels_[w].left ? 1 + half * t : 1 - half * t, kLeastShare);
+    tangent += std::clamp(t / share, -kSharpest, kSharpest);
+    ++steered;
+  }
+  speed /= std::max(driven, 1);
+  return {speed, speed * tangent / std::max(steered, 1) / drive_.wheelbase};
 }
 
 double AckermannLine::rolling_spin(const Roll& roll, const DriveWheel& wheel) const {

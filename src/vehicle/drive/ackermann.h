@@ -26,6 +26,7 @@ class AckermannLine : public DriveLine {
   /// @param wheels of the machine; the driven ones are one group.
   AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels);
   Roll roll(const DriveInput& input) const override;
+  Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
   double steer_rate() const override { return drive_.steer_rate; }
@@ -35,6 +36,7 @@ class AckermannLine : public DriveLine {
   double group_speed(const DriveInput& input, std::size_t group) const override;
 
   scene::AckermannDrive drive_;
+  std::vector<DriveWheel> wheels_;
 };
 
 /// What drive_line.h asks of every kind, see there.

@@ -22,12 +22,25 @@ SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& 
 }
 
 DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels)
-    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}), drive_(drive) {}
+    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}), drive_(drive), wheels_(wheels) {}
 
 Roll DifferentialLine::roll(const DriveInput& input) const {
   if (input.brake) return {};
   const SideSpeeds sides = side_speeds(drive_, input);
   // From the sides as they were cut, so that speed and yaw rate are those the wheels can do.
+  return {0.5 * (sides.left + sides.right), (sides.right - sides.left) / drive_.track};
+}
+
+Roll DifferentialLine::rolled(const std::vector<WheelMotion>& motion) const {
+  SideSpeeds sides;
+  int left = 0, right = 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    if (!wheels_[w].driven) continue;
+    (wheels_[w].left ? sides.left : sides.right) += motion[w].spin * wheels_[w].radius;
+    ++(wheels_[w].left ? left : right);
+  }
+  sides.left /= std::max(left, 1);
+  sides.right /= std::max(right, 1);
   return {0.5 * (sides.left + sides.right), (sides.right - sides.left) / drive_.track};
 }
 

@@ -24,6 +24,7 @@ class DifferentialLine final : public DriveLine {
  public:
   DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels);
   Roll roll(const DriveInput& input) const override;
+  Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Nothing: it turns no wheels. Casters swivel by themselves.
   std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
@@ -33,6 +34,7 @@ class DifferentialLine final : public DriveLine {
   double group_speed(const DriveInput& input, std::size_t group) const override;
 
   scene::DifferentialDrive drive_;
+  std::vector<DriveWheel> wheels_;
 };
 
 /// What drive_line.h asks of every kind, see there.

@@ -30,6 +30,12 @@ struct WheelTurn {
   double spin_inertia = 0;  ///< [kg m2]
 };
 
+/// How a wheel moves, for engines that move the machine by it.
+struct WheelMotion {
+  double spin = 0;              ///< positive rolls forward [rad/s]
+  std::optional<double> steer;  ///< of its steering joint [rad]; none: it has none
+};
+
 /// How the machine's frame moves while no wheel slips.
 struct Roll {
   double speed = 0;     ///< along x of M [m/s]
@@ -47,6 +53,9 @@ class DriveLine {
   /// Where the command takes the machine, its limits of speed and steering kept; nowhere under the brake. Yaw rate is
   /// speed x curvature for a kind that steers by an angle.
   virtual Roll roll(const DriveInput& input) const = 0;
+  /// Where wheels take the machine that turn and are steered so, `motion` by wheel: the mean of the driven wheels of a
+  /// side, or of all, rolls without slip; the others follow.
+  virtual Roll rolled(const std::vector<WheelMotion>& motion) const = 0;
   /// Spin [rad/s] of a wheel that rolls along.
   virtual double rolling_spin(const Roll& roll, const DriveWheel& wheel) const = 0;
   /// Angle [rad] of a wheel's steering joint; nothing from a kind that does not turn wheels.

@@ -2,6 +2,7 @@
 // Machines moved by their commands alone: joints go where they are told at limited rates, nothing pushes back.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 struct Body {
   scene::Machine machine;
@@ -22,7 +23,11 @@ struct Body {
   Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();
   std::vector<JointInput> input;
   std::vector<double> q, qd;
+  std::vector<std::uint8_t> taken;  // by joint: a command has it, of those that the drive moves
   DriveInput drive;
+  bool placed = false;  // base inputs move it, not its drive
+  BaseInput goal;
+  double left = 0;                  // of the time to get there [s]
   std::unique_ptr<DriveLine> line;  // asked where to roll; nothing here has torques
   std::vector<DriveWheel> wheels;   // by wheel
   std::vector<LinkState> links;
@@ -47,6 +52,7 @@ class KinematicEngine final : public Engine {
     body.wheels = drive_wheels(machine);
     body.q.resize(machine.joints.size());
     body.qd.assign(machine.joints.size(), 0);
+    body.taken.assign(machine.joints.size(), 0);
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       body.q[j] = machine.joints[j].initial;
       body.input.push_back({JointMode::kPosition, body.q[j]});
@@ -58,10 +64,30 @@ class KinematicEngine final : public Engine {
   int machine_count() const override { return static_cast<int>(bodies_.size()); }
 
   void set_joint(int machine, int joint, const JointInput& input) override {
-    at(machine).input.at(index(joint)) = input;
+    Body& body = at(machine);
+    body.input.at(index(joint)) = input;
+    // Taken from the drive until its next command.
+    body.taken[index(joint)] = 1;
   }
-  void set_drive(int machine, const DriveInput& input) override { at(machine).drive = input; }
+  void set_drive(int machine, const DriveInput& input) override {
+    Body& body = at(machine);
+    body.drive = input;
+    body.placed = false;
+    for (const scene::Wheel& wheel : body.machine.wheels)
+      for (const int joint : {body.machine.joint_index(wheel.joint), body.machine.joint_index(wheel.steer_joint)})
+        if (body.machine.has_drive && joint >= 0 && body.taken[index(joint)] != 0) {
+          body.taken[index(joint)] = 0;
+          body.input[index(joint)] = {JointMode::kFree, 0};
+        }
+  }
   DriveInput drive(int machine) const override { return at(machine).drive; }
+  void set_base(int machine, const BaseInput& input) override {
+    Body& body = at(machine);
+    body.placed = true;
+    body.goal = input;
+    body.left = input.duration;
+  }
+  BaseInput base(int machine) const override { return at(machine).placed ? at(machine).goal : Engine::base(machine); }
   // Nothing pushes it: impulses and forces are swallowed.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
@@ -71,7 +97,10 @@ class KinematicEngine final : public Engine {
     for (Body& body : bodies_) {
       // Joints first: a drive may then say otherwise of its wheels' joints for the next step.
       move_joints(body, dt);
-      if (body.machine.has_drive) move_base(body, ground, dt);
+      if (body.placed)
+        move_to_goal(body, dt);
+      else if (body.machine.has_drive)
+        move_base(body, ground, dt);
       update_links(body);
     }
   }
@@ -130,11 +159,30 @@ class KinematicEngine final : public Engine {
     a.fixed("q", body.q);
     a.fixed("qd", body.qd);
     a.fixed("input", body.input);
+    a.fixed("taken", body.taken);
     a("drive", body.drive);
+    a("placed", body.placed);
+    a("goal", body.goal);
+    a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
+    a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() && body.goal.p_W.norm() < limits::kFarthest,
+              "goal", "a machine is on its way to no finite place, or to none near any site");
     a.require(body.X_WB.matrix().allFinite() && body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
               "a machine has no finite place, or none near any site");
     // Poses of all links follow from base and joints.
     if (a.loading()) update_links(body);
+  }
+
+  /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where it stands, if it has
+  /// one, and no more than the joint's own.
+  static double opened_speed(const Body& body, std::size_t j, double opening) {
+    const scene::Joint& joint = body.machine.joints[j];
+    double most = joint.velocity;
+    for (const scene::Cylinder& cylinder : body.machine.cylinders) {
+      if (cylinder.joint != joint.name) continue;
+      const CylinderLimits limits = cylinder_limits(body.machine, cylinder, body.q[j]);
+      most = std::min(most, opening > 0 ? limits.speed_positive : limits.speed_negative);
+    }
+    return std::clamp(opening, -1.0, 1.0) * most;
   }
 
   static void move_joints(Body& body, double dt) {
@@ -144,6 +192,7 @@ class KinematicEngine final : public Engine {
       double wanted = body.q[j];
       if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
+      if (body.input[j].mode == JointMode::kOpening) wanted += dt * opened_speed(body, j, body.input[j].target);
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
       // At the joint's largest rate at once: no inertia, no valve.
       const double most = joint.velocity * dt;
@@ -153,23 +202,46 @@ class KinematicEngine final : public Engine {
     }
   }
 
-  /// Rolls without slip along the drive's arc, standing on the ground under its middle.
-  void move_base(Body& body, const GroundQuery& ground, double dt) const {
-    const Roll roll = body.line->roll(body.drive);
-    const double speed = roll.speed, rate = roll.yaw_rate;
-    for (std::size_t w = 0; w < body.machine.wheels.size(); ++w) {
+  /// Where the machine rolls in this step: as the drive says, or as its wheels turn and steer where a command has taken
+  /// one of them. Turns those wheels that the drive moves.
+  static Roll move_wheels(Body& body, double dt) {
+    const Roll told = body.line->roll(body.drive);
+    std::vector<WheelMotion> motion(body.machine.wheels.size());
+    bool any_taken = false;
+    for (std::size_t w = 0; w < motion.size(); ++w) {
       const scene::Wheel& wheel = body.machine.wheels[w];
       const int spin = body.machine.joint_index(wheel.joint), turn = body.machine.joint_index(wheel.steer_joint);
       if (spin >= 0) {
-        body.qd[index(spin)] = body.line->rolling_spin(roll, body.wheels[w]);
-        body.q[index(spin)] += dt * body.qd[index(spin)];
-        body.input[index(spin)] = {JointMode::kFree, 0};
+        if (body.taken[index(spin)] == 0 && body.wheels[w].driven) turn_wheel(body, w, spin, told, dt);
+        any_taken |= body.taken[index(spin)] != 0 && body.wheels[w].driven;
+        motion[w].spin = body.qd[index(spin)];
       }
       if (turn < 0) continue;
       // Steered joints follow at their own rate in the next step; the base is on its arc at once.
-      if (const auto angle = body.line->steer_angle(body.drive, body.wheels[w]))
-        body.input[index(turn)] = {JointMode::kPosition, *angle};
+      const auto angle = body.line->steer_angle(body.drive, body.wheels[w]);
+      if (angle && body.taken[index(turn)] == 0) body.input[index(turn)] = {JointMode::kPosition, *angle};
+      any_taken |= body.taken[index(turn)] != 0;
+      motion[w].steer = body.q[index(turn)];
     }
+    const Roll roll = any_taken ? body.line->rolled(motion) : told;
+    // The others roll along, wherever that goes.
+    for (std::size_t w = 0; w < motion.size(); ++w) {
+      const int spin = body.machine.joint_index(body.machine.wheels[w].joint);
+      if (spin >= 0 && body.taken[index(spin)] == 0 && !body.wheels[w].driven) turn_wheel(body, w, spin, roll, dt);
+    }
+    return roll;
+  }
+  /// Wheel `w` on joint `spin` rolls along; its joint is nobody's but the drive's.
+  static void turn_wheel(Body& body, std::size_t w, int spin, const Roll& roll, double dt) {
+    body.qd[index(spin)] = body.line->rolling_spin(roll, body.wheels[w]);
+    body.q[index(spin)] += dt * body.qd[index(spin)];
+    body.input[index(spin)] = {JointMode::kFree, 0};
+  }
+
+  /// Rolls without slip along the arc of drive or wheels, standing on the ground under its middle.
+  static void move_base(Body& body, const GroundQuery& ground, double dt) {
+    const Roll roll = move_wheels(body, dt);
+    const double speed = roll.speed, rate = roll.yaw_rate;
     const double yaw = std::atan2(body.X_WB.linear()(1, 0), body.X_WB.linear()(0, 0));
     // The midpoint's heading: the arc's chord up to third order in the step.
     const double mean = yaw + 0.5 * rate * dt;
@@ -180,6 +252,24 @@ class KinematicEngine final : public Engine {
     body.v_W = (next - p) / dt;
     body.w_W = Vec3(0, 0, rate);
     body.X_WB = make_pose(next.x(), next.y(), next.z(), 0, 0, yaw + rate * dt);
+  }
+
+  /// By a share of what is left, so that it arrives with the time; the turn goes the short way round.
+  static void move_to_goal(Body& body, double dt) {
+    const double share = body.left > dt ? dt / body.left : 1;
+    body.left = std::max(0.0, body.left - dt);
+    const Vec3& to = body.goal.angles;
+    const Pose goal = make_pose(body.goal.p_W.x(), body.goal.p_W.y(), body.goal.p_W.z(), to.x(), to.y(), to.z());
+    const Eigen::AngleAxisd turn(Mat3(goal.linear() * body.X_WB.linear().transpose()));
+    const Vec3 step = share * (goal.translation() - body.X_WB.translation());
+    body.v_W = step / dt;
+    body.w_W = share * turn.angle() / dt * turn.axis();
+    if (share == 1) {
+      body.X_WB = goal;
+      return;
+    }
+    body.X_WB.translation() += step;
+    body.X_WB.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix() * body.X_WB.linear();
   }
 
   static void update_links(Body& body) {
