@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRequests[] = {"heights", "changed", "image", "info", "reset", "save", "load"};
+constexpr const char* kRequests[] = {"heights", "changed", "image", "info", "reset", "save", "load", "watch"};
 /// A million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 
@@ -104,6 +104,13 @@ json ControlRequests::answer(const json& line) {
   }
   const bool file = key == "save" || key == "load";
   if (file && !desk_.files) refuse(key, what, "files are not to be had here", "use reset");
+  if (key == "watch") {
+    const std::size_t before = world_.outputs().size();
+    session_.watch(text_in(key, what));
+    out = json::object();
+    for (std::size_t i = before; i < world_.outputs().size(); ++i)
+      out[world_.outputs()[i].name] = world_.outputs()[i].unit;
+  }
   if (key == "save") {
     const std::string path = text_in(key, what);
     session_.save(path);

@@ -44,6 +44,7 @@ struct RunOptions {
   double snapshot_at = -1;
   double hash_every = 0;
   PublishOptions publish;
+  std::vector<std::string> watch;  ///< "machine/link"
   bool energy = false;
   bool quiet = false;
   std::vector<std::string> command;  ///< the whole command line, for the run's folder
@@ -224,6 +225,7 @@ int run(const RunOptions& options) {
   // Before the recorder, which counts its frames from the time it finds.
   if (!options.resume.empty()) session.load(options.resume, options.resume_anyway);
   require_times(options, session);
+  for (const std::string& link : options.watch) session.watch(link);
   if (options.energy) session.keep_soil_energy();
   // What comes out other than asked is said before the first step.
   const std::string rates = record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
@@ -289,6 +291,9 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->check(CLI::Range(0.001, 1e4))
       ->needs(publish);
   command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")->needs(publish);
+  command->add_option(
+      "--watch", options->watch,
+      "MACHINE/LINK: pose, velocity and angular velocity of this link among the outputs; may be repeated");
   command->add_flag(
       "--energy", options->energy,
       "also tell in the summary where the soil's energy came from and went; takes up to three times as long");

@@ -140,6 +140,12 @@ int one_machine(const std::string& name) {
                                     [](const scene::Wheel& wheel) { return wheel.driven; });
   if (!machine.wheels.empty())
     std::printf("  wheels: %zu, %d driven\n", machine.wheels.size(), static_cast<int>(driven));
+  for (const scene::Encoder& encoder : machine.encoders)
+    std::printf("  encoder on '%s': %.10g counts a turn, %d bits\n", encoder.joint.c_str(), encoder.counts_per_turn,
+                encoder.bits);
+  if (machine.levers.given)
+    std::printf("  levers: %s, dead band %.0f %%\n",
+                machine.levers.pattern == scene::Levers::Pattern::kIso ? "ISO" : "SAE", 100 * machine.levers.dead_band);
   if (machine.has_drive) {
     const scene::Powertrain& common = scene::powertrain(machine.drive);
     std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(machine.drive),

@@ -189,6 +189,8 @@ void Session::step() {
   s.note_forces();
 }
 
+void Session::watch(const std::string& link) { state_->world.watch(link); }
+
 void Session::keep_soil_energy() {
   state_->world.keep_soil_energy();
   state_->energy_at_ends.assign(state_->cycles.size(), std::nullopt);
@@ -212,6 +214,11 @@ void Session::command(const sim::JointHandle& joint, const vehicle::JointInput& 
   state_->world.command(joint, input);
 }
 void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInput& input) {
+  state_->world.require_valid(machine, input);
+  state_->take_over(machine.index());
+  state_->world.command(machine, input);
+}
+void Session::command(const sim::MachineHandle& machine, const vehicle::BaseInput& input) {
   state_->world.require_valid(machine, input);
   state_->take_over(machine.index());
   state_->world.command(machine, input);

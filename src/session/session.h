@@ -53,6 +53,7 @@ class Session {
   void set(const std::string& input, double value);
   void command(const sim::JointHandle& joint, const vehicle::JointInput& input);
   void command(const sim::MachineHandle& machine, const vehicle::DriveInput& input);
+  void command(const sim::MachineHandle& machine, const vehicle::BaseInput& input);
   /// Adds a sensor or a map; it looks at the world at once and then at its rate. @throws InputError as World::add.
   void add(std::unique_ptr<sim::Sampler> sampler);
 
@@ -71,6 +72,8 @@ class Session {
   const std::vector<Cycle>& cycles() const;
   const std::vector<BedTip>& tips() const;
   const ForceStatistics& force() const;
+  /// World::watch: a link's pose and velocities among the outputs. Not part of the state.
+  void watch(const std::string& link);
   /// Keeps the soil's energy from now on: the world's, and that of each cycle. Not part of the state.
   void keep_soil_energy();
   /// The soil's account when each cycle ended, in the order of cycles(); none for cycles before it was opened.

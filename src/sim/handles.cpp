@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/error.h"
 #include "sim/names.h"
 #include "sim/world_parts.h"
 #include "vehicle/stability.h"
@@ -37,6 +38,11 @@ const std::string& JointHandle::name() const { return joint_->name; }
 double JointHandle::position() const { return state().position; }
 double JointHandle::velocity() const { return state().velocity; }
 double JointHandle::effort() const { return state().effort; }
+std::uint64_t JointHandle::counts() const {
+  if (encoder_ != nullptr) return encoder_->counts();
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "joint", name(), "has no encoder",
+                         "add <navvy:encoder> to the machine's model"});
+}
 vehicle::JointState JointHandle::state() const { return engine_->joint(body_, index_); }
 
 // A wheel has no name of its own; its spin joint's is what telemetry shows, too.
@@ -111,6 +117,7 @@ JointHandle MachineHandle::joint(int index) const {
   JointHandle out;
   out.joint_ = entry("joint", description().joints, index);
   out.engine_ = &parts_->coupling.engine(machine_);
+  out.encoder_ = parts_->encoders[static_cast<std::size_t>(machine_)].of_joint(index);
   out.machine_ = machine_;
   out.body_ = parts_->coupling.index(machine_);
   out.index_ = index;
@@ -154,6 +161,9 @@ vehicle::PumpState MachineHandle::pump() const {
 }
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
+}
+vehicle::BaseInput MachineHandle::base() const {
+  return parts_->coupling.engine(machine_).base(parts_->coupling.index(machine_));
 }
 vehicle::Stability MachineHandle::stability() const {
   return vehicle::stability(description(), parts_->coupling.engine(machine_), parts_->coupling.index(machine_));

@@ -9,6 +9,7 @@
 // index that does not exist; for a name the message holds the nearest one.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/math.h"
@@ -19,6 +20,7 @@
 namespace navvy::vehicle {
 // Named only: a client reads through handles and sees no engine.
 class Engine;
+class JointEncoder;
 }  // namespace navvy::vehicle
 
 namespace navvy::sim {
@@ -58,6 +60,8 @@ class JointHandle {
   double velocity() const;
   /// As the servo applied it in the last step.
   double effort() const;
+  /// Register of its encoder, 0 to 2^bits - 1. @throws InputError for a joint without one.
+  std::uint64_t counts() const;
   /// All of it in one read: limits, cylinder force [N] and length [m], stalled or not.
   vehicle::JointState state() const;
 
@@ -65,6 +69,7 @@ class JointHandle {
   friend class MachineHandle;
   const scene::Joint* joint_ = nullptr;
   const vehicle::Engine* engine_ = nullptr;
+  const vehicle::JointEncoder* encoder_ = nullptr;
   int machine_ = -1, body_ = -1, index_ = -1;
 };
 
@@ -138,6 +143,8 @@ class MachineHandle {
   vehicle::PumpState pump() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake.
   vehicle::DriveInput drive() const;
+  /// Where a kinematic machine's base is on its way to; of others where it is.
+  vehicle::BaseInput base() const;
   /// How it stands on its wheels. Costs a pass over its links.
   vehicle::Stability stability() const;
   /// Done by drives and cylinders since the start [J].

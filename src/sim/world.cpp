@@ -54,6 +54,7 @@ double World::time() const { return parts_->time(); }
 /// Samplers come last, so that all of them see the same instant; none of them changes what another one sees.
 void World::step() {
   parts_->coupling.step(parts_->dt);
+  parts_->advance_encoders();
   ++parts_->steps;
   for (const auto& slot : parts_->samplers)
     if (slot->due(steps(), dt())) slot->sample(*this, time());
@@ -97,6 +98,16 @@ void World::set(int input, double value) {
 double World::get(int output) const {
   require_index("output", output, outputs().size());
   return parts_->outputs.function(output)();
+}
+
+/// Names of parts hold "::" and no slash, so the first one ends the machine's.
+void World::watch(const std::string& link) {
+  const std::size_t slash = link.find('/');
+  if (slash == std::string::npos)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "watch", link, "must name a machine and a link of it",
+                           "e.g. excavator/boom"});
+  const MachineHandle of = machine(link.substr(0, slash));
+  add_link(of.link(link.substr(slash + 1)), of.name(), parts_->outputs);
 }
 
 /// Read only: arrays are filled through a sampler's publisher, which stamps them.
@@ -148,6 +159,31 @@ void World::require_valid(const MachineHandle& machine, const vehicle::DriveInpu
   require_finite("steering of the drive", input.steer);
 }
 
+/// Angles may count on beyond a turn; a place must be one that a site can have.
+void World::require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const {
+  require_machine(machine.index(), machine_count());
+  for (int i = 0; i < 3; ++i) {
+    require_finite("place of the base", input.p_W[i]);
+    require_finite("angle of the base", input.angles[i]);
+    if (std::abs(input.p_W[i]) > kFarthest)
+      throw InputError(Fault{Fault::Severity::kError, "", 0, "place of the base", std::to_string(input.p_W[i]),
+                             "no site lies farther than 1000 km from the origin", "give metres in the world"});
+  }
+  if (!(input.duration >= 0) || !std::isfinite(input.duration))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "duration of the base's way", std::to_string(input.duration),
+                           "must be 0 or more seconds", ""});
+  const scene::Machine& built = machine.description();
+  if (!built.kinematic || built.fixed_base)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
+                           built.kinematic ? "its base is held in place" : "forces move this machine",
+                           "set <navvy:engine>kinematic</navvy:engine>, and leave its base free"});
+}
+
+void World::command(const MachineHandle& machine, const vehicle::BaseInput& input) {
+  require_valid(machine, input);
+  const int m = machine.index();
+  parts_->coupling.engine(m).set_base(parts_->coupling.index(m), input);
+}
 void World::command(const JointHandle& joint, const vehicle::JointInput& input) {
   require_valid(joint, input);
   const int m = joint.machine();
@@ -237,6 +273,12 @@ void World::visit(Archive& a) {
   a("dynamic_machines", *p.dynamic);
   a("kinematic_machines", *p.kinematic);
   a("coupling", p.coupling);
+  // A scene without encoders keeps the hash that it had before there were any; two scenes that differ in theirs differ
+  // in what they start from.
+  if (p.has_encoders())
+    a.section("encoders", 1, [&] {
+      for (std::size_t m = 0; m < p.encoders.size(); ++m) a.item(m, [&] { a("machine", p.encoders[m]); });
+    });
   // Always there, so that a world without samplers notices those of a snapshot.
   a.section("samplers", 2, [&] {
     a.constant("count", p.samplers.size(),
@@ -269,6 +311,11 @@ std::vector<std::pair<std::string, std::string>> World::hash_parts() const {
   add("dynamic_machines", *parts_->dynamic);
   add("kinematic_machines", *parts_->kinematic);
   add("coupling", parts_->coupling);
+  if (parts_->has_encoders()) {
+    StateHash sum;
+    for (const vehicle::Encoders& encoders : parts_->encoders) add_to_hash(sum, encoders);
+    out.emplace_back("encoders", sum.hex());
+  }
   if (!parts_->samplers.empty()) add("arrays", parts_->arrays);
   for (const auto& slot : parts_->samplers) add(slot->name().c_str(), *slot);
   return out;

@@ -40,6 +40,9 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// A base may be put so far from the origin, along any axis [m].
+  static constexpr double kFarthest = 1e6;
+
   /// The scene it was built from, with the order of machines, joints, soils that all indices follow.
   const scene::Scene& description() const;
   double dt() const;            ///< base step [s]; a loaded snapshot brings its own
@@ -65,6 +68,12 @@ class World {
   void set(const std::string& name, double value) { set(input(name), value); }
   double get(const std::string& name) const { return get(output(name)); }
 
+  /// From now on pose, velocity and angular velocity of a link, named "excavator/boom" for link boom of machine
+  /// excavator, are among the outputs, after those there are: "excavator/boom/pose/x" to "/yaw", "/velocity/x",
+  /// "/angular_velocity/x". A link that is watched already stays as it is.
+  /// @throws InputError for a name without a machine or link; it names the nearest.
+  void watch(const std::string& link);
+
   /// Named arrays: what samplers publish, with stamp, shape, unit and frame. Read in place.
   const ArrayOutputs& arrays() const;
   /// From now on `sampler` looks at this world, first at once. Its outputs come after those there are.
@@ -83,9 +92,12 @@ class World {
   /// @throws InputError for a handle of no machine of this world, or a value that is not finite; nothing changes then.
   void command(const JointHandle& joint, const vehicle::JointInput& input);
   void command(const MachineHandle& machine, const vehicle::DriveInput& input);
+  /// Of a kinematic machine: where its base goes. @throws InputError also for a machine that forces move.
+  void command(const MachineHandle& machine, const vehicle::BaseInput& input);
   /// Only what `command` refuses. @throws InputError likewise.
   void require_valid(const JointHandle& joint, const vehicle::JointInput& input) const;
   void require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const;
+  void require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const;
 
   /// The resting ground.
   const heightfield::Ground& ground() const;

@@ -9,6 +9,8 @@
 
 #include "core/log.h"
 #include "sim/world.h"
+#include "sim/world_parts.h"
+#include "vehicle/levers.h"
 
 namespace navvy::sim {
 namespace {
@@ -89,6 +91,29 @@ void add_pump(const MachineHandle& machine, const std::string& prefix, Outputs& 
               [machine] { return machine.pump().pressure; });
 }
 
+/// The paper's six numbers: an obstacle, a person, a machine that is replayed.
+void add_base(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs) {
+  // One value changes, the others stay what they were told or, before, where the base is.
+  const auto change = [&](const std::string& name, const char* unit, const std::string& meaning, auto&& part) {
+    inputs.add({prefix + "pose/" + name, unit, meaning, machine.index()}, [&world, machine, part](double value) {
+      vehicle::BaseInput command = machine.base();
+      part(command) = std::clamp(value, -World::kFarthest, World::kFarthest);
+      command.duration = std::max(0.0, command.duration);
+      world.command(machine, command);
+    });
+  };
+  const char* axes[] = {"x", "y", "z"};
+  const char* angles[] = {"roll", "pitch", "yaw"};
+  for (int i = 0; i < 3; ++i)
+    change(axes[i], "m", "of the base link in the world; takes it from the drive",
+           [i](vehicle::BaseInput& command) -> double& { return command.p_W[i]; });
+  for (int i = 0; i < 3; ++i)
+    change(angles[i], "rad", "fixed-axis, of the base link; takes it from the drive",
+           [i](vehicle::BaseInput& command) -> double& { return command.angles[i]; });
+  change("duration", "s", "it gets to a new place evenly within this time, 0: in a step",
+         [](vehicle::BaseInput& command) -> double& { return command.duration; });
+}
+
 /// `about` tells what steering means for this kind of drive.
 void add_drive(World& world, const MachineHandle& machine, const scene::Drive& about, const std::string& prefix,
                Inputs& inputs) {
@@ -111,26 +136,60 @@ void add_drive(World& world, const MachineHandle& machine, const scene::Drive& a
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
 }
 
-/// Angles are fixed-axis roll, pitch, yaw: yaw about W z last.
-void add_pose(const LinkHandle& base, const std::string& prefix, Outputs& outputs) {
+/// What a real robot's board gives, and the ways in which it may be told to fail. A fault is nobody's command, so it
+/// takes no machine from its program.
+void add_encoders(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs,
+                  Outputs& outputs) {
+  vehicle::Encoders& encoders = parts(world).encoders[static_cast<std::size_t>(machine.index())];
+  for (std::size_t i = 0; i < encoders.size(); ++i) {
+    vehicle::JointEncoder* encoder = &encoders[i];
+    const std::string base = prefix + encoder->about().joint + "/";
+    const std::string bits = std::to_string(encoder->about().bits);
+    outputs.add({base + "counts", "1", "encoder's register, wraps at 2^" + bits},
+                [encoder] { return static_cast<double>(encoder->counts()); });
+    inputs.add({base + "encoder_slip", "1", "slip that the counts pretend, -0.9 to 0.9"},
+               [encoder](double slip) { encoder->set_slip(slip); });
+    inputs.add({base + "encoder_missed", "1", "share of the counts that are lost, 0 to 1"},
+               [encoder](double share) { encoder->set_missed(share); });
+  }
+}
+
+/// As an operator's hands have them; the pattern is the machine's.
+void add_levers(World& world, const MachineHandle& machine, const std::string& prefix, Inputs& inputs) {
+  const scene::Machine& built = machine.description();
+  const vehicle::LeverFunctions functions = vehicle::lever_functions(built);
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    if (functions[i].joint < 0) continue;
+    const JointHandle joint = machine.joint(functions[i].joint);
+    const std::string way = i % 2 == 0 ? "to the right" : "away";
+    inputs.add({prefix + "levers/" + vehicle::kLeverNames[i], "1",
+                "-1 to 1, positive " + way + "; opens the valve of " + joint.name(), machine.index()},
+               [&world, joint, sign = functions[i].sign, band = built.levers.dead_band](double lever) {
+                 world.command(joint, {JointMode::kOpening, sign * vehicle::lever_opening(lever, band)});
+               });
+  }
+}
+
+/// Angles are fixed-axis roll, pitch, yaw: yaw about W z last. `of` tells the link in a channel's meaning.
+void add_pose(const LinkHandle& link, const std::string& prefix, const std::string& of, Outputs& outputs) {
   // One channel an axis: a channel is one number.
   const char* axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
-    outputs.add({prefix + "pose/" + axes[i], "m", "of the base link in the world"},
-                [base, i] { return base.pose().translation()[i]; });
-    outputs.add({prefix + "velocity/" + axes[i], "m/s", "of the base link's origin"},
-                [base, i] { return base.velocity()[i]; });
+    outputs.add({prefix + "pose/" + axes[i], "m", "of " + of + " in the world"},
+                [link, i] { return link.pose().translation()[i]; });
+    outputs.add({prefix + "velocity/" + axes[i], "m/s", "of " + of + "'s origin"},
+                [link, i] { return link.velocity()[i]; });
   }
-  outputs.add({prefix + "pose/roll", "rad", "fixed-axis roll"}, [base] {
-    const Mat3 R = base.pose().linear();
+  outputs.add({prefix + "pose/roll", "rad", "fixed-axis roll"}, [link] {
+    const Mat3 R = link.pose().linear();
     return std::atan2(R(2, 1), R(2, 2));
   });
   // Rounding may take the sine a hair past one.
   outputs.add({prefix + "pose/pitch", "rad", "fixed-axis pitch, positive nose down"},
-              [base] { return std::asin(std::clamp(-base.pose().linear()(2, 0), -1.0, 1.0)); });
+              [link] { return std::asin(std::clamp(-link.pose().linear()(2, 0), -1.0, 1.0)); });
   // Not unwrapped: a jump of a turn is left to the reader.
-  outputs.add({prefix + "pose/yaw", "rad", "heading, counter-clockwise from x"}, [base] {
-    const Mat3 R = base.pose().linear();
+  outputs.add({prefix + "pose/yaw", "rad", "heading, counter-clockwise from x"}, [link] {
+    const Mat3 R = link.pose().linear();
     return std::atan2(R(1, 0), R(0, 0));
   });
 }
@@ -177,6 +236,19 @@ void add_tool(const World& world, const ToolHandle& tool, Outputs& outputs) {
   // The one output that costs time to read.
   outputs.add({base + "payload", "kg", "soil inside the shell; of a bed without what a bucket holds in it"},
               [tool] { return tool.payload(); });
+  for (const scene::Bucket& bucket : machine.description().buckets) {
+    if (bucket.shell != tool.name()) continue;
+    const LinkHandle link = machine.link(bucket.link);
+    for (int i = 0; i < 3; ++i) {
+      outputs.add({base + "tip_" + axes[i], "m", "middle of the cutting edge in the world"},
+                  [link, p = bucket.p_tip, i] { return (link.pose() * p)[i]; });
+      outputs.add({base + "tip_velocity_" + axes[i], "m/s", "of the middle of the cutting edge, world axes"},
+                  [link, p = bucket.p_tip, i] {
+                    const vehicle::LinkState at = link.state();
+                    return Vec3(at.v_WL + at.w_WL.cross(at.X_WL.linear() * p))[i];
+                  });
+    }
+  }
 }
 
 }  // namespace
@@ -195,12 +267,25 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     // A kinematic machine moves as told and draws no oil.
     if (built.has_pump && !built.kinematic) add_pump(machine, prefix, outputs);
     if (built.has_drive) add_drive(world, machine, built.drive, prefix, inputs);
-    add_pose(machine.link(0), prefix, outputs);
+    if (built.kinematic && !built.fixed_base) add_base(world, machine, prefix, inputs);
+    if (built.levers.given) add_levers(world, machine, prefix, inputs);
+    add_pose(machine.link(0), prefix, "the base link", outputs);
     add_wheels(machine, prefix, outputs);
     add_stability(machine, prefix, outputs);
+    add_encoders(world, machine, prefix, inputs, outputs);
   }
   // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
   for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);
+}
+
+void add_link(const LinkHandle& link, const std::string& machine, Outputs& outputs) {
+  const std::string prefix = machine + "/" + link.name() + "/";
+  if (outputs.find(prefix + "pose/x") >= 0) return;
+  add_pose(link, prefix, "link '" + link.name() + "'", outputs);
+  const char* axes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    outputs.add({prefix + "angular_velocity/" + axes[i], "rad/s", "of link '" + link.name() + "', world axes"},
+                [link, i] { return link.angular_velocity()[i]; });
 }
 
 /// Names in a column wide enough for all shipped machines.

@@ -47,10 +47,24 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
     throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
                            "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
+  // Chance is by machine, so that one more encoder leaves those of other machines as they were.
+  Random seeds(description.seed);
+  for (int m = 0; m < static_cast<int>(description.machines.size()); ++m)
+    encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine, coupling.engine(m),
+                          coupling.index(m), seeds.next());
   // Soil that starts awake before loads are filled in: beds stand where machines stand now.
   check_awake(description, ground);
   for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
+}
+
+void WorldParts::advance_encoders() {
+  for (std::size_t m = 0; m < encoders.size(); ++m)
+    encoders[m].advance(coupling.engine(static_cast<int>(m)), coupling.index(static_cast<int>(m)));
+}
+
+bool WorldParts::has_encoders() const {
+  return std::any_of(encoders.begin(), encoders.end(), [](const vehicle::Encoders& e) { return e.size() > 0; });
 }
 
 void WorldParts::fill_bed(const coupling::ToolLoad& tool) {

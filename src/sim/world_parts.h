@@ -15,6 +15,7 @@
 #include "sim/channels.h"
 #include "sim/sampler.h"
 #include "soil/solver.h"
+#include "vehicle/encoder.h"
 #include "vehicle/engine.h"
 
 namespace navvy::device {
@@ -34,6 +35,10 @@ struct WorldParts {
   WorldParts(const WorldParts&) = delete;
   WorldParts& operator=(const WorldParts&) = delete;
 
+  /// All encoders look at their joints, after each step of the machines.
+  void advance_encoders();
+  bool has_encoders() const;
+
   double time() const { return static_cast<double>(steps) * dt; }  ///< [s]
 
   /// What was asked for.
@@ -45,6 +50,8 @@ struct WorldParts {
   soil::Solver soil;
   /// Steps the four above; knows which engine has which machine.
   coupling::Coupling coupling;
+  /// By machine of the scene; most have none.
+  std::vector<vehicle::Encoders> encoders;
   /// What clients see: numbers to set and to read, arrays to read.
   Inputs inputs;
   Outputs outputs;

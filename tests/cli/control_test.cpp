@@ -133,6 +133,8 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
       {R"({"heights": {"min_m": [1, 1], "max_m": [0, 2]}})", "rectangle"},
       {R"({"heights": 3})", "must be an object"},
       {R"({"changed": -1})", "whole number"},
+      {R"({"watch": "bucket/lft"})", "lift"},
+      {R"({"watch": "bucket"})", "must name a machine and a link"},
       {R"({"image": "nobody"})", "no camera"},
       {R"({"info": 1})", "must be true"},
       {R"({"reset": true, "inputs": {}})", "two lines"},
@@ -153,6 +155,16 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
   }
   ASSERT_EQ(drive("{}\n{}\n{\"end\": true}\n", plain), 0) << complained();
   EXPECT_EQ(lines.back(), plain.back()) << "no request leaves a trace";
+}
+
+TEST_F(Control, WatchesALinkFromTheNextOutputsOn) {
+  std::vector<json> lines;
+  ASSERT_EQ(drive("{\"watch\": \"bucket/carriage\"}\n{}\n{\"end\": true}\n", lines), 0) << complained();
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[1].at("watch").size(), 12u);
+  EXPECT_EQ(lines[1].at("watch").at("bucket/carriage/angular_velocity/z"), "rad/s");
+  EXPECT_FALSE(lines[0].at("outputs").contains("bucket/carriage/pose/x"));
+  EXPECT_TRUE(lines[2].at("outputs").contains("bucket/carriage/pose/x"));
 }
 
 TEST_F(Control, SendsThePictureOfACamera) {

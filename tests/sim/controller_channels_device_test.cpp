@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a controller reaches by name: the same for a robot moved by kinematics and by forces, and levers and links of an
+// excavator.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/saved_state.h"
+#include "device/device.h"
+#include "sim/scenes.h"
+#include "sim/world.h"
+#include "values.h"
+
+namespace navvy::sim {
+namespace {
+
+std::vector<std::string> names(const std::vector<Channel>& channels) {
+  std::vector<std::string> out;
+  for (const Channel& channel : channels) out.push_back(channel.name + " [" + channel.unit + "]");
+  return out;
+}
+
+class ControllerChannels : public ::testing::Test {
+ protected:
+  device::Device device_;
+};
+
+TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
+  World exact(testing::load("paper/diff_kinematic.sdf"), device_),
+      rolling(testing::load("paper/diff_physics.sdf"), device_);
+  EXPECT_TRUE(exact.description().machines[0].machine.kinematic);
+  EXPECT_FALSE(rolling.description().machines[0].machine.kinematic);
+  // But for the six numbers, which forces do not take, and for what tells that a machine with masses tips over.
+  const auto without = [](std::vector<std::string> list, const std::string& part, std::size_t count) {
+    const auto holds = [&](const std::string& name) { return name.find(part) != std::string::npos; };
+    EXPECT_EQ(std::erase_if(list, holds), count);
+    return list;
+  };
+  EXPECT_EQ(without(names(exact.inputs()), "/pose/", 7), names(rolling.inputs()));
+  EXPECT_EQ(names(exact.outputs()), without(names(rolling.outputs()), "/stability/", 2));
+  for (World* world : {&exact, &rolling}) {
+    world->set("robot/spin_left/velocity", 4);
+    world->set("robot/spin_right/velocity", 4);
+    // No more than half of the register: 0.43 of a turn.
+    while (world->time() < 0.7) world->step();
+    // 4 rad/s of 0.7 s, and up to 0.15 s of a motor's start.
+    EXPECT_NEAR(world->get("robot/pose/x"), -3.5 + 0.1 * 4 * 0.7, 0.1 * 4 * 0.16);
+    const double turns = world->get("robot/spin_left/position") / (2 * kPi);
+    EXPECT_EQ(world->get("robot/spin_left/counts"), std::floor(std::fmod(turns * 76600, 65536)));
+    EXPECT_EQ(static_cast<double>(world->machine("robot").joint("spin_left").counts()),
+              world->get("robot/spin_left/counts"));
+  }
+  EXPECT_THROW(exact.machine("robot").joint("spin_ball").counts(), InputError);
+}
+
+TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
+  scene::Scene scene = testing::load("bucket_path.sdf");
+  // Let go of the world, its slides as they are: the whole machine comes down into the soil and goes ahead.
+  scene.machines[0].machine.fixed_base = false;
+  World world(scene, device_);
+  const double before = world.get("bucket/pose/z");
+  world.set("bucket/pose/duration", 0.5);
+  world.set("bucket/pose/z", before - 0.45);
+  while (world.time() < 0.6) world.step();
+  EXPECT_NEAR(world.get("bucket/pose/z"), before - 0.45, 1e-9);
+  world.set("bucket/pose/x", world.get("bucket/pose/x") + 0.2);
+  while (world.time() < 0.9) world.step();
+  EXPECT_NEAR(world.get("bucket/velocity/x"), 0.4, 1e-6);
+  print_value("soil on a bucket that is pushed along [N]", world.get("bucket/bucket/smooth_force_x"), "< 0", "");
+  EXPECT_LT(world.get("bucket/bucket/smooth_force_x"), -50);
+  World forces(testing::load("paper/diff_physics.sdf"), device_);
+  EXPECT_THROW(forces.command(forces.machine("robot"), vehicle::BaseInput{}), InputError);
+  vehicle::BaseInput far;
+  far.p_W.x() = 1e9;
+  EXPECT_THROW(world.command(world.machine("bucket"), far), InputError);
+}
+
+TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
+  const scene::Scene scene = testing::load("paper/diff_kinematic.sdf");
+  World whole(scene, device_), resumed(scene, device_), other(scene, device_);
+  for (World* world : {&whole, &other}) {
+    world->set("robot/drive/speed", 0.5);
+    for (int i = 0; i < 50; ++i) world->step();
+  }
+  EXPECT_EQ(whole.state_hash(), other.state_hash());
+  whole.set("robot/spin_left/encoder_missed", 0.1);
+  EXPECT_NE(whole.state_hash(), other.state_hash());
+  const auto parts = whole.hash_parts();
+  EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.first == "encoders"; }));
+  load_saved(saved(whole), resumed);
+  for (World* world : {&whole, &resumed, &other})
+    for (int i = 0; i < 50; ++i) world->step();
+  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
+  EXPECT_EQ(resumed.get("robot/spin_left/counts"), whole.get("robot/spin_left/counts"));
+  EXPECT_LT(whole.get("robot/spin_left/counts"), other.get("robot/spin_left/counts"));
+  EXPECT_EQ(whole.get("robot/spin_right/counts"), other.get("robot/spin_right/counts"));
+  EXPECT_EQ(whole.get("robot/pose/x"), other.get("robot/pose/x"));
+}
+
+TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
+  for (const bool sae : {false, true}) {
+    SCOPED_TRACE(sae ? "SAE" : "ISO");
+    scene::Scene scene = testing::load("trench.sdf");
+    if (sae) scene.machines[0].machine.levers.pattern = scene::Levers::Pattern::kSae;
+    World world(std::move(scene), device_);
+    const auto rate = [&](const char* joint) { return world.get(std::string("excavator/") + joint + "/velocity"); };
+    world.set("excavator/levers/left_y", -1);     // towards the operator
+    world.set("excavator/levers/right_y", 0.04);  // within the dead band
+    world.set("excavator/levers/left_x", -1);     // to the left
+    for (int i = 0; i < 200; ++i) world.step();
+    // ISO draws the stick in, SAE lifts the boom; the other one is held.
+    if (sae) EXPECT_GT(rate("boom_joint"), 0.05);
+    if (!sae) EXPECT_LT(rate("arm_joint"), -0.05);
+    EXPECT_NEAR(rate(sae ? "arm_joint" : "boom_joint"), 0, 0.02);
+    EXPECT_GT(rate("swing_joint"), 0.2);
+  }
+}
+
+TEST_F(ControllerChannels, AnyLinkIsWatchedByItsName) {
+  World world(testing::load("trench.sdf"), device_);
+  const std::size_t before = world.outputs().size();
+  world.watch("excavator/stick");
+  ASSERT_EQ(world.outputs().size(), before + 12);
+  world.watch("excavator/stick");
+  EXPECT_EQ(world.outputs().size(), before + 12);
+  world.set("excavator/levers/left_x", 0.5);
+  for (int i = 0; i < 100; ++i) world.step();
+  const LinkHandle stick = world.machine("excavator").link("stick");
+  EXPECT_EQ(world.get("excavator/stick/pose/z"), stick.pose().translation().z());
+  EXPECT_EQ(world.get("excavator/stick/velocity/y"), stick.velocity().y());
+  EXPECT_EQ(world.get("excavator/stick/angular_velocity/z"), stick.angular_velocity().z());
+  EXPECT_GT(std::abs(world.get("excavator/stick/angular_velocity/z")), 0.05);
+  // The tip moves as the bucket does.
+  const double y = world.get("excavator/bucket/tip_y");
+  world.step();
+  EXPECT_NEAR((world.get("excavator/bucket/tip_y") - y) / world.dt(), world.get("excavator/bucket/tip_velocity_y"),
+              0.02);
+  for (const char* name : {"excavator", "excavator/stik", "digger/stick"})
+    EXPECT_THROW(world.watch(name), InputError) << name;
+}
+
+}  // namespace
+}  // namespace navvy::sim
