@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <variant>
 
 #include "core/log.h"
 #include "sim/world.h"
 #include "sim/world_parts.h"
+#include "vehicle/drive/linkage.h"
 #include "vehicle/levers.h"
 
 namespace navvy::sim {
@@ -205,6 +208,22 @@ void add_wheels(const MachineHandle& machine, const std::string& prefix, Outputs
   }
 }
 
+/// Of the wheels as they stand, whatever their tyres bend them to.
+void add_linkage(const MachineHandle& machine, const scene::LinkageDrive& drive, const std::string& prefix,
+                 Outputs& outputs) {
+  std::optional<WheelHandle> left, right;
+  const scene::Machine& built = machine.description();
+  const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(built);
+  for (std::size_t i = 0; i < built.wheels.size(); ++i)
+    if (!built.wheels[i].steer_joint.empty()) (about[i].left ? left : right) = machine.wheel(static_cast<int>(i));
+  if (!left || !right) return;
+  outputs.add({prefix + "steering/ackermann_error", "rad",
+               "how much further than on a common centre the outer wheel is turned, for the inner one's angle"},
+              [drive, left = *left, right = *right] {
+                return vehicle::ackermann_error(drive, {left.state().steer, right.state().steer});
+              });
+}
+
 /// Only of machines that can tip: of others the numbers would say nothing.
 void add_stability(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
   if (!machine.stability().free) return;
@@ -273,6 +292,8 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     add_wheels(machine, prefix, outputs);
     add_stability(machine, prefix, outputs);
     add_encoders(world, machine, prefix, inputs, outputs);
+    if (const auto* linkage = std::get_if<scene::LinkageDrive>(&built.drive); linkage && built.has_drive)
+      add_linkage(machine, *linkage, prefix, outputs);
   }
   // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
   for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);
