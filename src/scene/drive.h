@@ -17,7 +17,17 @@ struct Powertrain {
   double brake_force = 150e3;     ///< all wheels together, each braked [N]
 };
 
-/// An open differential between the driven wheels, and wheels that are turned to steer: trucks, wheeled excavators.
+/// What lets two shafts of a drive line turn at different speeds. The slower one gets more torque than the faster one
+/// by the locking torque: none of an open one, whatever it takes of a locked one, and of one with limited slip at most
+/// preload + bias x the torque that goes through it [Wong 2008, section 5.1].
+struct Differential {
+  enum class Kind { kOpen, kLocked, kLimitedSlip };
+  Kind kind = Kind::kOpen;
+  double preload = 0;  ///< [N m]
+  double bias = 0;     ///< [-]
+};
+
+/// A differential between the driven wheels, and wheels that are turned to steer: trucks, wheeled excavators.
 ///
 /// It steers by a bicycle angle: that of one wheel in the middle of the front axle [rad], positive to the left. The
 /// machine's frame stands on the ground under the middle of the rear axle, which is not steered.
@@ -30,6 +40,8 @@ struct AckermannDrive : Powertrain {
   double wheelbase = 2.8;           ///< [m]
   double track = 1.94;              ///< between king pins [m]
   double steer_rate = radians(30);  ///< of a steered wheel [rad/s]
+  Differential axles;               ///< between the wheels of each driven axle
+  Differential centre;              ///< between the foremost driven axle and the others
 };
 
 /// Left and right wheels driven each side by itself: most mobile robots, skid-steered loaders. It steers by a yaw rate

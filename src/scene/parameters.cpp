@@ -250,6 +250,13 @@ void put(const Writer& w, const AckermannDrive& drive) {
   w("wheelbase", drive.wheelbase);
   w("track", drive.track);
   w("steer_rate", drive.steer_rate);
+  for (const auto& [name, differential] : {std::pair{"axles", drive.axles}, std::pair{"centre", drive.centre}}) {
+    const auto& [kind, preload, bias] = differential;
+    const Writer part = w.at(name);
+    part("kind", static_cast<int>(kind));
+    part("preload", preload);
+    part("bias", bias);
+  }
 }
 void put(const Writer& w, const DifferentialDrive& drive) { w("track", drive.track); }
 void put(const Writer& w, const LinkageDrive& drive) {

@@ -18,22 +18,42 @@ Fields& read_powertrain(Fields& fields, scene::Powertrain& powertrain) {
       .number("brake_force_n", powertrain.brake_force, {0, 1e7});
 }
 
-Fields& read_steering(Fields& fields, scene::AckermannDrive& drive) {
+void read_differential(Element& element, scene::Differential& out, Faults& faults) {
+  using Kind = scene::Differential::Kind;
+  Fields fields(element, faults);
+  fields
+      .choice<Kind>("kind", out.kind,
+                    {{"open", Kind::kOpen}, {"locked", Kind::kLocked}, {"limited_slip", Kind::kLimitedSlip}})
+      .required("kind")
+      .number("preload_nm", out.preload, {0, 1e6})
+      .number("bias", out.bias, {0, 1})
+      .finish();
+  if (out.kind == Kind::kLimitedSlip && out.preload == 0 && out.bias == 0)
+    faults.error(element, "limited_slip", "slips without limit: preload_nm and bias are both 0",
+                 "give one of them, or <kind>open</kind>");
+  if (out.kind != Kind::kLimitedSlip && (fields.has("preload_nm") || fields.has("bias")))
+    faults.error(element, text_of(*element.FirstChildElement("kind")), "has neither preload_nm nor bias",
+                 "remove them, or <kind>limited_slip</kind>");
+}
+
+Fields& read_steering(Fields& fields, scene::AckermannDrive& drive, Faults& faults) {
   return read_powertrain(fields, drive)
       .number("max_steer_deg", drive.max_steer, {0, 80}, kDegree)
       .number("wheelbase_m", drive.wheelbase, {0.01, 50})
       .number("track_m", drive.track, {0.01, 50})
-      .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree);
+      .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree)
+      .nested("axle_differential", [&](Element& e) { read_differential(e, drive.axles, faults); })
+      .nested("centre_differential", [&](Element& e) { read_differential(e, drive.centre, faults); });
 }
 
 void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
   Fields fields(element, faults);
-  read_steering(fields, drive).finish();
+  read_steering(fields, drive, faults).finish();
 }
 
 void read_kind(Element& element, scene::LinkageDrive& drive, Faults& faults) {
   Fields fields(element, faults);
-  read_steering(fields, drive)
+  read_steering(fields, drive, faults)
       .number("arm_m", drive.arm, {0.001, 5})
       .number("tie_rod_m", drive.tie_rod, {0.01, 50})
       .required("arm_m")

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvy::vehicle {
 namespace {
 
 constexpr double kBrakeGain = 10;  // [1/s] back to the angle at which the wheel was stopped
+constexpr double kHeld = 1e9;      // [N m] beyond all that a locked differential is asked for
 constexpr double kDragged = 0.02;  // [rad/s] a braked wheel that turns faster has lost its hold
 
 }  // namespace
@@ -27,7 +29,16 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
     // A trailer's wheels; a joint command may still take them as motors.
     if (!machine.has_drive) joints[wheel.spin_joint].servo.set({JointMode::kFree, 0});
   }
-  if (machine.has_drive) find_axles();
+  if (machine.has_drive) {
+    find_axles();
+    coupled_ = line_->coupled();
+  }
+  for (const Coupled& coupled : coupled_) {
+    std::vector<std::pair<int, double>> weights;
+    for (std::size_t w = 0; w < wheels.size(); ++w)
+      if (coupled.weight[w] != 0) weights.emplace_back(tree.bullet_of_joint(wheels[w].spin_joint), coupled.weight[w]);
+    rows_.push_back(std::make_unique<DifferentialRow>(&tree.multibody(), weights));
+  }
   set(input_);
 }
 
@@ -69,6 +80,7 @@ void MachineDrive::begin_step(double dt) {
   }
   // Present speeds go in, torques come out; the governors' memory moves on by one step.
   line_->torques(input_, turns_, tree_.total_mass(), dt, torque_);
+  couple(dt);
   // Every wheel has a brake, driven or not; each holds its part.
   const double brake_force = scene::powertrain(machine_.drive).brake_force;
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
@@ -85,6 +97,23 @@ void MachineDrive::begin_step(double dt) {
       joints_.servo(wheel.spin_joint).command(0, 0, 0);
       a.demand.feed_forward = torque_[w];
     }
+  }
+}
+
+void MachineDrive::couple(double dt) {
+  for (std::size_t d = 0; d < rows_.size(); ++d) {
+    const scene::Differential& about = coupled_[d].about;
+    double through = 0;
+    bool whole = !input_.brake;  // wheels are held each by its brake
+    for (std::size_t w = 0; w < wheels_.size(); ++w) {
+      if (coupled_[d].weight[w] == 0) continue;
+      through += std::abs(torque_[w]);
+      whole = whole && turns_[w].on_line;
+    }
+    // One side gets what the other loses, so they differ by twice the row's torque.
+    const double torque =
+        about.kind == scene::Differential::Kind::kLocked ? kHeld : 0.5 * (about.preload + about.bias * through);
+    rows_[d]->limit(whole ? torque * dt : 0);
   }
 }
 

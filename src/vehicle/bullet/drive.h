@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "vehicle/bullet/differential_row.h"
 #include "vehicle/bullet/joints.h"
 #include "vehicle/bullet/wheels.h"
 #include "vehicle/drive/drive_line.h"
@@ -25,6 +26,9 @@ class MachineDrive {
   /// The command that is followed now.
   const DriveInput& input() const { return input_; }
 
+  /// Rows that hold shafts together, for the engine's solver.
+  const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const { return rows_; }
+
   /// Before the joints' part of a step: commands of steering and axles, torque or brake of the wheels.
   void begin_step(double dt);
 
@@ -37,6 +41,8 @@ class MachineDrive {
   /// Commands of steering joints and axles for this step.
   void steer();
   void lock_axles();
+  /// Bounds of the differentials that are not open, by the torques of this step.
+  void couple(double dt);
   /// Holds a wheel where it stopped with `torque` [N m] at most.
   void brake(MachineWheel& wheel, double torque, double dt);
 
@@ -49,6 +55,8 @@ class MachineDrive {
   std::vector<int> axles_;           // joints between chassis and wheel carriers: oscillation, casters
   std::vector<WheelTurn> turns_;     // of the present step, by wheel
   std::vector<double> torque_;       // likewise [N m]
+  std::vector<Coupled> coupled_;     // differentials that are not open
+  std::vector<std::unique_ptr<DifferentialRow>> rows_;  // one each
   DriveInput input_;
 };
 

@@ -84,10 +84,12 @@ class BulletEngine final : public Engine {
                                 stands ? kMachineGroup : kMachineGroup | kStandingGroup);
     }
     materials_.mark(*machines_.back());
-    // The order in which rows are given to the solver is part of the result: joints, balls, then rock, by machine.
+    // The order in which rows are given to the solver is part of the result: joints, balls, differentials, then rock,
+    // by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
     for (const auto& ball : machines_.back()->balls()) constraints_.push_back(ball.get());
+    for (const auto& differential : machines_.back()->differentials()) constraints_.push_back(differential.get());
     for (const auto& rock : machines_.back()->rock()) {
       rock->set_height(rock_height_);
       constraints_.push_back(rock.get());

@@ -36,6 +36,7 @@ class BulletMachine {
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
   std::vector<std::unique_ptr<BallLimits>>& balls() { return joints_.balls(); }
   std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
+  const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const { return drive_.differentials(); }
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }  ///< by link
   /// The shells' plates, which meet bodies and no ground: soil is in their way there. By shell.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }

@@ -9,7 +9,8 @@ namespace {
 
 // Wheels may be commanded across the machine, where no bicycle follows: bounds that no drive's own angles reach.
 constexpr double kLeastShare = 0.05;
-constexpr double kSharpest = 20;  // tangent of a bicycle angle
+constexpr double kSharpest = 20;    // tangent of a bicycle angle
+constexpr double kSameAxle = 0.01;  // [m]
 
 }  // namespace
 
@@ -66,6 +67,41 @@ std::optional<double> AckermannLine::steer_angle(const DriveInput& input, const 
   // Under the brake too: a standing machine turns its wheels for the next start.
   const SteerAngles steer = ackermann(drive_, input.steer);
   return wheel.left ? steer.left : steer.right;
+}
+
+std::vector<Coupled> AckermannLine::coupled() const {
+  // Driven axles from front to rear; twin wheels of a side count as one shaft.
+  std::vector<double> axles;
+  for (const DriveWheel& wheel : wheels_) {
+    const auto same = [&](double x) { return std::abs(x - wheel.x) < kSameAxle; };
+    if (wheel.driven && std::none_of(axles.begin(), axles.end(), same)) axles.push_back(wheel.x);
+  }
+  std::sort(axles.rbegin(), axles.rend());
+  std::vector<Coupled> out;
+  const auto add = [&](const scene::Differential& about, const auto& one, const auto& other) {
+    if (about.kind == scene::Differential::Kind::kOpen) return;
+    const auto ones = std::count_if(wheels_.begin(), wheels_.end(), one);
+    const auto others = std::count_if(wheels_.begin(), wheels_.end(), other);
+    if (ones == 0 || others == 0) return;
+    Coupled& coupled = out.emplace_back(Coupled{about, {}});
+    for (const DriveWheel& wheel : wheels_)
+      coupled.weight.push_back(one(wheel)     ? 1.0 / static_cast<double>(ones)
+                               : other(wheel) ? -1.0 / static_cast<double>(others)
+                                              : 0.0);
+  };
+  for (const double x : axles) {
+    const auto on = [x](const DriveWheel& w, bool left) {
+      return w.driven && w.left == left && std::abs(w.x - x) < kSameAxle;
+    };
+    add(
+        drive_.axles, [&](const DriveWheel& w) { return on(w, true); },
+        [&](const DriveWheel& w) { return on(w, false); });
+  }
+  if (axles.size() > 1) {
+    const auto front = [&](const DriveWheel& w) { return w.driven && std::abs(w.x - axles[0]) < kSameAxle; };
+    add(drive_.centre, front, [&](const DriveWheel& w) { return w.driven && !front(w); });
+  }
+  return out;
 }
 
 double AckermannLine::group_speed(const DriveInput& input, std::size_t group) const {

@@ -30,6 +30,7 @@ class AckermannLine : public DriveLine {
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
   double steer_rate() const override { return drive_.steer_rate; }
+  std::vector<Coupled> coupled() const override;
 
  private:
   /// The speed asked for: the governor itself knows the largest.

@@ -27,12 +27,12 @@ std::vector<DriveWheel> drive_wheels(const scene::Machine& machine) {
     // Where nothing spins (a picture's wheel on a kinematic machine), the steered link tells the side.
     int joint = machine.joint_index(wheel.joint);
     if (joint < 0) joint = machine.joint_index(wheel.steer_joint);
-    double y = 0;
+    Vec3 p = Vec3::Zero();
     if (joint >= 0) {
       const int link = machine.joints[static_cast<std::size_t>(joint)].child;
-      y = machine.links[static_cast<std::size_t>(link)].X_ML.translation().y();
+      p = machine.links[static_cast<std::size_t>(link)].X_ML.translation();
     }
-    wheels.push_back({wheel.driven, y > 0, wheel.radius});
+    wheels.push_back({wheel.driven, p.y() > 0, wheel.radius, p.x()});
   }
   return wheels;
 }

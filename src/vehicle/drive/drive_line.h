@@ -18,9 +18,16 @@ struct DriveWheel {
   bool driven = false;
   bool left = false;  ///< of the machine's middle: its link lies at y > 0 in M
   double radius = 0;  ///< unloaded [m]
+  double x = 0;       ///< of its link in M [m]: wheels of one axle have the same
 };
 /// One for each of machine.wheels.
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine);
+
+/// A differential of the line that holds its shafts together, locked or with limited slip.
+struct Coupled {
+  scene::Differential about;
+  std::vector<double> weight;  ///< by wheel [-]: of the shafts' difference in speed, sum of weight x spin
+};
 
 /// A wheel as it turns at the start of a step.
 struct WheelTurn {
@@ -62,6 +69,9 @@ class DriveLine {
   virtual std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const = 0;
   /// Fastest turning of a steering joint [rad/s].
   virtual double steer_rate() const = 0;
+
+  /// Those of the line; none where all are open.
+  virtual std::vector<Coupled> coupled() const { return {}; }
 
   /// Torque [N m] about each wheel's axis over the next step dt [s], 0 for wheels not on the line; `mass` is the
   /// machine's [kg]. The brake is on: all 0, and the governors start afresh from the present speed.
