@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "folder.h"
 #include "heightfield/maps.h"
 #include "paths.h"
@@ -280,8 +281,38 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     EXPECT_GT(written, 10);
     const std::string counted =
         heightfield::testing::output_of("/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
-    EXPECT_EQ(counted, std::to_string(written) + "\n") << file;
+    // SQLite ends the transaction of one time when the next time comes.
+    EXPECT_EQ(counted, std::to_string(mcap ? written : written - 1) + "\n") << file;
   }
+}
+
+/// Bytes 0 to 7 from `at` on, least first.
+std::uint64_t number_at(const std::vector<char>& bytes, std::size_t at) {
+  std::uint64_t out = 0;
+  for (std::size_t i = 0; i < 8; ++i)
+    out |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + i])) << 8 * i;
+  return out;
+}
+
+TEST(Bags, TellTheLeastAndTheGreatestTimeInWhateverOrderTheyCame) {
+  const test::Folder folder;
+  for (const bool mcap : {true, false}) {
+    const std::unique_ptr<ros::Bag> bag =
+        mcap ? ros::make_mcap(folder / "run.mcap") : ros::make_bag_folder(folder / "run");
+    for (const std::int64_t ns : {300, 800, 100, 400}) bag->write("/clock", ros::Kind::kClock, ns, ros::clock(ns));
+    bag->close();
+  }
+  const std::vector<char> yaml = read_file(folder / "run/metadata.yaml");
+  const std::string metadata(yaml.begin(), yaml.end());
+  for (const char* part : {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
+    EXPECT_NE(metadata.find(part), std::string::npos) << part << " in: " << metadata;
+  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its id, the count of
+  // its messages and, before the length of that map, both times.
+  const std::vector<char> file = read_file(folder / "run.mcap");
+  const std::size_t end = file.size() - 8 - 29;
+  EXPECT_EQ(number_at(file, end - 8), 4u);
+  EXPECT_EQ(number_at(file, end - 22), 800u);
+  EXPECT_EQ(number_at(file, end - 30), 100u);
 }
 
 TEST(Bags, ThatCannotBeWrittenAreFileErrors) {

@@ -10,7 +10,7 @@
 
 namespace navvy::planner::ros {
 
-/// Takes messages in the order of their times. Not thread-safe.
+/// Takes messages in the order of their times; of another order it tells the least and the greatest. Not thread-safe.
 class Bag {
  public:
   virtual ~Bag() = default;
@@ -25,8 +25,8 @@ class Bag {
 /// Replaces `path` at once and grows as messages come. @throws FileError.
 std::unique_ptr<Bag> make_mcap(const std::string& path);
 
-/// A rosbag2 folder: `<folder>/<name of the folder>_0.db3` (SQLite, each message a transaction of its own) and, at the
-/// end, `<folder>/metadata.yaml` of version 5, which ROS 2 Humble writes.
+/// A rosbag2 folder: `<folder>/<name of the folder>_0.db3` (SQLite, what comes at one time a transaction, which a
+/// kill in its middle loses) and, at the end, `<folder>/metadata.yaml` of version 5, which ROS 2 Humble writes.
 /// @throws FileError; InputError when the folder holds a file that is no bag's.
 std::unique_ptr<Bag> make_bag_folder(const std::string& folder);
 

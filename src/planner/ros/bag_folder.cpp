@@ -2,6 +2,7 @@
 // rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are known.
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -22,7 +23,9 @@ constexpr const char* kTables =
     "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,"
     " data BLOB NOT NULL);"
     "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
-    "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');";
+    "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');"
+    // As rosbag2 itself: the disk may take its time. A kill of the program loses nothing by it.
+    "PRAGMA synchronous = OFF;";
 
 class BagFolder final : public Bag {
  public:
@@ -51,6 +54,10 @@ class BagFolder final : public Bag {
   }
 
   void write(const std::string& topic, Kind kind, std::int64_t time_ns, const Bytes& message) override {
+    // Poses come fifty times a second: a transaction for each message would cost more than the step.
+    if (messages_ > 0 && time_ns != now_) commit();
+    if (sqlite3_get_autocommit(data_) != 0) run("BEGIN");
+    now_ = time_ns;
     Topic& to = topics_[topic];
     if (to.id == 0) {
       to.id = static_cast<int>(topics_.size());
@@ -71,12 +78,13 @@ class BagFolder final : public Bag {
     sqlite3_reset(insert_);
     if (!done) fail();
     ++to.messages;
-    if (messages_++ == 0) first_ = time_ns;
-    last_ = time_ns;
+    first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
+    last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
   }
 
   void close() override {
     if (data_ == nullptr) return;
+    commit();
     sqlite3_finalize(insert_);
     insert_ = nullptr;
     const int closed = sqlite3_close(data_);
@@ -93,10 +101,17 @@ class BagFolder final : public Bag {
   };
 
   [[noreturn]] void fail() const {
-    throw FileError("cannot write '" + (folder_ / storage_).string() + "': " + sqlite3_errmsg(data_));
+    const std::string cause = sqlite3_errmsg(data_);
+    // What came before stays, and others may read it.
+    if (sqlite3_get_autocommit(data_) == 0) sqlite3_exec(data_, "ROLLBACK", nullptr, nullptr, nullptr);
+    throw FileError("cannot write '" + (folder_ / storage_).string() + "': " + cause);
   }
   void run(const char* statements) {
     if (sqlite3_exec(data_, statements, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+  }
+  /// Does nothing where a fault has ended the transaction.
+  void commit() {
+    if (sqlite3_get_autocommit(data_) == 0) run("COMMIT");
   }
   sqlite3_stmt* prepare(const char* statement) {
     sqlite3_stmt* out = nullptr;
@@ -127,7 +142,7 @@ class BagFolder final : public Bag {
   sqlite3_stmt* insert_ = nullptr;
   std::map<std::string, Topic> topics_;
   std::uint64_t messages_ = 0;
-  std::int64_t first_ = 0, last_ = 0;
+  std::int64_t first_ = 0, last_ = 0, now_ = 0;
 };
 
 }  // namespace

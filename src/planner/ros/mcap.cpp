@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // MCAP is a magic, records of opcode, length and body, and the magic again. Numbers are little-endian, strings and
 // maps carry their length in 32 bits.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -62,8 +63,8 @@ class Mcap final : public Bag {
     body.append(message.data(), message.size());
     record(kMessage, body);
     if (std::fflush(file_) != 0) fail();
-    if (messages_++ == 0) first_ = time_ns;
-    last_ = time_ns;
+    first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
+    last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
   }
 
   void close() override {
