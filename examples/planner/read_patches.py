@@ -1,15 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Follows the maps of `navvy run SCENE --publish tcp:PORT` (or of a folder): read_patches.py PORT|FOLDER"""
-import json, pathlib, socket, sys
+import itertools, json, pathlib, socket, sys, time
 import numpy
 
 def patches(place):
-    """The byte streams of a run, as file objects."""
+    """The byte streams of a run, as file objects: until it ends, also of a folder that is still being written."""
     if place.isdigit():
         yield socket.create_connection(('127.0.0.1', int(place))).makefile('rb')
     else:
-        for path in sorted(pathlib.Path(place).glob('patch_*.navvymap')):
+        for number in itertools.count(1):
+            path, end = pathlib.Path(place, f'patch_{number:09}.navvymap'), pathlib.Path(place, 'end')
+            # Asked before: what was written before the end is read, too.
+            while not ((ended := end.exists()) or path.exists()):
+                time.sleep(0.1)  # nothing changed, or nothing was due
+            if ended and not path.exists():
+                return
             yield open(path, 'rb')
 
 def follow(place):
@@ -18,6 +24,7 @@ def follow(place):
     for stream in patches(place):
         while (magic := stream.read(8)) == b'NAVVYMAP':
             header = json.loads(stream.read(int.from_bytes(stream.read(4), 'little')))
+            # From 0: the whole map, after a reset of the run with an earlier time.
             assert header['since'] in (0, seen) and header['sequence'] > seen, 'a patch is missing'
             for x0, y0, x1, y1 in header['rects']:
                 for name in header['layers']:

@@ -245,8 +245,7 @@ void MapMaker::update_derived(const CellRect& rect) {
 const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& view) {
   const bool first = !is_of(view);
   if (first) {
-    follower_.forget();
-    map_.reset();
+    forget();
     start(view);
   }
   // From here on tiles are written to, copies of those that a map holds.
@@ -256,7 +255,7 @@ const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& vi
   if (first) {
     changed_ = rects;
     map_->time_ = view.time();
-    map_->sequence_ = edition_;
+    map_->sequence_ = ++updates_;
     return changed_;
   }
   for (const CellRect& rect : rects) update_base(view, rect);
@@ -271,8 +270,13 @@ const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& vi
     for (const CellRect& rect : changed_) update_derived(rect);
   // Last: an error on the way leaves the stamp of the map before.
   map_->time_ = view.time();
-  map_->sequence_ = edition_;
+  map_->sequence_ = ++updates_;
   return changed_;
+}
+
+void MapMaker::forget() {
+  follower_.forget();
+  map_.reset();
 }
 
 TerrainMap MapMaker::map() {

@@ -38,6 +38,8 @@ class MapMaker {
   const std::vector<heightfield::CellRect>& update(const heightfield::TerrainView& view);
   /// The map as it is now. @throws Error before the first update.
   TerrainMap map();
+  /// The next view is taken as the first of a site: nothing is known any more of what was before it (`disturbed_at`).
+  void forget();
 
  private:
   bool is_of(const heightfield::TerrainView& view) const;
@@ -53,6 +55,7 @@ class MapMaker {
   std::vector<heightfield::CellRect> changed_;
   std::optional<TerrainMap> map_;
   std::uint64_t edition_ = 0;  // of the tiles that are written now
+  std::uint64_t updates_ = 0;  // done so far, which number the maps
 };
 
 }  // namespace navvy::planner

@@ -12,15 +12,19 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <list>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "core/error.h"
+#include "core/file.h"
+#include "core/log.h"
 #include "core/stopwatch.h"
 #include "planner/formats/part_file.h"
 
@@ -31,7 +35,6 @@ namespace fs = std::filesystem;
 
 /// How often a waiting thread looks whether it shall end [s].
 constexpr double kGlance = 0.2;
-constexpr std::size_t kMostReaders = 64;
 
 [[noreturn]] void refuse(const std::string& place, const std::string& rule, const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
@@ -75,6 +78,21 @@ int listening(const std::string& place, int& port) {
   return file;
 }
 
+/// A reader whose machine is gone without a word is noticed, too: after about a minute.
+void watch_connection(int file) {
+  const int yes = 1, idle = 30, every = 10, times = 3;
+  ::setsockopt(file, SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);
+  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPIDLE, &idle, sizeof idle);
+  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPINTVL, &every, sizeof every);
+  ::setsockopt(file, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
+}
+
+/// Whether the other end has said nothing of going away.
+bool is_there(int file) {
+  pollfd ask{file, POLLRDHUP, 0};
+  return ::poll(&ask, 1, 0) <= 0;
+}
+
 }  // namespace
 
 struct Publisher::State {
@@ -84,28 +102,31 @@ struct Publisher::State {
   std::vector<Layer> layers;
   std::string folder;
   int listener = -1, port = 0;
-  mutable std::mutex mutex;  // of what follows
+  mutable std::mutex mutex;  // of `fault`
   std::string fault;
   struct Reader {
     std::thread thread;
     std::atomic<bool> done{false};
   };
-  std::list<Reader> readers;
+  std::list<Reader> readers;  // of the thread that accepts, then of the one that ends it
   std::thread main;
 
   void serve_files();
   void accept_readers();
+  /// Ends the threads of readers that are gone.
+  void sweep();
   void serve(int file, std::atomic<bool>& done);
   bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
   /// Piece by piece; whole or not there. @throws FileError.
   void write_patch(const std::string& path, const MapUpdate& update) const;
-  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end.
-  template <class Deliver>
-  void follow(const Deliver& deliver);
+  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end, and so does
+  /// `alive`, which is asked while there is nothing to deliver.
+  template <class Deliver, class Alive>
+  void follow(const Deliver& deliver, const Alive& alive);
 };
 
-template <class Deliver>
-void Publisher::State::follow(const Deliver& deliver) {
+template <class Deliver, class Alive>
+void Publisher::State::follow(const Deliver& deliver, const Alive& alive) {
   for (std::uint64_t seen = 0;;) {
     // Asked before, so that what was published before the end still goes out.
     const bool last = feed.closed();
@@ -113,7 +134,7 @@ void Publisher::State::follow(const Deliver& deliver) {
     if (update != nullptr) {
       if (!deliver(*update)) return;
       seen = update->sequence;
-    } else if (last) {
+    } else if (last || !alive()) {
       return;
     }
   }
@@ -121,18 +142,26 @@ void Publisher::State::follow(const Deliver& deliver) {
 
 void Publisher::State::serve_files() {
   std::uint64_t number = 0;
-  follow([&](const MapUpdate& update) {
-    char name[40];
-    std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
+  const auto attempt = [&](const auto& write) {
     try {
-      write_patch((fs::path(folder) / name).string(), update);
+      write();
       return true;
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex);
-      fault = error.what();
+      // The first cause is what the user reads.
+      if (fault.empty()) fault = error.what();
       return false;
     }
-  });
+  };
+  follow(
+      [&](const MapUpdate& update) {
+        char name[40];
+        std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
+        return attempt([&] { write_patch((fs::path(folder) / name).string(), update); });
+      },
+      [] { return true; });
+  // Also after a fault: whoever reads is not to wait for ever.
+  attempt([&] { write_file_atomically((fs::path(folder) / kEnd).string(), ""); });
 }
 
 void Publisher::State::write_patch(const std::string& path, const MapUpdate& update) const {
@@ -166,10 +195,11 @@ bool Publisher::State::send_all(int file, const char* bytes, std::size_t count, 
 void Publisher::State::serve(int file, std::atomic<bool>& done) {
   const int yes = 1;
   ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  watch_connection(file);
   try {
     double waited = 0;
     const PatchSink sink = [&](const char* bytes, std::size_t count) { return send_all(file, bytes, count, waited); };
-    follow([&](const MapUpdate& update) { return send_patch(update, layers, sink); });
+    follow([&](const MapUpdate& update) { return send_patch(update, layers, sink); }, [&] { return is_there(file); });
   } catch (const std::exception&) {
     // No memory for its patch: this reader is let go, and may come back.
   }
@@ -177,24 +207,47 @@ void Publisher::State::serve(int file, std::atomic<bool>& done) {
   done = true;
 }
 
+void Publisher::State::sweep() {
+  readers.remove_if([](Reader& reader) {
+    if (!reader.done) return false;
+    reader.thread.join();
+    return true;
+  });
+}
+
 void Publisher::State::accept_readers() {
+  // Told once until somebody got in again: a reader that tries for ever would fill the log.
+  bool told = false;
+  const auto tell = [&told](const std::string& what) {
+    if (!std::exchange(told, true)) log_warning(what);
+  };
   while (!feed.closed()) {
     pollfd in{listener, POLLIN, 0};
-    if (::poll(&in, 1, static_cast<int>(1000 * kGlance)) <= 0) continue;
+    const int ready = ::poll(&in, 1, static_cast<int>(1000 * kGlance));
+    sweep();
+    if (ready <= 0) continue;
     const int file = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
-    if (file < 0) continue;
-    const std::lock_guard<std::mutex> lock(mutex);
-    readers.remove_if([](Reader& reader) {
-      if (!reader.done) return false;
-      reader.thread.join();
-      return true;
-    });
+    if (file < 0) {
+      if (errno == EINTR || errno == EAGAIN || errno == ECONNABORTED) continue;
+      tell(std::string("a reader of the map cannot be let in: ") + std::strerror(errno));
+      // It goes on waiting in the queue, and the next look would find it at once.
+      std::this_thread::sleep_for(std::chrono::duration<double>(kGlance));
+      continue;
+    }
     if (readers.size() >= kMostReaders) {
+      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) + " are connected");
       ::close(file);
       continue;
     }
     Reader& reader = readers.emplace_back();
-    reader.thread = std::thread([this, file, &reader] { serve(file, reader.done); });
+    try {
+      reader.thread = std::thread([this, file, &reader] { serve(file, reader.done); });
+      told = false;
+    } catch (const std::system_error& error) {
+      readers.pop_back();
+      ::close(file);
+      tell(std::string("a reader of the map cannot be let in: ") + error.what());
+    }
   }
 }
 
@@ -217,12 +270,15 @@ Publisher::Publisher(UpdateFeed& feed, const std::string& place, std::vector<Lay
   s.main = std::thread([&s] { s.serve_files(); });
 }
 
-Publisher::~Publisher() {
+Publisher::~Publisher() { finish(); }
+
+void Publisher::finish() {
   State& s = *state_;
   s.feed.close();
   if (s.main.joinable()) s.main.join();
   for (State::Reader& reader : s.readers) reader.thread.join();
-  if (s.listener >= 0) ::close(s.listener);
+  s.readers.clear();
+  if (s.listener >= 0) ::close(std::exchange(s.listener, -1));
 }
 
 int Publisher::port() const { return state_->port; }

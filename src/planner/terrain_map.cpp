@@ -188,4 +188,10 @@ TerrainMap TerrainMap::with(Layer layer, std::span<const float> values) const {
   return out;
 }
 
+TerrainMap TerrainMap::numbered(std::uint64_t sequence) const {
+  TerrainMap out = *this;
+  out.sequence_ = sequence;
+  return out;
+}
+
 }  // namespace navvy::planner

@@ -114,7 +114,8 @@ class TerrainMap {
   double cell() const { return setup_->cell; }           ///< [m]
   const Vec2& origin() const { return setup_->origin; }  ///< W of the lower-left corner [m]
   double time() const { return time_; }                  ///< simulated [s]; NaN where what it was made of does not tell
-  std::uint64_t sequence() const { return sequence_; }   ///< number of the update that made it
+  /// Number of the update that made it: in an UpdateFeed the feed's, else of the MapMaker's `update`, from 1 on.
+  std::uint64_t sequence() const { return sequence_; }
   heightfield::CellRect rect() const { return {0, 0, nx(), ny()}; }
   bool contains(int ix, int iy) const { return rect().contains(ix, iy); }
 
@@ -135,6 +136,8 @@ class TerrainMap {
   TerrainMap with(Layer layer, std::span<const float> values) const;
   /// This map with what `source` says as that layer; null: unknown everywhere.
   TerrainMap with(Layer layer, std::shared_ptr<const LayerSource> source) const;
+  /// This map under another number.
+  TerrainMap numbered(std::uint64_t sequence) const;
 
  private:
   friend class MapMaker;

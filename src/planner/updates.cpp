@@ -77,10 +77,14 @@ std::int64_t count_changed(const TerrainMap& before, const TerrainMap& after) {
 UpdateFeed::UpdateFeed(MapOptions options) : maker_(std::move(options)) {}
 
 UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
-  const std::vector<CellRect>& rects = maker_.update(view);
   const Update before = latest();
-  MapUpdate update{0, before ? before->sequence + 1 : 1, view.time(), rects, 0, false, maker_.map()};
-  const bool same_site = before && before->map.nx() == update.map.nx() && before->map.ny() == update.map.ny();
+  const std::uint64_t number = before ? before->sequence + 1 : 1;
+  if (before && view.time() < before->time) restart();
+  if (restart_) maker_.forget();
+  const std::vector<CellRect>& rects = maker_.update(view);
+  MapUpdate update{0, number, view.time(), rects, 0, false, maker_.map().numbered(number)};
+  const bool same_site =
+      before && !restart_ && before->map.nx() == update.map.nx() && before->map.ny() == update.map.ny();
   update.since = same_site ? before->sequence : 0;
   update.changed = same_site ? count_changed(before->map, update.map) : update.map.rect().area();
   if (same_site && update.changed == 0) return before;
@@ -90,17 +94,23 @@ UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return before;
-    if (!same_site) steps_.clear();
-    steps_.push_back({now->sequence, now->rects});
+    // From the map before it no way leads to one that counts from nothing.
+    if (same_site)
+      steps_.push_back({now->sequence, now->rects});
+    else
+      steps_.clear();
     if (steps_.size() > kKept) steps_.pop_front();
     latest_ = now;
     readers = readers_;
   }
+  restart_ = false;
   news_.notify_all();
   // Outside the lock: a reader may poll from within.
   for (const auto& reader : readers) reader(now);
   return now;
 }
+
+void UpdateFeed::restart() { restart_ = true; }
 
 UpdateFeed::Update UpdateFeed::latest() const {
   const std::lock_guard<std::mutex> lock(mutex_);

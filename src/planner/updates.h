@@ -16,7 +16,9 @@ namespace navvy::planner {
 
 /// What changed between two maps of one site, and the later of them. Immutable.
 struct MapUpdate {
-  std::uint64_t since = 0;                   ///< number of the map that it counts from; 0: from nothing, all is new
+  /// Number of the map that it counts from; 0: from nothing. All is new then, and `time` may be before that of a map
+  /// seen earlier.
+  std::uint64_t since = 0;
   std::uint64_t sequence = 0;                ///< of `map`, from 1 on, by one each
   double time = 0;                           ///< simulated, of `map` [s]
   std::vector<heightfield::CellRect> rects;  ///< at most 64, hold every column with a changed value; may overlap
@@ -44,13 +46,17 @@ class UpdateFeed {
   explicit UpdateFeed(MapOptions options);
 
   /// Makes the map of `view`, numbers it and calls those that subscribed, on this thread. Nothing is published where no
-  /// column changed; the answer is then the newest update. One thread at a time. @throws InputError as
-  /// MapMaker::update.
+  /// column changed; the answer is then the newest update. A view of an earlier time begins anew, as `restart` does.
+  /// One thread at a time. @throws InputError as MapMaker::update.
   Update publish(const heightfield::TerrainView& view);
+  /// For a world that was put into another state: what is published next counts from nothing for every reader, whether
+  /// anything changed or not, and of what was before it nothing is known (`disturbed_at`). Numbers go on. Of the thread
+  /// that publishes.
+  void restart();
   /// The newest one; null before the first.
   Update latest() const;
   /// From map number `seen` to the newest; null when that is the newest, or there is none. A number that was never
-  /// given out counts as 0.
+  /// given out counts as 0, and so does one from before a `restart`.
   Update since(std::uint64_t seen) const;
   /// Waits for what `since` would tell. Null after `seconds`, and after `close`.
   Update wait(std::uint64_t seen, double seconds) const;
@@ -69,9 +75,10 @@ class UpdateFeed {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable news_;
-  MapMaker maker_;  // of the publishing thread alone
+  MapMaker maker_;        // of the publishing thread alone
+  bool restart_ = false;  // likewise
   Update latest_;
-  std::deque<Step> steps_;
+  std::deque<Step> steps_;  // since the last map that counts from nothing
   std::vector<std::function<void(const Update&)>> readers_;
   bool closed_ = false;
 };

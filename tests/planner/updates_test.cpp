@@ -3,28 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <set>
 #include <thread>
 #include <utility>
 
-#include "core/error.h"
-#include "core/file.h"
 #include "core/hash.h"
 #include "core/random.h"
-#include "folder.h"
-#include "heightfield/maps.h"
-#include "paths.h"
+#include "planner/feeds.h"
 #include "planner/footprint.h"
 #include "planner/grounds.h"
-#include "planner/publisher.h"
 #include "planner/queries.h"
 #include "planner/volume.h"
 
@@ -32,24 +24,9 @@ namespace navvy::planner {
 namespace {
 
 using heightfield::Ground;
-
-const std::vector<Layer> kTwo = {Layer::kElevation, Layer::kSlope};
-
-MapOptions two_layers() {
-  MapOptions out;
-  out.layers = kTwo;
-  return out;
-}
-
-/// Takes a small pit out, deeper every time it comes back.
-void dig(Ground& ground, Random& random, int& number) {
-  std::vector<heightfield::Layer> taken;
-  const int x0 = static_cast<int>(random.uniform(0, ground.nx() - 4)),
-            y0 = static_cast<int>(random.uniform(0, ground.ny() - 4));
-  ++number;
-  for (int iy = y0; iy < y0 + 4; ++iy)
-    for (int ix = x0; ix < x0 + 4; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
-}
+using testing::dig;
+using testing::kTwo;
+using testing::two_layers;
 
 bool same(const TerrainMap& a, const TerrainMap& b) { return count_changed(a, b) == 0; }
 
@@ -109,6 +86,67 @@ TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {
   // Numbers that were never given out count from nothing.
   EXPECT_EQ(feed.since(7)->since, 0u);
   EXPECT_EQ(feed.since(0)->rects.size(), 1u);
+}
+
+TEST(UpdateFeed, GivesMapsTheNumberOfTheirUpdate) {
+  Ground ground(testing::setup(70, 66));
+  UpdateFeed feed(two_layers());
+  Random random(8);
+  int number = 0;
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    const UpdateFeed::Update update = feed.publish(ground.view(static_cast<double>(i)));
+    EXPECT_EQ(update->sequence, i);
+    EXPECT_EQ(update->map.sequence(), i);
+    // Nothing changed: no number is used up.
+    EXPECT_EQ(feed.publish(ground.view(static_cast<double>(i)))->map.sequence(), i);
+    EXPECT_EQ(feed.since(0)->map.sequence(), i);
+    dig(ground, random, number);
+  }
+  // What a reader asks for by the number of a map is what changed after it.
+  const std::uint64_t seen = feed.latest()->map.sequence();
+  const UpdateFeed::Update next = feed.publish(ground.view(6));
+  ASSERT_NE(feed.since(seen), nullptr);
+  EXPECT_EQ(feed.since(seen)->changed, next->changed);
+  EXPECT_GT(next->changed, 0);
+}
+
+TEST(UpdateFeed, CountsFromNothingWhereTimeGoesBackOrItIsToldTo) {
+  Ground ground(testing::setup(70, 66));
+  MapOptions options = two_layers();
+  options.layers.push_back(Layer::kDisturbedAt);
+  UpdateFeed feed(options);
+  Random random(8);
+  int number = 0;
+  for (int i = 0; i < 4; ++i) {
+    feed.publish(ground.view(i));
+    dig(ground, random, number);
+  }
+  const auto disturbed = [&] {
+    const std::vector<float> at = feed.latest()->map.copy(Layer::kDisturbedAt);
+    return std::count_if(at.begin(), at.end(), [](float t) { return t == t; });
+  };
+  EXPECT_EQ(feed.publish(ground.view(4))->sequence, 5u);
+  EXPECT_GT(disturbed(), 0);
+  const auto expect_anew = [&](const UpdateFeed::Update& update, std::uint64_t sequence) {
+    EXPECT_EQ(update->sequence, sequence) << "numbers go on";
+    EXPECT_EQ(update->since, 0u);
+    EXPECT_EQ(update->changed, 70 * 66);
+    EXPECT_EQ(disturbed(), 0) << "of what was before nothing is known";
+    for (const std::uint64_t seen : {std::uint64_t{0}, std::uint64_t{1}, sequence - 1})
+      EXPECT_EQ(feed.since(seen)->since, 0u) << seen;
+  };
+  // The ground is the same, its time is not.
+  expect_anew(feed.publish(ground.view(1)), 6);
+  feed.restart();
+  expect_anew(feed.publish(ground.view(1)), 7);
+  // From there on as before; who saw a map of before still begins anew.
+  dig(ground, random, number);
+  const UpdateFeed::Update next = feed.publish(ground.view(2));
+  EXPECT_EQ(next->since, 7u);
+  EXPECT_LT(next->changed, 100);
+  EXPECT_EQ(feed.since(7), next);
+  EXPECT_EQ(feed.since(6)->since, 0u);
+  EXPECT_GT(disturbed(), 0);
 }
 
 TEST(UpdateFeed, TellsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
@@ -267,144 +305,6 @@ TEST(UpdateFeed, CallsWhoSubscribedWithEveryUpdate) {
     feed.publish(ground.view(i));
   }
   EXPECT_EQ(seen, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
-}
-
-bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0; }
-
-// Follows with the example's reader and writes the elevation that it ends with.
-const char* const kFollow = R"(
-import sys
-sys.path.insert(0, sys.argv[1])
-from read_patches import follow
-count = 0
-for header, layers in follow(sys.argv[2]): count += 1
-layers['elevation'].astype('<f4').tofile(sys.argv[3])
-print(header['sequence'], count)
-)";
-
-void expect_same_as_python(const std::string& place, const test::Folder& folder, const std::function<void()>& publish,
-                           const UpdateFeed& feed) {
-  heightfield::testing::write_text(folder / "follow.py", kFollow);
-  const std::string command = "/usr/bin/python3 '" + folder / "follow.py" + "' '" + navvy::source_dir() +
-                              "/examples/planner' " + place + " '" + folder / "end.bin" + "'";
-  std::string said;
-  if (place[0] == '/') publish();
-  std::thread python([&] { said = heightfield::testing::output_of(command); });
-  if (place[0] != '/') publish();
-  python.join();
-  const TerrainMap last = feed.latest()->map;
-  const std::vector<char> end = read_file(folder / "end.bin");
-  const std::vector<float> mine = last.copy(Layer::kElevation);
-  ASSERT_EQ(end.size(), mine.size() * sizeof(float)) << said;
-  EXPECT_EQ(std::memcmp(end.data(), mine.data(), end.size()), 0);
-  EXPECT_EQ(std::stoull(said), feed.latest()->sequence);
-}
-
-TEST(Publisher, OverTcpGivesTheExamplesReaderTheSameMap) {
-  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
-  const test::Folder folder;
-  Ground ground(testing::setup(70, 66));
-  UpdateFeed feed(two_layers());
-  auto publisher = std::make_unique<Publisher>(feed, "tcp:0", kTwo);
-  expect_same_as_python(
-      std::to_string(publisher->port()), folder,
-      [&] {
-        Random random(2);
-        int number = 0;
-        // Slow enough for a reader that begins while it goes on; the end closes its stream.
-        for (int i = 0; i < 300; ++i) {
-          dig(ground, random, number);
-          feed.publish(ground.view(i));
-          std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        publisher.reset();
-      },
-      feed);
-}
-
-/// A connection to a publisher that reads so many bytes and goes away.
-void read_and_leave(int port, std::size_t bytes) {
-  const int file = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  std::vector<char> buffer(bytes);
-  for (std::size_t at = 0; at < bytes;) {
-    const ssize_t got = ::recv(file, buffer.data() + at, bytes - at, 0);
-    ASSERT_GT(got, 0);
-    at += static_cast<std::size_t>(got);
-  }
-  ::close(file);
-}
-
-TEST(Publisher, LosesNothingWhenReadersGoAwayInMidPatch) {
-  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
-  const test::Folder folder;
-  // 4 MB a whole map: more than the kernel keeps for a reader that does not read.
-  Ground ground(testing::setup(700, 700));
-  UpdateFeed feed(two_layers());
-  auto publisher = std::make_unique<Publisher>(feed, "tcp:0", kTwo);
-  feed.publish(ground.view(0));
-  for (const std::size_t bytes : {0, 5, 300, 100000}) read_and_leave(publisher->port(), bytes);
-  expect_same_as_python(
-      std::to_string(publisher->port()), folder,
-      [&] {
-        Random random(2);
-        int number = 0;
-        for (int i = 1; i < 60; ++i) {
-          dig(ground, random, number);
-          feed.publish(ground.view(i));
-          if (i % 10 == 0) read_and_leave(publisher->port(), 1000);
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        EXPECT_EQ(publisher->fault(), "");
-        publisher.reset();
-      },
-      feed);
-}
-
-TEST(Publisher, IntoAFolderGivesTheExamplesReaderTheSameMap) {
-  if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
-  const test::Folder folder;
-  Ground ground(testing::setup(70, 66));
-  UpdateFeed feed(two_layers());
-  auto publisher = std::make_unique<Publisher>(feed, folder / "maps", kTwo);
-  expect_same_as_python(
-      folder / "maps", folder,
-      [&] {
-        Random random(2);
-        int number = 0;
-        for (int i = 0; i < 40; ++i) {
-          dig(ground, random, number);
-          feed.publish(ground.view(i));
-        }
-        publisher.reset();
-      },
-      feed);
-}
-
-TEST(Publisher, RefusesAPortThatIsTakenAndPlacesThatAreNone) {
-  const test::Folder folder;
-  UpdateFeed feed(two_layers()), other(two_layers());
-  const Publisher publisher(feed, "tcp:0", kTwo);
-  const auto message = [&](const std::string& place) {
-    try {
-      const Publisher second(other, place, kTwo);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  const std::string taken = message("tcp:" + std::to_string(publisher.port()));
-  EXPECT_NE(taken.find("Address already in use"), std::string::npos) << taken;
-  EXPECT_NE(taken.find("another port"), std::string::npos) << taken;
-  EXPECT_NE(message("tcp:70000").find("0 to 65535"), std::string::npos);
-  EXPECT_NE(message("tcp:").find("no port"), std::string::npos);
-  EXPECT_NE(message("tcp:here:5").find("IPv4"), std::string::npos);
-  heightfield::testing::write_text(folder / "mine.txt", "x");
-  EXPECT_NE(message(folder / "").find("mine.txt"), std::string::npos);
 }
 
 }  // namespace
