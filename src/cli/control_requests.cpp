@@ -74,7 +74,10 @@ ControlRequests::ControlRequests(session::Session& session, double rate, Control
       desk_(std::move(desk)),
       start_(saved(session)),
       feed_(planner::options_for(session.world().description(), session.world().ground(), planner::all_layers(),
-                                 session.design())) {}
+                                 session.design())) {
+  // What changes before the first question is known to have changed.
+  now();
+}
 
 bool ControlRequests::is_request(const json& line) {
   return line.is_object() &&
@@ -134,6 +137,9 @@ json ControlRequests::go_back(const std::function<void()>& load) {
     throw;
   }
   moved_ = true;
+  // Of what was before this state the map knows nothing.
+  feed_.restart();
+  now();
   return {{"time", world_.time()}, {"steps", world_.steps()}};
 }
 
@@ -142,7 +148,8 @@ json ControlRequests::go_back(const std::function<void()>& load) {
 json ControlRequests::heights(const json& what) {
   if (!what.is_object())
     refuse("heights", what, "must be an object", R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
-  const planner::TerrainMap map = now()->map;
+  const planner::UpdateFeed::Update newest = now();
+  const planner::TerrainMap& map = newest->map;
   Vec2 low = map.origin(), high = low + map.cell() * Vec2(map.nx(), map.ny());
   double cell = map.cell();
   planner::Layer layer = planner::Layer::kElevation;
@@ -182,7 +189,8 @@ json ControlRequests::heights(const json& what) {
           {"cell_m", cell},
           {"nx", nx},
           {"ny", ny},
-          {"sequence", map.sequence()},
+          {"sequence", newest->sequence},
+          {"map_time", newest->time},
           {"time", world_.time()},
           {"values", values}};
 }
@@ -192,8 +200,13 @@ json ControlRequests::changed(const json& what) {
     refuse("changed", what, "must be a whole number", "0, or the sequence of the last answer");
   const planner::UpdateFeed::Update newest = now();
   const planner::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
-  json out = {{"since", what},   {"sequence", newest->sequence}, {"time", newest->time}, {"columns", 0},
-              {"merged", false}, {"rects_m", json::array()}};
+  json out = {{"since", what},
+              {"sequence", newest->sequence},
+              {"map_time", newest->time},
+              {"time", world_.time()},
+              {"columns", 0},
+              {"merged", false},
+              {"rects_m", json::array()}};
   if (update == nullptr) return out;
   const planner::TerrainMap& map = update->map;
   for (const heightfield::CellRect& r : update->rects) {

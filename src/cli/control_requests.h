@@ -33,7 +33,7 @@ struct ControlDesk {
 
 /// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info": true},
 /// {"reset": true}, {"save": "file"}, {"load": "file"}, {"watch": "machine/link"}. Simulated time stands still
-/// meanwhile; the map is brought up to date when it is asked for and costs nothing otherwise.
+/// meanwhile; the map begins with the session, is brought up to date when it is asked for and costs nothing otherwise.
 class ControlRequests {
  public:
   /// Keeps the session's present state for `reset` (some MiB for each million particles).

@@ -143,7 +143,9 @@ bool ControlStdio::say_outputs() {
 }
 
 bool ControlStdio::answer(const json& request) {
-  if (!say(line_of(requests_.answer(request)))) return false;
+  const json said = requests_.answer(request);
+  moved_ = moved_ || requests_.moved();
+  if (!say(line_of(said))) return false;
   // Inputs that follow belong to the state as it is now.
   return !requests_.moved() || say_outputs();
 }

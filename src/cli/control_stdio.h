@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 
 #include "cli/control_requests.h"
 
@@ -29,6 +30,8 @@ class ControlStdio {
   bool exchange();
   /// How the controller went away without {"end": true}; empty while it is there.
   const std::string& gone() const { return gone_; }
+  /// Whether the session was put into another state (reset, load) since this was asked last.
+  bool take_moved() { return std::exchange(moved_, false); }
 
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20;  ///< [bytes]
   static constexpr int kDeepestNesting = 8;                          ///< a line needs 2
@@ -49,6 +52,7 @@ class ControlStdio {
   bool skipping_ = false;    ///< within a line that is too long
   bool ended_ = false;       ///< nothing more will come
   std::string gone_;
+  bool moved_ = false;  ///< since `take_moved`
   session::Session& session_;
   const sim::World& world_;
   double rate_;  ///< of exchanges [1/s]

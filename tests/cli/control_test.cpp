@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -121,6 +122,69 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
   EXPECT_NEAR(lines[11].at("time").get<double>(), 0.04, 0.003);
   EXPECT_EQ(lines[12].at("reset").at("time"), 0);
   EXPECT_EQ(lines[13], lines[0]);
+}
+
+TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
+  // The bucket goes down at 1 m/s from 0.2 m above the ground and asks before it is there, and in the ground.
+  std::string down = "{\"inputs\": {\"bucket/slide_z/velocity\": -1}}\n",
+              input = "{\"heights\": {\"cell_m\": 1}}\n" + down;
+  for (int i = 0; i < 25; ++i) input += "{}\n";
+  input += R"({"heights": {"cell_m": 1}}
+{"changed": 1}
+{"heights": {"layer": "disturbed_at"}}
+{"heights": {"cell_m": 1}}
+{}
+{}
+{"changed": 2}
+{"changed": 3}
+{"changed": 0}
+{"reset": true}
+{"heights": {"layer": "disturbed_at"}}
+{"changed": 3}
+{"changed": 4}
+{"end": true}
+)";
+  std::vector<json> lines;
+  ASSERT_EQ(drive(input, lines), 0) << complained();
+  std::vector<json> heights, changed;
+  for (const json& line : lines) {
+    ASSERT_FALSE(line.contains("error")) << line;
+    if (line.contains("heights")) heights.push_back(line.at("heights"));
+    if (line.contains("changed")) changed.push_back(line.at("changed"));
+  }
+  ASSERT_EQ(heights.size(), 5u);
+  ASSERT_EQ(changed.size(), 6u);
+  // One map a change, whoever asks: the start, what the bucket has done, two steps more, the start again.
+  EXPECT_EQ(heights[0].at("sequence"), 1);
+  EXPECT_EQ(heights[1].at("sequence"), 2);
+  EXPECT_EQ(heights[3].at("sequence"), 2);
+  EXPECT_EQ(changed[0].at("since"), 1);
+  EXPECT_EQ(changed[0].at("sequence"), 2);
+  EXPECT_GT(changed[0].at("columns"), 0);
+  // Soil moves in every step: the number of the map that was seen leads to what changed after it.
+  EXPECT_EQ(changed[1].at("since"), 2);
+  EXPECT_EQ(changed[1].at("sequence"), 3);
+  EXPECT_GT(changed[1].at("columns"), 0);
+  EXPECT_GT(changed[1].at("rects_m").size(), 0u);
+  EXPECT_GT(changed[1].at("map_time"), heights[3].at("map_time"));
+  EXPECT_EQ(changed[1].at("map_time"), changed[1].at("time"));
+  EXPECT_EQ(changed[2].at("columns"), 0);
+  EXPECT_EQ(changed[2].at("time"), changed[1].at("time"));
+  EXPECT_EQ(changed[3].at("since"), 0);
+  // Known from the first question on: where the soil has changed, and not where a slope has, beside it.
+  const auto known = [](const json& answer) {
+    const json& values = answer.at("values");
+    return std::count_if(values.begin(), values.end(), [](const json& value) { return !value.is_null(); });
+  };
+  EXPECT_GT(known(heights[2]), 0);
+  EXPECT_LE(known(heights[2]), changed[0].at("columns"));
+  // The start again: its time is earlier, nothing is known of what was, and no number of before leads to it.
+  EXPECT_EQ(heights[4].at("sequence"), 4);
+  EXPECT_EQ(heights[4].at("map_time"), 0);
+  EXPECT_EQ(known(heights[4]), 0);
+  EXPECT_EQ(changed[4].at("since"), 0);
+  EXPECT_GT(changed[4].at("columns"), changed[0].at("columns"));
+  EXPECT_EQ(changed[5].at("columns"), 0);
 }
 
 TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
