@@ -16,13 +16,32 @@ PublishedMap::PublishedMap(const PublishOptions& options, const session::Session
       feed_(planner::options_for(world_.description(), world_.ground(), layers_, session.design())) {
   publisher_.emplace(feed_, options.place, layers_);
   if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));
-  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+  publish();
+}
+
+void PublishedMap::publish() { feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped)); }
+
+void PublishedMap::check() const {
+  if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);
 }
 
 void PublishedMap::observe() {
   if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return;
-  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
-  if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);
+  publish();
+  check();
+}
+
+void PublishedMap::restart() {
+  feed_.restart();
+  publish();
+  check();
+}
+
+void PublishedMap::finish() {
+  // The end need not be a moment of the rate.
+  publish();
+  publisher_->finish();
+  check();
 }
 
 }  // namespace navvy::cli

@@ -105,7 +105,13 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
     while (!session.done() && !StopSignals::asked()) {
-      if (control && !control->exchange()) {
+      const bool go_on = !control || control->exchange();
+      // Also where the controller ends right after it: what is written next is of the state as it is now.
+      if (control && control->take_moved()) {
+        recorder.restart();
+        if (published != nullptr) published->restart();
+      }
+      if (!go_on) {
         told_to_end = true;
         break;
       }
@@ -129,6 +135,12 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
     line.end();
     signals.obeyed();
     recorder.finish("failed", error.what());
+    // Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it.
+    if (published != nullptr) try {
+        published->finish();
+      } catch (const std::exception& second) {
+        log(LogLevel::kError, std::string("the published map is not that of the end: ") + second.what());
+      }
     // The exit status says which kind of failure it was.
     throw;
   }
@@ -140,6 +152,14 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // From here on nobody hurries: the files are closed in their order.
   const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
   signals.obeyed();
+  if (published != nullptr) {
+    try {
+      published->finish();
+    } catch (const std::exception& error) {
+      recorder.finish("failed", error.what());
+      throw;
+    }
+  }
   const bool complete = session.complete();
   recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
   if (interrupted) return kInterrupted;
@@ -236,8 +256,6 @@ int run(const RunOptions& options) {
   std::optional<PublishedMap> published;
   if (!options.publish.place.empty()) published.emplace(options.publish, session);
   const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
-  // Readers get the last map before the program goes.
-  published.reset();
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
   if (code != kInterrupted) tell_programs(say, session);

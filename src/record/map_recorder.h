@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -18,7 +20,9 @@ std::vector<Fault> check_records(const scene::Scene& scene);
 /// Writes each record of the scene at its rate, into the run's folder: a format of one instant as
 /// `maps/<name>_<number>.<extension>` (`terra` as a folder), the number counting periods from time zero; `mcap` and
 /// `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run, with clock, tf, odometry and joint
-/// states of all machines. Costs nothing in steps in which none is due; then a map brought up to date and the file.
+/// states of all machines at a rate of their own. After each `restart` the files are called `<name>_2`, `<name>_3`, ...
+/// (the next that is no record's): none holds two states of one time, none is written over. Costs nothing in steps in
+/// which none is due; then a map brought up to date and the file.
 class MapRecorder {
  public:
   /// @throws InputError as check_records, FileError.
@@ -27,16 +31,20 @@ class MapRecorder {
   MapRecorder(const MapRecorder&) = delete;
   MapRecorder& operator=(const MapRecorder&) = delete;
 
-  /// Called at the start and after each step. @throws FileError.
+  /// Called at the start, after each step and after `restart`. @throws FileError.
   void observe();
+  /// The world was put into another state: closes what is open and begins anew. @throws FileError.
+  void restart();
   /// Closes what is open, once. @throws FileError.
   void finish();
 
  private:
   struct Stream;
+  void open(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
   std::vector<std::unique_ptr<Stream>> streams_;
+  std::set<std::string> taken_;  ///< what files are called, without number and extension
 };
 
 }  // namespace navvy::record

@@ -186,6 +186,14 @@ void Recorder::observe() {
   state_->checkpoint(false);
 }
 
+void Recorder::restart() {
+  State& s = *state_;
+  if (!s.maps) return;
+  const Lap lap(s.status.record_time);
+  s.maps->restart();
+  s.maps->observe();
+}
+
 void Recorder::finish(const std::string& status, const std::string& message) {
   State& s = *state_;
   // Failing while finishing must not write a second, half different summary.

@@ -50,6 +50,9 @@ class Recorder {
 
   /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
   void observe();
+  /// Called when the session was put into another state, an earlier one or any other: recorded maps and bags begin new
+  /// files (map_recorder.h), tables go on. @throws FileError.
+  void restart();
   /// Writes the final files, once; later calls do nothing. `status` is one of RunStatus::status but "running"; after a
   /// failure also the snapshot of the last state. A file that cannot be written makes the run a failed one, whose
   /// summary says so.

@@ -71,13 +71,16 @@ struct Recording {
   bool render = true;
 };
 
-/// Maps or messages written while a scene runs, at a rate.
+/// Maps or messages written while a scene runs, at a rate. They decide nothing of what the run comes to.
 struct MapRecord {
+  static constexpr double kMachineRate = 50;  ///< of a bag that names none [1/s]
+
   int line = 0;                     ///< of the scene's file, for messages
   std::string name;                 ///< of the files in the run's folder
   std::string format;               ///< as the planner's formats are called, or "mcap", "bag"
   std::vector<std::string> layers;  ///< by name; empty: what the format is made for
-  double rate = 1;                  ///< [1/s]
+  double rate = 1;                  ///< of maps [1/s]
+  double machine_rate = 0;          ///< of a bag's poses, joints and clock [1/s]; 0: not named, so kMachineRate
 };
 
 /// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds give equal runs on

@@ -74,6 +74,7 @@ scene::MapRecord read_record(Element& element, Faults& faults) {
       .required("format")
       .text("layers", layers)
       .number("rate_hz", record.rate, {0.001, 1000})
+      .number("machine_rate_hz", record.machine_rate, {0.001, 1000})
       .finish();
   record.layers = words_of(layers);
   if (record.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the files");

@@ -2,10 +2,16 @@
 // What a scene records while it runs, what it publishes, and how far it is from its design.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "folder.h"
 #include "process.h"
@@ -18,9 +24,10 @@ using nlohmann::json;
 using test::text_of;
 
 /// A machine that waits for 0.3 s beside a pit that nobody digs: 2 m x 2 m x 0.5 m.
-std::string scene(const std::string& records) {
-  return R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
-<navvy:ground><size_m>6 4</size_m><depth_m>1</depth_m></navvy:ground>
+std::string scene(const std::string& records, const std::string& awake = "") {
+  return R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="sand_dry"/>
+<navvy:ground><size_m>6 4</size_m><depth_m>1</depth_m>)" +
+         awake + R"(</navvy:ground>
 <navvy:solver><cell_m>0.2</cell_m><max_particles>20000</max_particles></navvy:solver>
 <navvy:design><area><polygon_m>-1 -1 1 -1 1 1 -1 1</polygon_m><depth_m>0.5</depth_m></area></navvy:design>
 <navvy:recording><duration_s>0.4</duration_s><render>false</render></navvy:recording>
@@ -31,13 +38,85 @@ std::string scene(const std::string& records) {
 <navvy:program><wait><duration_s>0.3</duration_s></wait></navvy:program></model></world></sdf>)";
 }
 
+/// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then what its head tells.
+std::vector<float> heights_of_ply(const std::string& bytes) {
+  const std::size_t begin = bytes.find("end_header\n") + 11;
+  std::istringstream head(bytes.substr(0, begin));
+  std::size_t vertices = 0, size = 0;
+  bool of_vertex = false;
+  for (std::string line; std::getline(head, line);) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (first == "element") of_vertex = second == "vertex";
+    if (first == "element" && of_vertex) words >> vertices;
+    if (first == "property" && of_vertex) size += second == "double" ? 8 : 4;
+  }
+  std::vector<float> out;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    double z = 0;
+    std::memcpy(&z, bytes.data() + begin + i * size + 16, 8);
+    out.push_back(static_cast<float>(z));
+  }
+  return out;
+}
+
+/// Soil that falls apart from the start on.
+const char* const kHeap =
+    "<block><center_m>1 1</center_m><length_m>1</length_m><width_m>1</width_m>"
+    "<height_m>1</height_m></block><awake><min_m>0.4 0.4</min_m><max_m>1.6 1.6</max_m></awake>";
+
 class Record : public testing::Test {
  protected:
-  int navvy(std::vector<std::string> arguments, const std::string& records) {
-    std::ofstream(folder_ / "s.sdf") << scene(records);
+  int navvy(std::vector<std::string> arguments, const std::string& records, const std::string& awake = "",
+            const std::string& input = "") {
+    std::ofstream(folder_ / "s.sdf") << scene(records, awake);
+    std::ofstream(folder_ / "in") << input;
     arguments.insert(arguments.begin() + 1, folder_ / "s.sdf");
     return test::wait_for(
-        test::start({NAVVY_PROGRAM, arguments, {}, "/dev/null", folder_ / "stdout", folder_ / "stderr"}));
+        test::start({NAVVY_PROGRAM, arguments, {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
+  }
+  std::string metadata(const std::string& bag) const { return text_of(folder_ / "out/" + bag + "/metadata.yaml"); }
+  /// Of a topic of a bag.
+  int messages(const std::string& bag, const std::string& topic) const {
+    const std::string text = metadata(bag), key = "message_count: ";
+    return std::stoi(text.substr(text.find(key, text.find("name: " + topic + "\n")) + key.size()));
+  }
+  /// Headers of a folder's patches, and the elevation that they end in.
+  std::vector<json> patches(const std::string& place, std::vector<float>& elevation) const {
+    std::vector<json> headers;
+    for (int number = 1;; ++number) {
+      char name[40];
+      std::snprintf(name, sizeof name, "/patch_%09d.navvymap", number);
+      if (!std::filesystem::exists(folder_ / place + name)) return headers;
+      const std::string bytes = text_of(folder_ / place + name);
+      std::uint32_t length = 0;
+      std::memcpy(&length, bytes.data() + 8, 4);
+      const json head = json::parse(bytes.substr(12, length));
+      headers.push_back(head);
+      elevation.resize(head.at("nx").get<std::size_t>() * head.at("ny").get<std::size_t>());
+      // The only layer.
+      std::size_t at = 12 + length;
+      for (const json& rect : head.at("rects"))
+        for (std::size_t iy = rect[1]; iy < rect[3]; ++iy)
+          for (std::size_t ix = rect[0]; ix < rect[2]; ++ix, at += 4)
+            std::memcpy(&elevation[iy * head.at("nx").get<std::size_t>() + ix], bytes.data() + at, 4);
+      EXPECT_EQ(at, bytes.size()) << name;
+    }
+  }
+  /// Elevation of the run's end from its own map, by `navvy map`.
+  std::vector<float> elevation_at_the_end() const {
+    const std::string points = folder_ / "end.ply";
+    EXPECT_EQ(test::wait_for(
+                  test::start({NAVVY_PROGRAM,
+                               {"map", folder_ / "out", "--layers", "elevation", "--format", "ply", "--out", points},
+                               {},
+                               "/dev/null",
+                               folder_ / "map.out",
+                               folder_ / "map.err"})),
+              0)
+        << text_of(folder_ / "map.err");
+    return heights_of_ply(text_of(points));
   }
   bool has(const std::string& file) const { return std::filesystem::file_size(folder_ / file) > 0; }
   const test::Folder folder_;
@@ -75,6 +154,103 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
   EXPECT_EQ(design.at("over_dig_m3"), 0);
   EXPECT_NEAR(design.at("mean_error_m").get<double>(), 0.5, 1e-5);
   EXPECT_NEAR(design.at("largest_error_m").get<double>(), 0.5, 1e-5);
+}
+
+TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
+  // Once a second, a run of 0.4 s in which soil falls.
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", folder_ / "patches", "--publish-rate", "1",
+                   "--publish-layers", "elevation"},
+                  "", kHeap),
+            0)
+      << text_of(folder_ / "stderr");
+  std::vector<float> last;
+  const std::vector<json> headers = patches("patches", last);
+  ASSERT_EQ(headers.size(), 2u) << "the start and the end";
+  EXPECT_EQ(headers[0].at("time_s"), 0);
+  EXPECT_EQ(headers[1].at("since"), 1);
+  EXPECT_NEAR(headers[1].at("time_s").get<double>(), 0.4, 2e-3);
+  EXPECT_GT(headers[1].at("changed"), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "patches/end"));
+  const std::vector<float> end = elevation_at_the_end();
+  ASSERT_EQ(end.size(), last.size());
+  // Both are float32 of one surface, of which the run's went through columns once more: 1 m has a last digit of 1e-7.
+  for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
+}
+
+TEST_F(Record, AResetBeginsNewFilesAndTellsReadersThatTimeWentBack) {
+  const std::string records = R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
+<navvy:record name="all"><format>mcap</format><layers>elevation</layers></navvy:record>
+<navvy:record name="all_2"><format>npz</format><layers>elevation</layers><rate_hz>10</rate_hz></navvy:record>
+)";
+  std::string input;
+  for (int i = 0; i < 15; ++i) input += "{}\n";
+  input += "{\"reset\": true}\n";
+  for (int i = 0; i < 6; ++i) input += "{}\n";
+  input += "{\"reset\": true}\n{\"end\": true}\n";
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--control", "stdio", "--publish", folder_ / "patches",
+                   "--publish-rate", "10", "--publish-layers", "elevation"},
+                  records, kHeap, input),
+            0)
+      << text_of(folder_ / "stderr");
+  const std::string list = text_of(folder_ / "out/navvy.run");
+  for (const std::string file :
+       {"run/run_0.db3", "run/metadata.yaml", "run_2/run_2_0.db3", "run_2/metadata.yaml", "run_3/metadata.yaml",
+        "all.mcap", "all_3.mcap", "all_4.mcap", "maps/all_2_00000.npz", "maps/all_2_00003.npz",
+        "maps/all_2_2_00000.npz", "maps/all_2_2_00001.npz", "maps/all_2_3_00000.npz"}) {
+    EXPECT_TRUE(has("out/" + file)) << file;
+    EXPECT_NE(list.find(file + "\n"), std::string::npos) << file << " in: " << list;
+  }
+  // Nothing was written over: 4 maps to 0.3 s, 2 to 0.12 s, 1 of the start.
+  const auto maps = std::filesystem::directory_iterator(folder_ / "out/maps");
+  EXPECT_EQ(std::distance(begin(maps), end(maps)), 7);
+  // Each bag has its own times: poses at 50 Hz, of 0.3 s and of 0.12 s.
+  EXPECT_EQ(messages("run", "/tf"), 16);
+  EXPECT_EQ(messages("run", "/clock"), 16);
+  EXPECT_EQ(messages("run", "/terrain/grid_map"), 4);
+  EXPECT_EQ(messages("run_2", "/tf"), 7);
+  EXPECT_EQ(messages("run_2", "/terrain/grid_map"), 2);
+  EXPECT_NE(metadata("run").find("nanoseconds: 300000000\n"), std::string::npos) << metadata("run");
+  EXPECT_NE(metadata("run_2").find("nanoseconds: 120000000\n"), std::string::npos) << metadata("run_2");
+  for (const char* bag : {"run", "run_2", "run_3"})
+    EXPECT_NE(metadata(bag).find("nanoseconds_since_epoch: 0\n"), std::string::npos) << bag;
+  // Readers of patches: whole maps where time goes back, and the end is the start again.
+  std::vector<float> last;
+  const std::vector<json> headers = patches("patches", last);
+  int anew = 0;
+  for (std::size_t i = 1; i < headers.size(); ++i) {
+    const bool back = headers[i].at("time_s") < headers[i - 1].at("time_s");
+    EXPECT_EQ(headers[i].at("since") == 0, back) << headers[i];
+    anew += back ? 1 : 0;
+  }
+  // Twice, unless the disk was so slow that both went into one patch.
+  EXPECT_GE(anew, 1);
+  const std::vector<float> end = elevation_at_the_end();
+  ASSERT_EQ(end.size(), last.size());
+  for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
+}
+
+TEST_F(Record, OfABagHasItsMachinesAtTheirOwnRate) {
+  const std::string records = R"(<navvy:record name="a"><format>bag</format></navvy:record>
+<navvy:record name="b"><format>bag</format><rate_hz>5</rate_hz><machine_rate_hz>20</machine_rate_hz></navvy:record>
+)";
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out"}, records), 0) << text_of(folder_ / "stderr");
+  // 0.4 s: 50 Hz and the map once a second where nothing is said.
+  for (const char* topic : {"/clock", "/tf", "/m/odom", "/m/joint_states"}) {
+    EXPECT_EQ(messages("a", topic), 21) << topic;
+    EXPECT_EQ(messages("b", topic), 9) << topic;
+  }
+  EXPECT_EQ(messages("a", "/terrain/grid_map"), 1);
+  EXPECT_EQ(messages("b", "/terrain/grid_map"), 3);
+  // The scene that lies among the results asks for the same.
+  EXPECT_NE(text_of(folder_ / "out/scene.sdf").find("<machine_rate_hz>20</machine_rate_hz>"), std::string::npos);
+  // Where it does nothing it is a slip.
+  EXPECT_EQ(navvy({"check"},
+                  R"(<navvy:record name="a"><format>npz</format><machine_rate_hz>20</machine_rate_hz></navvy:record>
+)"),
+            2);
+  const std::string said = text_of(folder_ / "stdout");
+  for (const char* part : {"s.sdf:6", "navvy:record[a]/machine_rate_hz", "only mcap and bag"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
 TEST_F(Record, OfAnUnknownFormatOrLayerIsToldWithItsLineBeforeTheRun) {

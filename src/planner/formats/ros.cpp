@@ -7,13 +7,22 @@
 #include "planner/ros/streams.h"
 
 namespace navvy::planner {
+namespace {
+
+void write(ros::Bag& bag, const TerrainMap& map, const std::vector<Layer>& layers) {
+  const std::int64_t now = ros::stamp(map.time());
+  ros::write_clock(bag, now);
+  ros::write_map(bag, map, layers, now);
+  bag.close();
+}
+
+}  // namespace
 
 void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
   const std::string part = partial_name(path);
   try {
     const auto bag = ros::make_mcap(part);
-    ros::write_map(*bag, map, layers, ros::stamp(map.time()));
-    bag->close();
+    write(*bag, map, layers);
   } catch (...) {
     std::remove(part.c_str());  // a full disk is not to stay full of halves
     throw;
@@ -22,9 +31,7 @@ void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const s
 }
 
 void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
-  const auto bag = ros::make_bag_folder(path);
-  ros::write_map(*bag, map, layers, ros::stamp(map.time()));
-  bag->close();
+  write(*ros::make_bag_folder(path), map, layers);
 }
 
 }  // namespace navvy::planner
