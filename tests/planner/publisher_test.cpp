@@ -290,6 +290,22 @@ TEST(Publisher, IntoAFolderIsFollowedWhileItIsWritten) {
   EXPECT_EQ(said, "5 5\n") << "the last number, and how many patches";
 }
 
+TEST(Publisher, TellsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
+  const test::Folder folder;
+  Ground ground(testing::setup(20, 20));
+  UpdateFeed feed(two_layers());
+  Publisher publisher(feed, folder / "maps", kTwo);
+  feed.publish(ground.view(0));
+  ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(folder / "maps/patch_000000001.navvymap"); }));
+  std::filesystem::remove_all(folder / "maps");
+  Random random(2);
+  int number = 0;
+  dig(ground, random, number);
+  feed.publish(ground.view(1));
+  publisher.finish();
+  EXPECT_NE(publisher.fault().find("patch_000000002.navvymap"), std::string::npos) << publisher.fault();
+}
+
 TEST(Publisher, RefusesAPortThatIsTakenAndPlacesThatAreNone) {
   const test::Folder folder;
   UpdateFeed feed(two_layers()), other(two_layers());
