@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/saved_state.h"
+#include "core/sealed.h"
 #include "planner/queries.h"
 #include "planner/sources.h"
 #include "sim/terrain_view.h"
@@ -44,6 +46,14 @@ std::string text_in(const std::string& key, const json& value) {
 
 void must_be_true(const std::string& key, const json& value) {
   if (value != json(true)) refuse(key, value, "must be true", "send {\"" + key + "\": true}");
+}
+
+/// A controller's slip costs no script or map: what is there and holds something must be a snapshot.
+void require_snapshot_or_nothing(const json& what, const std::string& path) {
+  std::error_code code;
+  if (is_sealed(path) || !std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) == 0)
+    return;
+  refuse("save", what, "is there and is no snapshot, so it stays", "name a new file, or remove this one");
 }
 
 /// As a PNG goes into a line of text [RFC 4648].
@@ -116,6 +126,7 @@ json ControlRequests::answer(const json& line) {
   }
   if (key == "save") {
     const std::string path = text_in(key, what);
+    require_snapshot_or_nothing(what, path);
     session_.save(path);
     out = {{"file", path}, {"time", world_.time()}};
   }

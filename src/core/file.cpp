@@ -8,23 +8,59 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "core/error.h"
 
 namespace navvy {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// As many as the system itself follows.
+constexpr int kMostLinks = 40;
+
 // The code is handed in, as closing and unlinking on the way here may change errno.
 [[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
 
+const char* kind_of(const struct stat& found) {
+  return S_ISDIR(found.st_mode)    ? "a directory"
+         : S_ISFIFO(found.st_mode) ? "a pipe"
+         : S_ISSOCK(found.st_mode) ? "a socket"
+                                   : "a device";
+}
+
+/// A rename takes the place of a pipe or a device node as of any other name, and those who use it would never know.
+void require_replaceable(const std::string& path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) != 0) {
+    if (errno == ELOOP) fail("write", path, ELOOP);
+    return;
+  }
+  if (!S_ISREG(found.st_mode))
+    throw FileError("cannot write '" + path + "': it is " + kind_of(found) +
+                    ", and only a plain file is replaced (name a file)");
+}
+
+/// Why the partial file of `path` could not be made; the missing folder is what people meet most.
+[[noreturn]] void fail_to_create(const std::string& path, int code) {
+  const fs::path folder = fs::path(followed(path)).parent_path();
+  std::error_code ignored;
+  if (code == ENOENT && !folder.empty() && !fs::exists(folder, ignored))
+    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() + "' (make it: mkdir -p '" +
+                    folder.string() + "')");
+  fail("create", partial_name(path), code);
+}
+
 // Until the rename of commit_file a reader of `path` sees the old content; whatever fails before it leaves no partial
 // file behind.
 void write_bytes(const std::string& path, const char* data, std::size_t size) {
+  require_replaceable(path);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) fail("create", part, errno);
+  if (fd < 0) fail_to_create(path, errno);
   while (size > 0) {
     // A write may be interrupted by a signal or take a part only; neither is an error.
     const ssize_t n = ::write(fd, data, size);
@@ -49,7 +85,19 @@ void write_bytes(const std::string& path, const char* data, std::size_t size) {
 
 }  // namespace
 
-std::string partial_name(const std::string& path) { return path + ".part"; }
+std::string followed(const std::string& path) {
+  fs::path at = path;
+  std::error_code code;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(at, code)); ++links) {
+    const fs::path to = fs::read_symlink(at, code);
+    if (code || links == kMostLinks) return path;
+    // A relative one counts from where the link lies.
+    at = at.parent_path() / to;
+  }
+  return at.string();
+}
+
+std::string partial_name(const std::string& path) { return followed(path) + ".part"; }
 
 void commit_file(const std::string& path) {
   const std::string part = partial_name(path);
@@ -68,7 +116,13 @@ void commit_file(const std::string& path) {
     ::unlink(part.c_str());
     fail("flush", part, code);
   }
-  if (std::rename(part.c_str(), path.c_str()) != 0) {
+  try {
+    require_replaceable(path);
+  } catch (...) {
+    ::unlink(part.c_str());
+    throw;
+  }
+  if (std::rename(part.c_str(), followed(path).c_str()) != 0) {
     const int cause = errno;
     ::unlink(part.c_str());
     fail("rename to", path, cause);
@@ -76,12 +130,11 @@ void commit_file(const std::string& path) {
 }
 
 void require_writable(const std::string& path) {
-  struct stat found = {};
-  // A folder of that name would let the partial file be made and only the rename at the end of the run fail.
-  if (::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) fail("write", path, EISDIR);
+  // What is no file would let the partial file be made and only the rename at the end of the run fail.
+  require_replaceable(path);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  if (fd < 0) fail("create", part, errno);
+  if (fd < 0) fail_to_create(path, errno);
   ::close(fd);
   ::unlink(part.c_str());
 }
@@ -96,11 +149,12 @@ void write_file_atomically(const std::string& path, const std::vector<char>& con
 void require_regular(const std::string& path) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode)) return;
-  const char* what = S_ISDIR(found.st_mode)    ? "a directory"
-                     : S_ISFIFO(found.st_mode) ? "a pipe"
-                     : S_ISSOCK(found.st_mode) ? "a socket"
-                                               : "a device";
-  throw FileError("cannot read '" + path + "': it is " + what + ", a plain file is needed");
+  throw FileError("cannot read '" + path + "': it is " + kind_of(found) + ", a plain file is needed");
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  return !a.empty() && !b.empty() && fs::equivalent(a, b, code) && !code;
 }
 
 std::vector<char> read_file(const std::string& path, std::size_t most) {

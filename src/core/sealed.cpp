@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "core/error.h"
@@ -14,6 +16,8 @@ namespace navvy {
 namespace {
 
 constexpr char kMagic[16] = "navvy state 1\n\n";
+/// Of the magic, what all versions share.
+constexpr std::size_t kName = 11;
 /// Of the file: magic, length of all, checksum of the two.
 constexpr std::size_t kHead = sizeof kMagic + 2 * sizeof(std::uint64_t);
 
@@ -98,6 +102,15 @@ std::vector<char> unseal(const std::vector<char>& content) {
     at += sizeof(std::uint64_t) + size;
   }
   return out;
+}
+
+bool is_sealed(const std::string& path) {
+  // Opening a pipe would wait for a writer.
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) return false;
+  char head[kName] = {};
+  std::ifstream(path, std::ios::binary).read(head, kName);
+  return std::memcmp(head, kMagic, kName) == 0;
 }
 
 }  // namespace navvy

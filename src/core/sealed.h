@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace navvy {
@@ -17,5 +18,9 @@ std::vector<char> seal(const std::vector<char>& state);
 /// fields.
 /// @throws InputError that tells the damaged section by place and name.
 std::vector<char> unseal(const std::vector<char>& content);
+
+/// Whether the plain file `path` begins as a sealed state does, of any version: names are the user's. False of what is
+/// not there.
+bool is_sealed(const std::string& path);
 
 }  // namespace navvy

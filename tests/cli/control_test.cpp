@@ -89,6 +89,7 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
 {"changed": 0}
 {"changed": 1}
 {"save": ")" + snapshot + R"("}
+{"save": ")" + snapshot + R"("}
 {}
 {"load": ")" + snapshot + R"("}
 {}
@@ -98,7 +99,7 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
 )";
   std::vector<json> lines;
   ASSERT_EQ(drive(input, lines), 0) << complained();
-  ASSERT_EQ(lines.size(), 14u);
+  ASSERT_EQ(lines.size(), 15u);
   const json& info = lines[1].at("info");
   EXPECT_EQ(info.at("scene"), "bucket_path");
   EXPECT_EQ(info.at("time"), 0);
@@ -114,14 +115,15 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
   EXPECT_EQ(lines[4].at("changed").at("sequence"), 1);
   EXPECT_EQ(lines[5].at("changed").at("rects_m").size(), 0u);
   EXPECT_EQ(lines[6].at("save").at("file"), snapshot);
+  EXPECT_EQ(lines[7], lines[6]) << "a snapshot may be replaced";
   // One control step on, and back: the outputs come again.
-  EXPECT_NEAR(lines[7].at("time").get<double>(), 0.02, 0.003);
-  EXPECT_EQ(lines[8].at("load").at("time"), 0);
-  EXPECT_EQ(lines[9], lines[0]);
-  EXPECT_EQ(lines[10], lines[7]) << "the same step again gives the same bits";
-  EXPECT_NEAR(lines[11].at("time").get<double>(), 0.04, 0.003);
-  EXPECT_EQ(lines[12].at("reset").at("time"), 0);
-  EXPECT_EQ(lines[13], lines[0]);
+  EXPECT_NEAR(lines[8].at("time").get<double>(), 0.02, 0.003);
+  EXPECT_EQ(lines[9].at("load").at("time"), 0);
+  EXPECT_EQ(lines[10], lines[0]);
+  EXPECT_EQ(lines[11], lines[8]) << "the same step again gives the same bits";
+  EXPECT_NEAR(lines[12].at("time").get<double>(), 0.04, 0.003);
+  EXPECT_EQ(lines[13].at("reset").at("time"), 0);
+  EXPECT_EQ(lines[14], lines[0]);
 }
 
 TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
@@ -189,6 +191,7 @@ TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
 
 TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
   std::ofstream(folder_ / "bad.snapshot") << "navvy state of nothing";
+  std::ofstream(folder_ / "ctl.py") << "print('drive')";
   const std::vector<std::pair<std::string, std::string>> bad = {
       {R"({"heights": {"cell_m": 0.0001, "min_m": [0, 0]}})", "cell_m"},
       {R"({"heights": {"cell_m": 0.002}})", "1000000 cells"},
@@ -202,7 +205,8 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
       {R"({"image": "nobody"})", "no camera"},
       {R"({"info": 1})", "must be true"},
       {R"({"reset": true, "inputs": {}})", "two lines"},
-      {R"({"save": "/proc/no/such"})", "cannot create"},
+      {R"({"save": "/proc/no/such"})", "there is no folder '/proc/no'"},
+      {R"({"save": ")" + (folder_ / "ctl.py") + "\"}", "is no snapshot, so it stays"},
       {R"({"load": "/no/such.snapshot"})", "/no/such.snapshot"},
       {R"({"load": ")" + (folder_ / "bad.snapshot") + "\"}", "bad.snapshot"},
   };
@@ -211,6 +215,7 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
   input += "{}\n{\"end\": true}\n";
   std::vector<json> lines, plain;
   ASSERT_EQ(drive(input, lines), 0) << complained();
+  EXPECT_EQ(text_of(folder_ / "ctl.py"), "print('drive')");
   ASSERT_EQ(lines.size(), bad.size() + 3);
   for (std::size_t i = 0; i < bad.size(); ++i) {
     ASSERT_TRUE(lines[i + 2].contains("error")) << bad[i].first << ": " << lines[i + 2];

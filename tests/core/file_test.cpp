@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "folder.h"
@@ -98,14 +99,57 @@ TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
   EXPECT_EQ(message([&] { read_file(path("")); }),
             "cannot read '" + path("") + "': it is a directory, a plain file is needed");
   EXPECT_EQ(message([&] { write_file_atomically(path("no/where"), std::string("x")); }),
-            "cannot create '" + path("no/where.part") + "': No such file or directory");
+            "cannot write '" + path("no/where") + "': there is no folder '" + path("no") + "' (make it: mkdir -p '" +
+                path("no") + "')");
+  EXPECT_NE(message([&] { require_writable(path("no/where")); }).find("mkdir -p"), std::string::npos);
 }
 
-TEST_F(File, RemovesItsPartWhenTheNameIsTaken) {
+TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
   fs::create_directories(path("folder/inside"));
-  EXPECT_NE(message([&] { write_file_atomically(path("folder"), std::string("x")); }).find("cannot rename to"),
-            std::string::npos);
-  EXPECT_FALSE(fs::exists(partial_name(path("folder"))));
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo(path("hidden").c_str(), 0600), 0);
+  fs::create_symlink("hidden", path("link"));
+  fs::create_symlink("/dev/full", path("full"));
+  const std::pair<std::string, std::string> all[] = {
+      {"folder", "a directory"}, {"pipe", "a pipe"}, {"link", "a pipe"}, {"full", "a device"}};
+  for (const auto& [name, what] : all) {
+    const std::string told =
+        "cannot write '" + path(name) + "': it is " + what + ", and only a plain file is replaced (name a file)";
+    EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
+    EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
+    // Also when another library has written the part already.
+    if (name != "full") {
+      std::ofstream(partial_name(path(name))) << "x";
+      EXPECT_EQ(message([&] { commit_file(path(name)); }), told);
+      EXPECT_FALSE(fs::exists(partial_name(path(name))));
+    }
+  }
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_TRUE(fs::is_fifo(path("hidden")));
+  EXPECT_TRUE(fs::is_directory(path("folder/inside")));
+  EXPECT_TRUE(fs::is_symlink(path("full")));
+}
+
+TEST_F(File, IsReplacedWhereALinkLeadsToAndTheLinkStays) {
+  fs::create_directories(path("there"));
+  write_file_atomically(path("there/a"), std::string("old"));
+  fs::create_symlink("there/a", path("link"));
+  fs::create_symlink("link", path("second"));
+  write_file_atomically(path("second"), std::string("new"));
+  EXPECT_EQ(text(path("there/a")), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_TRUE(fs::is_symlink(path("second")));
+  // One that leads to nothing yet makes the file there.
+  fs::create_symlink(path("there/b"), path("ahead"));
+  write_file_atomically(path("ahead"), std::string("b"));
+  EXPECT_EQ(text(path("there/b")), "b");
+  EXPECT_TRUE(fs::is_symlink(path("ahead")));
+  fs::create_symlink("round", path("round"));
+  EXPECT_EQ(message([&] { write_file_atomically(path("round"), std::string("x")); }),
+            "cannot write '" + path("round") + "': Too many levels of symbolic links");
+  EXPECT_TRUE(same_file(path("second"), path("there/../there/a")));
+  EXPECT_FALSE(same_file(path("there/a"), path("there/b")));
+  EXPECT_FALSE(same_file(path("none"), path("none")));
 }
 
 TEST_F(File, IsCommittedFromAPartAnotherLibraryWrote) {

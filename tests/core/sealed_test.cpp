@@ -7,8 +7,10 @@
 
 #include "core/archive.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/random.h"
 #include "core/saved_state.h"
+#include "folder.h"
 
 namespace navvy {
 namespace {
@@ -42,6 +44,16 @@ TEST(Sealed, GivesTheStateBack) {
   const std::vector<char> state = saved(State());
   EXPECT_EQ(unseal(seal(state)), state);
   EXPECT_EQ(unseal(seal({})), std::vector<char>());
+}
+
+TEST(Sealed, IsKnownByItsHead) {
+  const test::Folder folder;
+  write_file_atomically(folder / "state", seal(saved(State())));
+  write_file_atomically(folder / "short", std::string("navvy"));
+  EXPECT_TRUE(is_sealed(folder / "state"));
+  EXPECT_FALSE(is_sealed(folder / "short"));
+  EXPECT_FALSE(is_sealed(folder / "none"));
+  EXPECT_FALSE(is_sealed(folder / ""));
 }
 
 TEST(Sealed, BytesOutsideOfSectionsAreTheCallersFault) {

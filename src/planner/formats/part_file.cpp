@@ -11,14 +11,17 @@
 
 namespace navvy::planner {
 
-PartFile::PartFile(const std::string& path) : path_(path), file_(std::fopen(partial_name(path).c_str(), "wb")) {
+PartFile::PartFile(const std::string& path) : path_(path), part_(partial_name(path)), file_(nullptr) {
+  // Asked first: gigabytes are not written for a place that is then refused.
+  require_writable(path);
+  file_ = std::fopen(part_.c_str(), "wb");
   if (file_ == nullptr) fail();
 }
 
 PartFile::~PartFile() {
   if (file_ == nullptr) return;
   std::fclose(file_);
-  ::unlink(partial_name(path_).c_str());
+  ::unlink(part_.c_str());
 }
 
 void PartFile::fail() { throw FileError("cannot write '" + path_ + "': " + std::strerror(errno)); }
@@ -40,7 +43,7 @@ void PartFile::commit() {
   // A full disk may show only here.
   if (std::fclose(file) != 0) {
     const int code = errno;
-    ::unlink(partial_name(path_).c_str());
+    ::unlink(part_.c_str());
     errno = code;
     fail();
   }

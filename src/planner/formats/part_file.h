@@ -13,7 +13,7 @@ namespace navvy::planner {
 /// stands.
 class PartFile {
  public:
-  /// @throws FileError naming path and cause, as do all of these.
+  /// @throws FileError naming path and cause, as do all of these; also for what is there and is no plain file.
   explicit PartFile(const std::string& path);
   /// Removes what was not committed.
   ~PartFile();
@@ -28,7 +28,7 @@ class PartFile {
 
  private:
   [[noreturn]] void fail();
-  std::string path_;
+  std::string path_, part_;
   std::FILE* file_;
   std::uint64_t size_ = 0;
 };
