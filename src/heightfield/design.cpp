@@ -3,10 +3,14 @@
 #include "heightfield/design.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "heightfield/span_text.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/import_design.h"
@@ -53,17 +57,73 @@ Vec3 to_survey(const GroundSetup& setup) {
           setup.height_offset};
 }
 
-/// The number behind the last ID["EPSG", in a projected CRS; 0: none, or of another kind.
-int epsg_of(const std::string& wkt) {
-  const std::size_t at = wkt.rfind("ID[\"EPSG\",");
-  return wkt.rfind("PROJCRS", 0) != 0 || at == std::string::npos ? 0 : std::atoi(wkt.c_str() + at + 10);
+/// The EPSG code of the element whose bracket stands at `open`, not of what lies in it; 0: none.
+int code_of(const std::string& wkt, std::size_t open) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = open; i < wkt.size(); ++i) {
+    const char c = wkt[i];
+    // A quote in a name is doubled.
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (depth == 1 && std::isalnum(static_cast<unsigned char>(wkt[i - 1])) == 0 &&
+        wkt.compare(i, 10, "ID[\"EPSG\",") == 0)
+      return std::atoi(wkt.c_str() + i + 10);
+    depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+    if (c == ']' && depth == 0) break;
+  }
+  return 0;
+}
+
+/// EPSG codes that name the plane coordinates of a WKT2: that of its projected CRS, which may be part of a compound
+/// one, and then that of the compound.
+std::vector<int> codes_of(const std::string& wkt) {
+  std::vector<int> out;
+  const std::size_t projected = wkt.find("PROJCRS[");
+  if (projected == std::string::npos) return out;
+  for (const std::size_t element : {projected, wkt.find("COMPOUNDCRS[")})
+    if (element != std::string::npos)
+      if (const int code = code_of(wkt, wkt.find('[', element)); code != 0) out.push_back(code);
+  return out;
+}
+
+std::string epsg_text(int code) { return "EPSG:" + std::to_string(code); }
+
+void warn(const scene::Tin& tin, const std::string& value, const std::string& rule, const std::string& remedy) {
+  log_warning(Fault{Fault::Severity::kWarning, tin.file, 0, "navvy:design", value, rule, remedy}.text());
+}
+
+void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
+  const std::vector<int> site = codes_of(setup.crs_wkt);
+  if (tin.epsg != 0 && site.empty())
+    warn(tin, epsg_text(tin.epsg),
+         setup.crs_wkt.empty() ? "the site has no CRS, so nobody knows whether the two count alike"
+                               : "the CRS of the site's map has no EPSG code to compare with",
+         "give the ground's map its code: gdal_translate -a_srs EPSG:CODE IN OUT.tif; a procedural site counts in W");
+  if (site.empty()) return;
+  if (tin.epsg == 0)
+    warn(tin, "", "the file names no EPSG code, the site's map is in " + epsg_text(site[0]),
+         "see that both are the same and add <CoordinateSystem epsgCode=\"" + std::to_string(site[0]) + "\"/>");
+  else if (std::find(site.begin(), site.end(), tin.epsg) == site.end())
+    fail(tin.file, 0, epsg_text(tin.epsg), "the site's map is in " + epsg_text(site[0]),
+         "export both in one coordinate system");
+}
+
+/// The two feet differ by two parts in a million: nothing on the site, metres at coordinates of millions.
+void tell_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
+  const double off = std::abs(tin.metres / setup.file_unit - 1);
+  if (!(off > 1e-7) || off > 1e-5) return;
+  char units[80], apart[32];
+  std::snprintf(units, sizeof units, "counts in %.10g m, the site's map in %.10g m", tin.metres, setup.file_unit);
+  std::snprintf(apart, sizeof apart, "%.2g", off * Vec2(setup.easting, setup.northing).norm() * setup.file_unit);
+  warn(tin, "", std::string(units) + ": US survey feet and international feet lie " + apart + " m apart here",
+       "if the coordinates are the same numbers, correct linearUnit (USSurveyFoot or foot)");
 }
 
 DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   const GroundSetup& setup = site.setup();
-  if (const int epsg = epsg_of(setup.crs_wkt); epsg != 0 && tin.epsg != 0 && epsg != tin.epsg)
-    fail(tin.file, 0, "EPSG:" + std::to_string(tin.epsg), "the site's map is in EPSG:" + std::to_string(epsg),
-         "export both in one coordinate system");
+  require_same_crs(tin, setup);
+  tell_of_feet(tin, setup);
   // W's numbers are small: triangles are held there.
   const Vec3 shift = to_survey(setup);
   Vec3 low = Vec3::Constant(INFINITY), high = -low;

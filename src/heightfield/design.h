@@ -29,8 +29,10 @@ struct DesignSurface {
 ///
 /// A TIN is its triangles at the columns' centres; a raster is bilinear, at the edge of what it knows the nearest cell;
 /// an area's sides end where they meet the untouched ground. Costs some 20 ns for a column and each edge of an area.
-/// @throws InputError naming file or line: a file that cannot be read, another CRS or unit than the site's, a surface
-/// that covers no column, an area that does not lie on the site.
+/// A TIN's own unit is converted. A warning goes to the log where only one of TIN and site has an EPSG code, and where
+/// one counts in international feet and the other in those of US surveys.
+/// @throws InputError naming file or line: a file that cannot be read, another CRS than the site's, a surface that
+/// covers no column, an area that does not lie on the site.
 std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrain& site);
 
 /// The ground against its design, over the columns that have one. `cut` and `fill` are against the untouched site,

@@ -16,6 +16,7 @@ namespace navvy::scene {
 struct Tin {
   std::string file, name;                 ///< for messages
   int epsg = 0;                           ///< of its coordinate system; 0: not told
+  double metres = 1;                      ///< a unit of the file; the points are converted
   std::vector<Vec3> points;               ///< [m]
   std::vector<std::array<int, 3>> faces;  ///< visible ones, indices of points, wound either way
 };

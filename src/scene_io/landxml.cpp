@@ -100,12 +100,18 @@ int split(const char* text, std::string_view words[3]) {
   return count;
 }
 
-using Ids = std::unordered_map<std::string, int>;
+/// Points by their ids, also faulty ones: a fault is told where it is, not again by every face.
+struct Ids {
+  std::unordered_map<std::string, int> index;
+  bool complete = true;  ///< no point is without one
+};
 
 void read_points(const Element& definition, double metres, const Reading& reading, scene::Tin& tin, Ids& ids) {
   for (const Element* p = child(child(&definition, "Pnts"), "P"); p != nullptr; p = p->NextSiblingElement("P")) {
     const char* text = p->GetText();
     const std::string id = attribute(*p, "id");
+    const bool own_id = !id.empty() && ids.index.emplace(id, static_cast<int>(tin.points.size())).second;
+    ids.complete = ids.complete && !id.empty();
     std::string_view words[3];
     Vec3 at = Vec3::Zero();
     bool sound = split(text, words) == 3;
@@ -114,7 +120,7 @@ void read_points(const Element& definition, double metres, const Reading& readin
     if (!sound) {
       reading.error(*p, text != nullptr ? text : "", "a point is three numbers: northing easting elevation",
                     "points that refer to others (pntRef) are not read: export coordinates");
-    } else if (id.empty() || !ids.emplace(id, static_cast<int>(tin.points.size())).second) {
+    } else if (!own_id) {
       reading.error(*p, id, "every point needs an id of its own", "give it another one");
     }
     // Northing comes first in the file, easting in ours.
@@ -135,12 +141,12 @@ void read_faces(const Element& definition, const Reading& reading, scene::Tin& t
     std::array<int, 3> face = {};
     bool sound = true;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto found = ids.find(std::string(words[i]));
-      if (found == ids.end())
-        reading.error(*f, std::string(words[i]), "no point of this id", "add the point, or remove the face");
-      else
+      const auto found = ids.index.find(std::string(words[i]));
+      if (found != ids.index.end())
         face[i] = found->second;
-      sound = sound && found != ids.end();
+      else if (ids.complete)
+        reading.error(*f, std::string(words[i]), "no point of this id", "add the point, or remove the face");
+      sound = sound && found != ids.index.end();
     }
     if (sound) tin.faces.push_back(face);
   }
@@ -193,6 +199,7 @@ std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const st
   auto tin = std::make_shared<scene::Tin>();
   tin->file = file;
   const double metres = read_unit(root, reading);
+  tin->metres = metres;
   const Element* definition = find_definition(root, surface, reading);
   if (definition == nullptr || metres == 0) return nullptr;
   tin->name = attribute(*definition->Parent()->ToElement(), "name");

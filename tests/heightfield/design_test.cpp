@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "heightfield/maps.h"
 #include "heightfield/site.h"
 
@@ -189,6 +190,72 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
   world.ground.origin = Vec2(-12, 190);
   message = message_of(world);
   EXPECT_NE(message.find("northing and easting are swapped"), std::string::npos) << message;
+}
+
+/// What the log says while the frustum is laid on a site of that CRS and unit; a refusal's text likewise.
+std::string said_of(const std::string& crs, double site_unit, int epsg, double unit) {
+  GroundSetup setup = make_ground(flat()).setup();
+  setup.crs_wkt = crs;
+  setup.file_unit = site_unit;
+  // As file coordinates of a real site, in the millions.
+  setup.easting = 2000000;
+  setup.northing = 500000;
+  auto tin = frustum();
+  tin->epsg = epsg;
+  tin->metres = unit;
+  for (Vec3& p : tin->points) p += Vec3(2000000 * site_unit + 12, 500000 * site_unit + 10, 0);
+  scene::Scene world = flat();
+  world.design.file = "pit.xml";
+  world.design.tin = tin;
+  std::string out;
+  set_log_sink([&](LogLevel, const std::string& line) { out += line + "\n"; });
+  try {
+    make_design(world, Ground(setup));
+  } catch (const InputError& error) {
+    out += error.what();
+  }
+  set_log_sink({});
+  return out;
+}
+
+const std::string kZone =
+    "PROJCRS[\"WGS 84 / UTM zone 32N\",BASEGEOGCRS[\"WGS 84\",ID[\"EPSG\",4326]],CONVERSION[\"UTM zone 32N\","
+    "METHOD[\"Transverse Mercator\",ID[\"EPSG\",9807]]],CS[Cartesian,2],LENGTHUNIT[\"metre\",1,ID[\"EPSG\",9001]]";
+const std::string kOwnCode = kZone + ",ID[\"EPSG\",32632]]";
+const std::string kCompound = "COMPOUNDCRS[\"zone \"\"[32]\"\" and heights\"," + kOwnCode +
+                              ",VERTCRS[\"EGM96 height\",CS[vertical,1],ID[\"EPSG\",5773]],ID[\"EPSG\",9999]]";
+
+TEST(DesignTin, OfAnotherCrsIsRefusedAlsoBesideOneWithHeights) {
+  for (const std::string& crs : {kOwnCode, kCompound}) {
+    const std::string said = said_of(crs, 1, 25832, 1);
+    EXPECT_NE(said.find("EPSG:25832"), std::string::npos) << said;
+    EXPECT_NE(said.find("the site's map is in EPSG:32632"), std::string::npos) << said;
+    EXPECT_EQ(said_of(crs, 1, 32632, 1), "");
+  }
+  EXPECT_EQ(said_of(kCompound, 1, 9999, 1), "") << "the compound's own code names its plane, too";
+  // Not the code of its base, its method or its unit.
+  const std::string said = said_of(kZone + "]", 1, 9001, 1);
+  EXPECT_EQ(said.find("error"), std::string::npos) << said;
+}
+
+TEST(DesignTin, WarnsWhereOnlyOneSideHasACode) {
+  EXPECT_EQ(said_of("", 1, 0, 1), "");
+  EXPECT_NE(said_of("", 1, 25832, 1).find("pit.xml: warning: navvy:design: 'EPSG:25832': the site has no CRS"),
+            std::string::npos)
+      << said_of("", 1, 25832, 1);
+  EXPECT_NE(said_of(kZone + "]", 1, 32632, 1).find("has no EPSG code to compare with"), std::string::npos);
+  EXPECT_NE(said_of(kCompound, 1, 0, 1).find("<CoordinateSystem epsgCode=\"32632\"/>"), std::string::npos);
+}
+
+TEST(DesignTin, TellsInternationalFeetFromThoseOfSurveys) {
+  const double survey = 1200.0 / 3937.0;
+  // Two millionths of 2.06 million feet.
+  const std::string said = said_of("", survey, 0, 0.3048);
+  EXPECT_NE(said.find("counts in 0.3048 m, the site's map in 0.3048006096 m"), std::string::npos) << said;
+  EXPECT_NE(said.find("lie 1.3 m apart here"), std::string::npos) << said;
+  EXPECT_NE(said_of("", 0.3048, 0, survey).find("correct linearUnit"), std::string::npos);
+  EXPECT_EQ(said_of("", survey, 0, survey), "");
+  EXPECT_EQ(said_of("", survey, 0, 1), "") << "metres are converted";
 }
 
 TEST(DesignArea, OffTheSiteIsRefusedWithItsLine) {

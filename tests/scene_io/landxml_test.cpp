@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "control/step_kinds.h"
 #include "core/file.h"
 #include "folder.h"
@@ -63,6 +65,7 @@ TEST(LandXml, ComesInMetresWhateverItCountsIn) {
   };
   EXPECT_DOUBLE_EQ(easting("<Imperial linearUnit=\"foot\"/>"), 20 * 0.3048);
   EXPECT_DOUBLE_EQ(easting("<Imperial linearUnit=\"USSurveyFoot\"/>"), 20 * 1200.0 / 3937);
+  EXPECT_EQ(read(landxml("<Units><Imperial linearUnit=\"foot\"/></Units>", kFour, kFaces)).tin->metres, 0.3048);
   EXPECT_DOUBLE_EQ(easting("<Metric linearUnit=\"millimeter\"/>"), 0.02);
 }
 
@@ -87,6 +90,23 @@ TEST(LandXml, IsRefusedWithFileLineValueAndRemedy) {
   expect(read("<Other/>"), {"'Other'", "<LandXML>"});
   expect(read("<LandXML><"), {"no sound XML"});
   expect(read(""), {"is empty"});
+}
+
+TEST(LandXml, TellsAFaultyPointOnceAndNotByItsFaces) {
+  const std::string face = "<F>1 2 3</F><F>1 2 4</F>";
+  const auto faults = [&](const std::string& point, const std::string& faces) {
+    return read(landxml(kMetres, kFour + point, faces)).faults;
+  };
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  // Of points 3 and 4 only the second is nowhere.
+  const std::string bad = faults("<P id=\"3\">1 2</P>", face);
+  EXPECT_EQ(lines(bad), 2) << bad;
+  EXPECT_NE(bad.find("'1 2'"), std::string::npos) << bad;
+  EXPECT_EQ(bad.find("'3'"), std::string::npos) << bad;
+  EXPECT_NE(bad.find("'4'"), std::string::npos) << bad;
+  // Any of them may be the one whose id is missing.
+  EXPECT_EQ(lines(faults("<P>1 2 3</P>", face)), 1) << faults("<P>1 2 3</P>", face);
+  EXPECT_EQ(lines(faults("<P id=\"2\">1 2</P>", "<F>1 2 7</F>")), 1);
 }
 
 TEST(Design, OfASceneIsReadFromLandXmlBesideIt) {
