@@ -34,6 +34,9 @@ struct GroundSetup {
   double easting = 0, northing = 0, height_offset = 0;
   double file_unit = 1, file_height_unit = 1;  ///< metres per unit of the file's coordinates and heights
   std::string crs_wkt;
+  // Of a map with gaps: heights there were made up from the nearest known ones.
+  double filled_share = 0;  ///< of the map's cells on the site, 0 .. 1
+  double filled_from = 0;   ///< most of the distances to a cell with a height [m]
 };
 
 }  // namespace navvy::heightfield

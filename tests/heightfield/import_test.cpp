@@ -224,11 +224,15 @@ TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
   };
   const std::string whole = write_text(dir + "whole.asc", ascii_grid(20, 20, header, plane));
   EXPECT_EQ(report_of(whole).warning(), "");
+  EXPECT_EQ(make_ground(map_world(whole, 0.25, Vec2(10, 10))).setup().filled_share, 0);
   const std::string holes =
       write_text(dir + "holes.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", holed("-9999")));
   const TerrainReport told = report_of(holes);
   EXPECT_EQ(told.site_cells, 100);
   EXPECT_EQ(told.site_gaps, 49);
+  const Ground filled = make_ground(map_world(holes, 0.25, Vec2(10, 10)));
+  EXPECT_EQ(filled.setup().filled_share, 0.49);
+  EXPECT_EQ(filled.setup().filled_from, 4);
   const std::string warning = told.warning();
   EXPECT_TRUE(contains(warning, "49 of 100 map cells on the site (49 %, 49 m2) have no height")) << warning;
   EXPECT_TRUE(contains(warning, "from up to 4 m away")) << warning;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <future>
 #include <memory>
@@ -45,6 +46,12 @@ std::string height_unit(const GroundSetup& setup) {
   if (std::abs(setup.file_height_unit - 0.3048) < 1e-9) return "ft";
   if (std::abs(setup.file_height_unit - 1200.0 / 3937.0) < 1e-9) return "US survey foot";
   return "";
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
 }
 
 /// Removes what is half written, unless told that it is whole.
@@ -86,6 +93,11 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
     OGRSpatialReference crs;
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (crs.importFromWkt(setup.crs_wkt.c_str()) == OGRERR_NONE) data->SetSpatialRef(&crs);
+  }
+  // Who reads heights can see that some were never measured.
+  if (setup.filled_share > 0) {
+    data->SetMetadataItem("NAVVY_FILLED_SHARE", number_text(setup.filled_share).c_str());
+    data->SetMetadataItem("NAVVY_FILLED_FROM_M", number_text(setup.filled_from).c_str());
   }
   // GDAL has one such value for all bands of a GeoTIFF.
   data->GetRasterBand(1)->SetNoDataValue(kExportNodata);

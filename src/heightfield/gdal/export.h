@@ -14,7 +14,8 @@ namespace navvy::heightfield {
 /// Writes the present heights of the whole site as float32 GeoTIFF (DEFLATE, PREDICTOR 3, nodata -9999): north up, in
 /// the coordinates, units, CRS and vertical datum of the file the site came from, W where it came from none; the unit
 /// of heights is the band's, too. Strip by strip, so a large site needs no copy; while strips are packed another thread
-/// computes the next. A kill leaves the old file or the new one.
+/// computes the next. A kill leaves the old file or the new one. Where the site's map had gaps the file's metadata tell
+/// the share of its cells that were filled, 0 .. 1 (NAVVY_FILLED_SHARE), and from how far (NAVVY_FILLED_FROM_M).
 /// @throws FileError naming path and cause.
 void write_geotiff(const Terrain& terrain, const std::string& path);
 /// The same with map layers (heightfield/map_view.h) as further bands, under their names and in the layers' own units;

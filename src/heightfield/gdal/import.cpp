@@ -85,6 +85,10 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, do
   report.lowest = least + report.height_offset;
   report.highest = most + report.height_offset;
   report.soil_cell = setup.cell;
+  if (report.site_gaps > 0) {
+    setup.filled_share = report.share_filled();
+    setup.filled_from = report.filled_from();
+  }
   setup.height_offset = report.height_offset;
   setup.datum = bedrock(world, least);
   return report;

@@ -136,7 +136,8 @@ std::string header(const TerrainMap& map, const std::vector<Layer>& layers) {
          ", \"northing\": " + json_number(s.northing) + ", \"metres_per_unit\": " + json_number(s.file_unit) +
          ", \"height_offset_m\": " + json_number(s.height_offset) +
          ", \"metres_per_height_unit\": " + json_number(s.file_height_unit) +
-         ", \"crs_wkt\": " + json_string(s.crs_wkt) + "}\n}\n";
+         ", \"crs_wkt\": " + json_string(s.crs_wkt) + "},\n  \"filled\": {\"share\": " + json_number(s.filled_share) +
+         ", \"from_m\": " + json_number(s.filled_from) + "}\n}\n";
 }
 
 }  // namespace
