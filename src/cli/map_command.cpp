@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `navvy map`: layers of a site as a file, from a run's folder, a snapshot or a scene.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -16,6 +15,8 @@
 #include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
+#include "core/sealed.h"
 #include "device/device.h"
 #include "heightfield/site.h"
 #include "planner/formats/formats.h"
@@ -35,11 +36,78 @@ struct MapCommand {
   double slope_deg = 0, step = 0, roughness = 0, window = 0;  ///< 0: the map's own
 };
 
-/// By its first bytes; names are the user's.
-bool is_snapshot(const std::string& path) {
-  char head[11] = {};
-  std::ifstream(path, std::ios::binary).read(head, sizeof head);
-  return std::memcmp(head, "navvy state", sizeof head) == 0;
+/// What a map is made of, and how far it can know.
+enum class From { kScene, kRun, kSnapshot };
+
+/// A file that is read must not be written over, whatever it is called.
+void require_apart(const MapCommand& options, const planner::Format& format, const std::vector<std::string>& reads) {
+  for (const std::string& to : planner::files_of(format, options.out))
+    for (const std::string& read : reads)
+      if (same_file(to, read))
+        throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", options.out,
+                               "would replace '" + read + "', which this map is made from", "name another file"});
+}
+
+/// What a map of `scene` is made from, beside `others`.
+std::vector<std::string> reads_of(const scene::Scene& scene, std::vector<std::string> others) {
+  others.insert(others.end(), {scene.file, scene.ground.file, scene.design.file});
+  return others;
+}
+
+/// Whether no column of a layer has a value. Ends at the first one that has.
+bool unknown_everywhere(const planner::TerrainMap& map, planner::Layer layer) {
+  if (!map.has(layer)) return true;
+  constexpr int kSide = planner::LayerTiles::kSide;
+  const planner::LayerTiles& tiles = map.tiles(layer);
+  const auto buffer = std::make_unique<planner::LayerTiles::Values>();
+  for (int ty = 0; ty * kSide < map.ny(); ++ty)
+    for (int tx = 0; tx * kSide < map.nx(); ++tx) {
+      const float* values = tiles.passing(tx, ty, *buffer);
+      if (values == nullptr) continue;
+      for (int y = 0; y < std::min(kSide, map.ny() - ty * kSide); ++y)
+        for (int x = 0; x < std::min(kSide, map.nx() - tx * kSide); ++x)
+          if (values[y * kSide + x] == values[y * kSide + x]) return false;
+    }
+  return true;
+}
+
+/// Why nothing is known of a layer, and what to do.
+std::pair<std::string, std::string> why_unknown(planner::Layer layer, From from) {
+  using planner::Layer;
+  if (layer == Layer::kTarget || layer == Layer::kCutFill)
+    return {"the scene has no design", "add a <navvy:design> to the scene"};
+  if (layer == Layer::kDisturbedAt)
+    return from == From::kScene ? std::pair<std::string, std::string>("nothing has changed on an untouched site",
+                                                                      "record it while a scene runs: <navvy:record>")
+                                : std::pair<std::string, std::string>("what is written at one time tells no history",
+                                                                      "record it while the scene runs: <navvy:record>");
+  if (from == From::kRun)
+    return {"a run's folder holds heights and what lies loose",
+            "map a snapshot of that time: navvy run SCENE --snapshot FILE --snapshot-at T"};
+  return {"no column of the site has a value", "look at the site's map with navvy check"};
+}
+
+/// Refuses what would be a folder of zeros; warns of each layer that was asked for by name and tells nothing. The names
+/// of those that came with the format and tell nothing are returned.
+std::string look_for_unknown(const MapCommand& options, const planner::Format& format, const planner::TerrainMap& map,
+                             const std::vector<planner::Layer>& layers, From from) {
+  std::string unknown;
+  if (format.write == planner::write_terra && map.has(planner::Layer::kTarget) &&
+      unknown_everywhere(map, planner::Layer::kTarget))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
+                           "says what is to be dug, and the scene has no design", "add a <navvy:design> to the scene"});
+  for (const planner::Layer layer : layers) {
+    if (!unknown_everywhere(map, layer)) continue;
+    const std::string& name = planner::info(layer).name;
+    const auto [why, remedy] = why_unknown(layer, from);
+    if (!options.layers.empty())
+      log_warning(Fault{Fault::Severity::kWarning, "", 0, "--layers", name,
+                        "is unknown in every column of '" + options.from + "': " + why, remedy}
+                      .text());
+    else
+      unknown += (unknown.empty() ? "" : ",") + name;
+  }
+  return unknown;
 }
 
 /// With the same table of steps as a run: a scene's program is checked, though none is run here.
@@ -68,13 +136,16 @@ planner::MapOptions map_options(const MapCommand& options, std::vector<planner::
 }
 
 /// The state of a snapshot, with its awake soil: needs the device, as particles live there.
-planner::TerrainMap of_snapshot(const MapCommand& options, const std::vector<planner::Layer>& layers) {
+planner::TerrainMap of_snapshot(const MapCommand& options, const planner::Format& format,
+                                const std::vector<planner::Layer>& layers) {
   const std::string scene = options.scene.empty()
                                 ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
                                 : find_scene(options.scene);
+  const scene::Scene described = load(scene);
+  require_apart(options, format, reads_of(described, {options.from}));
   // Particles are restored as a run would go on from them.
   device::Device device(options.device);
-  session::Session session(load(scene), device, planner::path_planners());
+  session::Session session(described, device, planner::path_planners());
   session.load(options.from);
   const sim::World& world = session.world();
   planner::MapMaker maker(map_options(options, layers, world.description(), world.ground(), session.design()));
@@ -82,20 +153,28 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const std::vector<pla
   return maker.map();
 }
 
-planner::TerrainMap read(const MapCommand& options, const std::vector<planner::Layer>& layers) {
+struct Made {
+  planner::TerrainMap map;
+  From from;
+};
+
+Made read(const MapCommand& options, const planner::Format& format, const std::vector<planner::Layer>& layers) {
   // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
     const scene::Scene scene = load(scene_of(from, options.from));
+    const std::string end = (from / "terrain_end.tif").string();
+    require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
     const heightfield::Ground site = heightfield::make_ground(scene);
     const planner::MapOptions wanted = map_options(options, layers, scene, site);
-    if (options.start) return planner::map_of_site(site, wanted);
-    return planner::map_of_run(scene, site, (from / "terrain_end.tif").string(), wanted);
+    if (options.start) return {planner::map_of_site(site, wanted), From::kScene};
+    return {planner::map_of_run(scene, site, end, wanted), From::kRun};
   }
-  if (is_snapshot(options.from)) return of_snapshot(options, layers);
+  if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
   const scene::Scene scene = load(find_scene(options.from));
+  require_apart(options, format, reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
-  return planner::map_of_site(site, map_options(options, layers, scene, site));
+  return {planner::map_of_site(site, map_options(options, layers, scene, site)), From::kScene};
 }
 
 int map(const MapCommand& options) {
@@ -103,7 +182,7 @@ int map(const MapCommand& options) {
   const planner::Format& format = planner::format_named(options.format);
   const std::vector<planner::Layer> layers =
       options.layers.empty() ? format.by_default : planner::layers_named(options.layers);
-  require_writable(options.out);
+  planner::require_writable(format, options.out);
   if (options.paths && format.name != "hillshade" && format.name != "relief")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", format.name,
                            "only hillshade and relief show paths",
@@ -116,7 +195,8 @@ int map(const MapCommand& options) {
                              "give the folder of a run whose program has a go_to"});
     lines = planner::read_paths(file);
   }
-  const planner::TerrainMap made = read(options, layers);
+  const auto [made, from] = read(options, format, layers);
+  const std::string unknown = look_for_unknown(options, format, made, layers, from);
   if (options.paths)
     planner::write_picture_with_paths(format.name, made, layers, options.out, lines);
   else
@@ -127,6 +207,7 @@ int map(const MapCommand& options) {
   char when[40] = "";
   // A run's files do not tell it.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
+  if (!unknown.empty()) names += "; unknown everywhere: " + unknown;
   std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(), format.name.c_str(), made.nx(),
               made.ny(), made.cell(), when, names.c_str());
   return kOk;
@@ -165,7 +246,7 @@ void add_map(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--layers", options->layers, "names separated by commas; without it what the format is made for");
   command->add_option("--format", options->format, "see below")->required();
-  command->add_option("--out", options->out, "the file to write; replaced whole or not at all")->required();
+  command->add_option("--out", options->out, "the file or folder to write; replaced whole or not at all")->required();
   command->add_flag("--start", options->start, "of a run: the ground at its start");
   command->add_flag("--paths", options->paths,
                     "of a run with a go_to: draw its planned paths on a hillshade or relief");

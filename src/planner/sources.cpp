@@ -6,10 +6,15 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "core/error.h"
 #include "heightfield/site.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/band.h"
+#endif
 
 namespace navvy::planner {
 namespace {
@@ -20,9 +25,8 @@ using heightfield::Ground;
 /// m.
 constexpr double kQuanta = 1e-7;
 
-/// What a file of heights cannot tell.
-constexpr Layer kNotInHeights[] = {Layer::kSoil, Layer::kDensity, Layer::kLooseDepth, Layer::kAwake,
-                                   Layer::kDisturbedAt};
+/// What a run's files cannot tell.
+constexpr Layer kNotInFiles[] = {Layer::kSoil, Layer::kDensity, Layer::kDisturbedAt};
 
 /// The site again, with its surface from `file`. A run writes its whole site, so the file's cells are the columns.
 Ground reread(const scene::Scene& scene, const Ground& start, const std::string& file) {
@@ -60,6 +64,44 @@ class HeightsOf final : public LayerSource {
 
  private:
   heightfield::TerrainView view_;
+};
+
+/// What lies loose at a run's end, in the few tiles where anything does.
+class LooseAtEnd final : public LayerSource {
+ public:
+  LooseAtEnd(const std::string& terrain_end, int nx, int ny) : across_((nx + kSide - 1) / kSide) {
+#ifdef NAVVY_WITH_GDAL
+    heightfield::read_band(terrain_end, "loose_depth", nx, ny, [&](int iy, std::span<const float> depths) {
+      for (std::size_t x = 0; x < depths.size(); ++x)
+        if (depths[x] > 0) depth(static_cast<int>(x), iy) = depths[x];
+    });
+#else
+    (void)terrain_end, (void)ny;
+#endif
+  }
+
+  void fill(Layer layer, const heightfield::CellRect& rect, float* out, std::size_t stride) const override {
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) {
+        const auto found = tiles_.find(tile_of(ix, iy));
+        const float depth = found != tiles_.end() ? found->second[place(ix, iy)] : 0.0f;
+        out[static_cast<std::size_t>(iy - rect.y0) * stride + static_cast<std::size_t>(ix - rect.x0)] =
+            layer == Layer::kAwake ? (depth > 0 ? 1.0f : 0.0f) : depth;
+      }
+  }
+
+ private:
+  static constexpr int kSide = LayerTiles::kSide;
+  int tile_of(int ix, int iy) const { return iy / kSide * across_ + ix / kSide; }
+  static std::size_t place(int ix, int iy) { return static_cast<std::size_t>(iy % kSide * kSide + ix % kSide); }
+  float& depth(int ix, int iy) {
+    std::vector<float>& tile = tiles_[tile_of(ix, iy)];
+    if (tile.empty()) tile.assign(static_cast<std::size_t>(kSide) * kSide, 0.0f);
+    return tile[place(ix, iy)];
+  }
+
+  int across_;
+  std::unordered_map<int, std::vector<float>> tiles_;
 };
 
 TraversabilityLimits limits_for(const scene::Scene& scene) {
@@ -118,8 +160,13 @@ TerrainMap map_of_run(const scene::Scene& scene, const Ground& start, const std:
   MapMaker maker(options);
   maker.update(Ground(setup).view(std::nan("")));
   TerrainMap out = maker.map();
-  for (const Layer layer : kNotInHeights)
+  for (const Layer layer : kNotInFiles)
     if (out.has(layer)) out = out.with(layer, nullptr);
+  if (out.has(Layer::kLooseDepth) || out.has(Layer::kAwake)) {
+    const auto loose = std::make_shared<const LooseAtEnd>(terrain_end, start.nx(), start.ny());
+    for (const Layer layer : {Layer::kLooseDepth, Layer::kAwake})
+      if (out.has(layer)) out = out.with(layer, loose);
+  }
   if (!out.has(Layer::kElevationStart)) return out;
   return out.with(Layer::kElevationStart, std::make_shared<const HeightsOf>(before));
 }

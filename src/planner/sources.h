@@ -24,8 +24,9 @@ MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& si
 TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
 
 /// The ground at the end of a run of `scene` that began on `start`, from the heights that the run wrote
-/// (`terrain_end.tif`): elevation and what follows from it, elevation_start, and target. The file tells neither soil
-/// nor density, nor what lies loose or when it changed: those are unknown. Columns that did not change have the start's
+/// (`terrain_end.tif`): elevation and what follows from it, elevation_start, target, and of its band `loose_depth` what
+/// lies loose, and so awake: nothing where the run wrote no such band, as all of its soil rested. The file tells
+/// neither soil nor density, nor when a column changed: those are unknown. Columns that did not change have the start's
 /// very heights; others are rounded as the file rounds them. The time is unknown, NaN.
 /// @throws FileError when the file is missing, InputError when it is no map of that site.
 TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& start, const std::string& terrain_end,

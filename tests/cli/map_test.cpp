@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `navvy map` from outside: of a scene, a run's folder and a snapshot, and what it says to slips.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -100,9 +102,23 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsAwakeSoilToo) {
   EXPECT_NEAR(volume, 38.4, 3.84);
   EXPECT_GT(lying, 0.9 * 38.4);
   EXPECT_LT(volume - lying, 0);
-  // What a run's files cannot tell is unknown.
-  for (const char* name : {"density", "soil", "loose_depth", "awake", "disturbed_at"})
+  // What a run's files cannot tell is unknown, and told.
+  for (const char* name : {"density", "soil", "disturbed_at"})
     EXPECT_TRUE(std::isnan(layer(path("end.npz"), name).at(7))) << name;
+  EXPECT_EQ(run({"map", out(), "--format", "npz", "--out", path("end.npz")}), 0) << complained();
+  EXPECT_NE(said().find("unknown everywhere: target,cut_fill,density,soil,disturbed_at\n"), std::string::npos)
+      << said();
+  EXPECT_EQ(complained(), "");
+  // What lies loose at the end is what a snapshot of the same moment says, rounded once.
+  ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot", path("end.snapshot"), "--snapshot-at",
+                 "0.2", "--out", path("again")}),
+            0)
+      << complained();
+  ASSERT_EQ(run({"map", path("end.snapshot"), "--scene", scene_, "--format", "npz", "--out", path("state.npz")}), 0);
+  EXPECT_EQ(layer(path("end.npz"), "loose_depth"), layer(path("state.npz"), "loose_depth"));
+  EXPECT_EQ(layer(path("end.npz"), "awake"), layer(path("state.npz"), "awake"));
+  const std::vector<float> last = layer(path("end.npz"), "loose_depth");
+  EXPECT_GT(std::count_if(last.begin(), last.end(), [](float depth) { return depth > 0; }), 60);
   // Beside the run's scene a snapshot needs no --scene.
   std::filesystem::copy_file(path("half.snapshot"), out() + "/half.snapshot");
   EXPECT_EQ(run({"map", out() + "/half.snapshot", "--format", "npz", "--out", path("again.npz")}), 0) << complained();
@@ -120,10 +136,83 @@ TEST_F(Map, AsksWhatWasMeantAndWritesNothingThen) {
   EXPECT_EQ(run({"map", scene_, "--slope-limit-deg", "95", "--format", "nav2", "--out", to}), 2);
   expect_complained("traversability slope");
   EXPECT_EQ(run({"map", scene_, "--format", "geotiff", "--out", path("no/such/folder/a.tif")}), 4);
+  expect_complained("mkdir -p '" + path("no/such/folder") + "'");
   std::filesystem::create_directories(path("empty"));
   EXPECT_EQ(run({"map", path("empty"), "--format", "geotiff", "--out", to}), 2);
   expect_complained("no scene.sdf");
   EXPECT_FALSE(std::filesystem::exists(to));
+}
+
+TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
+  // A site from a map, with a design from another.
+  const auto grid = [&](const std::string& name, double z) {
+    std::ofstream file(path(name));
+    file << "ncols 20\nnrows 16\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int i = 0; i < 320; ++i) file << z + 0.01 * i << (i % 20 == 19 ? "\n" : " ");
+    file.close();
+    return test_text(path(name));
+  };
+  const std::string own = path("own.sdf");
+  std::ofstream(own) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="own"><navvy:soil ref="sand_dry"/>
+<navvy:ground><file>ground.asc</file><size_m>4 4</size_m></navvy:ground>
+<navvy:design><file>wanted.asc</file></navvy:design></world></sdf>)";
+  const std::string ground = grid("ground.asc", 10), wanted = grid("wanted.asc", 9), scene = test_text(own);
+  if (run({"map", own, "--format", "npz", "--out", path("a.npz")}) != 0) GTEST_SKIP() << complained();
+  std::filesystem::create_hard_link(path("ground.asc"), path("same"));
+  std::filesystem::create_symlink("own.sdf", path("link"));
+  for (const char* to : {"own.sdf", "link", "ground.asc", "same", "wanted.asc", "./own.sdf"}) {
+    EXPECT_EQ(run({"map", own, "--format", "geotiff", "--out", path(to)}), 2) << to;
+    expect_complained("which this map is made from");
+  }
+  EXPECT_EQ(test_text(own), scene);
+  EXPECT_EQ(test_text(path("ground.asc")), ground);
+  EXPECT_EQ(test_text(path("wanted.asc")), wanted);
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(run({"map", own, "--format", "npz", "--out", path("pipe")}), 4);
+  expect_complained("it is a pipe");
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+  std::filesystem::create_symlink("there.npz", path("away.npz"));
+  EXPECT_EQ(run({"map", own, "--format", "npz", "--out", path("away.npz")}), 0) << complained();
+  EXPECT_EQ(test_text(path("there.npz")), test_text(path("a.npz")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("away.npz")));
+  // And the check of such a scene tells what its design is: 16 m2, from 9.x to 10.x, a metre below the ground.
+  EXPECT_EQ(run({"check", own}), 0) << said();
+  EXPECT_NE(said().find("wanted.asc: 16 m2 of the site"), std::string::npos) << said();
+  EXPECT_NE(said().find("16 m3 to cut, 0 m3 to fill"), std::string::npos) << said();
+}
+
+TEST_F(Map, WarnsOfLayersOfWhichNothingIsKnown) {
+  const std::string to = path("a.npz");
+  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,target,cut_fill,disturbed_at", "--format", "npz", "--out", to}),
+            0);
+  expect_complained("warning: --layers: 'target': is unknown in every column");
+  expect_complained("'cut_fill'");
+  expect_complained("the scene has no design (add a <navvy:design> to the scene)");
+  expect_complained("nothing has changed on an untouched site");
+  EXPECT_EQ(complained().find("'elevation'"), std::string::npos) << complained();
+  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,loose_depth,soil", "--format", "npz", "--out", to}), 0);
+  EXPECT_EQ(complained(), "");
+  EXPECT_EQ(run({"map", scene_, "--format", "terra", "--out", path("t")}), 2);
+  expect_complained("add a <navvy:design> to the scene");
+  EXPECT_FALSE(std::filesystem::exists(path("t")));
+}
+
+TEST_F(Map, ReplacesItsOwnFoldersAndNoOthers) {
+  std::string text = test_text(scene_);
+  text.insert(text.find("</world>"),
+              "<navvy:design><area><polygon_m>-1 -1 0 -1 0 0 -1 0</polygon_m><depth_m>0.5</depth_m>"
+              "</area></navvy:design>");
+  std::ofstream(scene_) << text;
+  for (const char* format : {"terra", "bag"}) {
+    const std::string to = path(format);
+    EXPECT_EQ(run({"map", scene_, "--format", format, "--out", to}), 0) << complained();
+    EXPECT_EQ(run({"map", scene_, "--format", format, "--out", to + "/"}), 0) << complained();
+    std::ofstream(to + "/notes.txt") << "mine";
+    EXPECT_EQ(run({"map", scene_, "--format", format, "--out", to}), 2);
+    expect_complained("'notes.txt'");
+    expect_complained("name a new folder");
+    EXPECT_EQ(test_text(to + "/notes.txt"), "mine");
+  }
 }
 
 TEST_F(Map, TellsLayersAndFormatsInItsHelp) {

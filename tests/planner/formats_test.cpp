@@ -10,6 +10,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -45,6 +46,8 @@ TerrainMap example() {
   s.easting = 1540000.25;
   s.northing = 5150000.5;
   s.height_offset = 412;
+  s.filled_share = 0.25;
+  s.filled_from = 1.5;
   s.crs_wkt =
       "PROJCS[\"WGS 84 / UTM zone 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563,"
       "AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\","
@@ -123,6 +126,8 @@ TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
   EXPECT_EQ(told["bands"][1]["type"], "Float32");
   EXPECT_EQ(told["bands"][1]["noDataValue"], -9999.0);
   EXPECT_EQ(told["metadata"][""]["AREA_OR_POINT"], "Area");
+  EXPECT_EQ(told["metadata"][""]["NAVVY_FILLED_SHARE"], "0.25");
+  EXPECT_EQ(told["metadata"][""]["NAVVY_FILLED_FROM_M"], "1.5");
   EXPECT_NEAR(told["geoTransform"][0].get<double>(), 1540000.25, 1e-9);
   EXPECT_NEAR(told["geoTransform"][3].get<double>(), 5150000.5 + 3.6, 1e-9);
   EXPECT_NE(told["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
@@ -180,6 +185,8 @@ print(json.dumps(out)))",
   EXPECT_EQ(header["georeference"]["easting"], 1540000.25);
   EXPECT_EQ(header["georeference"]["height_offset_m"], 412);
   EXPECT_EQ(header["georeference"]["crs_wkt"], example().setup().crs_wkt);
+  EXPECT_EQ(header["filled"]["share"], 0.25);
+  EXPECT_EQ(header["filled"]["from_m"], 1.5);
 }
 
 TEST(Npz, OfMoreRowsThanAreHeldAtOnceHasThemAllInOrder) {
@@ -371,7 +378,6 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
   const test::Folder folder;
   const TerrainMap map = example();
   for (const Format& format : formats()) {
-    // A folder's files are written one by one, Terra's by the same function; SQLite keeps its own whole.
     if (format.extension.empty()) continue;
     const std::string path = folder / format.name + format.extension;
     write_text(path, "old");
@@ -393,6 +399,90 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
     EXPECT_EQ(std::filesystem::file_size(path), 3u) << format.name;
     EXPECT_FALSE(std::filesystem::exists(path + ".part")) << format.name;
   }
+}
+
+/// Every file below a folder with its content.
+std::map<std::string, std::vector<char>> content_of(const std::string& folder) {
+  std::map<std::string, std::vector<char>> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) out[entry.path().lexically_relative(folder)] = read_file(entry.path().string());
+  return out;
+}
+
+TerrainMap with_target() {
+  std::vector<float> z = example().copy(Layer::kElevation);
+  for (float& each : z) each -= 1;
+  return example().with(Layer::kTarget, z);
+}
+
+TEST(Formats, ThatAreFoldersKeepTheOldOneWhenTheDiskIsFull) {
+  const test::Folder folder;
+  const TerrainMap map = with_target();
+  for (const auto& [name, limit] : {std::pair<std::string, rlim_t>{"terra", 2000}, {"bag", 60000}}) {
+    const Format& format = format_named(name);
+    const std::string path = folder / name;
+    format.write(map, format.by_default, path);
+    const auto before = content_of(path);
+    ASSERT_EQ(before.size(), name == "terra" ? 4u : 2u);
+    rlimit old;
+    ::getrlimit(RLIMIT_FSIZE, &old);
+    const rlimit little{limit, old.rlim_max};
+    const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+    ::setrlimit(RLIMIT_FSIZE, &little);
+    std::string message;
+    try {
+      format.write(map, format.by_default, path);
+    } catch (const FileError& error) {
+      message = error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &old);
+    ::signal(SIGXFSZ, handler);
+    EXPECT_NE(message.find(path), std::string::npos) << name << ": " << message;
+    EXPECT_EQ(content_of(path), before) << name;
+    EXPECT_FALSE(std::filesystem::exists(path + ".part")) << name;
+    // With room again the new one takes its place, as a whole: what a kill left of either is in no one's way.
+    std::filesystem::create_directories(path + ".part/" + name);
+    std::filesystem::remove(path + "/" + before.rbegin()->first);
+    format.write(map, format.by_default, path + "/");
+    EXPECT_EQ(content_of(path).size(), before.size()) << name;
+    EXPECT_FALSE(std::filesystem::exists(path + ".part")) << name;
+  }
+}
+
+TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
+  const test::Folder folder;
+  for (const std::string name : {"terra", "bag"}) {
+    const Format& format = format_named(name);
+    const std::string mine = folder / (name + "_mine"), part = folder / (name + "_part"), file = folder / (name + "_f");
+    std::filesystem::create_directories(mine + "/images");
+    write_text(mine + "/images/img_2.npy", "precious");
+    std::filesystem::create_directories(part + ".part");
+    write_text(part + ".part/notes", "precious");
+    write_text(file, "precious");
+    for (const std::string& path : {mine, part, file}) {
+      std::string message;
+      try {
+        format.write(with_target(), format.by_default, path);
+      } catch (const Error& error) {
+        message = error.what();
+      }
+      EXPECT_NE(message.find("name a"), std::string::npos) << path << ": " << message;
+      EXPECT_THROW(require_writable(format, path), Error) << path;
+    }
+    EXPECT_EQ(content_of(folder.path().string()).size(), 3u);
+    EXPECT_FALSE(std::filesystem::exists(part));
+    // Behind a link, and through folders that are not there yet.
+    std::filesystem::create_directory_symlink("deep/" + name, folder / "link");
+    EXPECT_NO_THROW(require_writable(format, folder / "link"));
+    format.write(with_target(), format.by_default, folder / "link");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    for (const std::string& each : files_of(format, folder / ("deep/" + name)))
+      EXPECT_TRUE(std::filesystem::exists(each) || each.ends_with("-journal")) << each;
+    for (const char* end : {"_mine", "_part.part", "_f", ""}) std::filesystem::remove_all(folder / (name + end));
+    std::filesystem::remove_all(folder / "deep");
+    std::filesystem::remove(folder / "link");
+  }
+  EXPECT_EQ(files_of(format_named("nav2"), "a/map.yaml"), (std::vector<std::string>{"a/map.yaml", "a/map.pgm"}));
 }
 
 TEST(Formats, AreFoundByNameOrTheNearestIsTold) {

@@ -81,6 +81,35 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   EXPECT_FALSE(std::isnan(map.at(Layer::kTraversability, 3, 3)));
 }
 
+TEST(MapOfRun, KnowsWhatLayLooseAndSoAwake) {
+  const test::Folder folder;
+  const scene::Scene scene = pit();
+  const heightfield::Ground start = heightfield::make_ground(scene);
+  const heightfield::TerrainView columns = start.view(2);
+  // Beyond the first tile of a map, and more than one grain on a column.
+  const heightfield::TerrainView view =
+      columns.with(heightfield::LooseSoil(columns, {{70, 41, start.height(70, 41) + 0.02, 1e-4, 0, 1.2f, 0},
+                                                    {70, 41, start.height(70, 41) + 0.03, 1e-4, 0, 1.2f, 0},
+                                                    {3, 2, start.height(3, 2) + 0.02, 1e-4, 1, 1.1f, 0}}),
+                   heightfield::SurfaceKind::kMapped);
+  heightfield::write_geotiff(view, folder / "terrain_end.tif", {"loose_depth"});
+  const TerrainMap map = map_of_run(scene, start, folder / "terrain_end.tif", {});
+  int lying = 0;
+  for (int iy = 0; iy < 48; ++iy)
+    for (int ix = 0; ix < 80; ++ix) {
+      ASSERT_EQ(map.at(Layer::kLooseDepth, ix, iy), view.loose_depth(ix, iy)) << ix << " " << iy;
+      ASSERT_EQ(map.at(Layer::kAwake, ix, iy), view.awake(ix, iy) ? 1.0f : 0.0f) << ix << " " << iy;
+      lying += view.awake(ix, iy) ? 1 : 0;
+    }
+  EXPECT_EQ(lying, 2);
+  // Where all soil rests a run writes heights alone: nothing lies loose.
+  heightfield::write_geotiff(start, folder / "rest.tif");
+  const TerrainMap rest = map_of_run(scene, start, folder / "rest.tif", {});
+  EXPECT_EQ(rest.at(Layer::kLooseDepth, 70, 41), 0.0f);
+  EXPECT_EQ(rest.at(Layer::kAwake, 3, 2), 0.0f);
+  EXPECT_TRUE(std::isnan(rest.at(Layer::kDisturbedAt, 3, 2)));
+}
+
 TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   const test::Folder folder;
   const scene::Scene scene = pit();

@@ -2,8 +2,12 @@
 // The table of formats that the program offers; the writers stand beside this, a file each.
 #include "planner/formats/formats.h"
 
+#include <filesystem>
+
 #include "core/edit_distance.h"
 #include "core/error.h"
+#include "core/file.h"
+#include "planner/formats/part_folder.h"
 
 namespace navvy::planner {
 
@@ -47,6 +51,24 @@ const Format& format_named(const std::string& name) {
     names.push_back(each.name);
   }
   throw InputError(Fault{Fault::Severity::kError, "", 0, "format", name, "no such format", suggestion(name, names)});
+}
+
+std::vector<std::string> files_of(const Format& format, const std::string& path) {
+  std::vector<std::string> out;
+  // A folder's files lie in it, others beside the first one.
+  if (!format.extension.empty()) out.push_back(path);
+  for (const std::string& end : format.others)
+    out.push_back(format.extension.empty() ? path + end : std::filesystem::path(path).replace_extension(end).string());
+  if (format.write == write_bag) {
+    for (const std::string& name : bag_files(folder_name(path))) out.push_back(path + "/" + name);
+  }
+  return out;
+}
+
+void require_writable(const Format& format, const std::string& path) {
+  if (format.write == write_terra) return require_folder(path, terra_files());
+  if (format.write == write_bag) return require_folder(path, bag_files(folder_name(path)));
+  for (const std::string& file : files_of(format, path)) navvy::require_writable(file);
 }
 
 }  // namespace navvy::planner

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps as files that others read. Each writer has a file of its own here; all write beside the target and rename, so
-// that an error, a full disk or a kill leaves the old file or the new one.
+// that an error, a full disk or a kill leaves the old file or folder, or the new one.
 #pragma once
 
 #include <string>
@@ -20,8 +20,9 @@ namespace navvy::planner {
 void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 
 /// NumPy's NPZ: an array (ny, nx) of little-endian float32 for each layer, in W, row 0 = least y, NaN unknown; and
-/// `header.json` (format_version, layers with unit and meaning, size, cell, origin, time, soils, georeference). Stored,
-/// not compressed. @throws InputError above 4 GiB.
+/// `header.json` (format_version, layers with unit and meaning, size, cell, origin, time, soils, georeference, and of a
+/// map with gaps what share of its cells was filled, from how far). Stored, not compressed. @throws InputError above 4
+/// GiB.
 void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 
 /// nav2's map_server pair from traversability: PATH is the YAML file, the image lies beside it. Takes no other layer.
@@ -56,11 +57,13 @@ void write_obj(const TerrainMap& map, const std::vector<Layer>& layers, const st
 /// (int8: -1 the design lies lower, 1 higher, by more than a twentieth of a column's edge; 0 neither),
 /// occupancy/img_1.npy (int8: 1 where traversability is 0 or unknown), dumpability/img_1.npy (int8: 1 where soil may be
 /// dumped: neither to be dug nor occupied) and distance/img_1.npy (float32: metres to the nearest column to be dug, -1
-/// where there is none). Needs elevation, target and traversability in the map.
+/// where there is none). Needs elevation, target and traversability in the map. An earlier folder of these files is
+/// replaced as a whole; one that holds anything else stays. @throws InputError also for that.
 void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 
 /// A ROS 2 bag of one instant, /clock, /terrain/grid_map (grid_map_msgs), /terrain/points (PointCloud2) and, with
-/// traversability, /terrain/occupancy: as one MCAP file, or as a rosbag2 folder with SQLite storage.
+/// traversability, /terrain/occupancy: as one MCAP file, or as a rosbag2 folder with SQLite storage, which is replaced
+/// as Terra's is.
 void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path);
 
@@ -75,6 +78,11 @@ struct Format {
   std::vector<std::string> others = {};
 };
 const std::vector<Format>& formats();
+/// Paths of all files that `format` writes for `path`; of a bag's folder those of its storage.
+std::vector<std::string> files_of(const Format& format, const std::string& path);
+/// Whether `format` could write to `path`, without touching it: for what is known before a map is made. Whether there
+/// is room is not known then. @throws FileError, InputError as the writers.
+void require_writable(const Format& format, const std::string& path);
 /// @throws InputError naming the nearest one.
 const Format& format_named(const std::string& name);
 

@@ -4,6 +4,7 @@
 
 #include "core/file.h"
 #include "planner/formats/formats.h"
+#include "planner/formats/part_folder.h"
 #include "planner/ros/streams.h"
 
 namespace navvy::planner {
@@ -18,6 +19,11 @@ void write(ros::Bag& bag, const TerrainMap& map, const std::vector<Layer>& layer
 
 }  // namespace
 
+/// SQLite's journal is there as long as it writes.
+std::vector<std::string> bag_files(const std::string& name) {
+  return {"metadata.yaml", name + "_0.db3", name + "_0.db3-journal"};
+}
+
 void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
   const std::string part = partial_name(path);
   try {
@@ -31,7 +37,9 @@ void write_mcap(const TerrainMap& map, const std::vector<Layer>& layers, const s
 }
 
 void write_bag(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
-  write(*ros::make_bag_folder(path), map, layers);
+  PartFolder part(path, bag_files(folder_name(path)));
+  write(*ros::make_bag_folder(part.place()), map, layers);
+  part.commit();
 }
 
 }  // namespace navvy::planner

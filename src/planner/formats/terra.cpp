@@ -9,9 +9,13 @@
 #include "core/file.h"
 #include "planner/formats/formats.h"
 #include "planner/formats/npy_file.h"
+#include "planner/formats/part_folder.h"
 
 namespace navvy::planner {
 namespace {
+
+constexpr const char* kFolders[] = {"images", "occupancy", "dumpability", "distance"};
+constexpr const char* kImage = "img_1.npy";
 
 /// Along one line: for each place i the least of (i - k)^2 + f[k] [Felzenszwalb 2012].
 void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
@@ -67,6 +71,12 @@ std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int
 
 }  // namespace
 
+std::vector<std::string> terra_files() {
+  std::vector<std::string> out;
+  for (const char* folder : kFolders) out.push_back(std::string(folder) + "/" + kImage);
+  return out;
+}
+
 void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
   for (const Layer needed : {Layer::kTarget, Layer::kElevation, Layer::kTraversability})
     if (!map.has(needed))
@@ -88,17 +98,19 @@ void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const 
     dumpable.push_back(aim >= 0 && good[k] > 0 ? 1 : 0);
   }
   const std::vector<float> distance = distances(dig, map.nx(), map.ny(), map.cell());
+  PartFolder part(path, terra_files());
   const auto write = [&](const char* folder, const auto& values) {
-    const std::filesystem::path place = std::filesystem::path(path) / folder;
+    const std::filesystem::path place = std::filesystem::path(part.place()) / folder;
     std::error_code failed;
     std::filesystem::create_directories(place, failed);
     if (failed) throw FileError("cannot make '" + place.string() + "': " + failed.message());
-    write_file_atomically((place / "img_1.npy").string(), npy_bytes(values, map.nx(), map.ny()));
+    write_file_atomically((place / kImage).string(), npy_bytes(values, map.nx(), map.ny()));
   };
-  write("images", target);
-  write("occupancy", occupied);
-  write("dumpability", dumpable);
-  write("distance", distance);
+  write(kFolders[0], target);
+  write(kFolders[1], occupied);
+  write(kFolders[2], dumpable);
+  write(kFolders[3], distance);
+  part.commit();
 }
 
 }  // namespace navvy::planner
