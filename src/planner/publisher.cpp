@@ -260,6 +260,10 @@ Publisher::Publisher(UpdateFeed& feed, const std::string& place, std::vector<Lay
     return;
   }
   if (place.empty()) refuse(place, "names no folder", "a new folder, or tcp:PORT");
+  // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
+  const std::size_t colon = place.find(':');
+  if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
+    refuse(place, "is no address that is known", "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
   s.folder = place;
   std::error_code failed;
   fs::create_directories(place, failed);

@@ -40,7 +40,10 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
       faults.push_back(std::move(fault));
     };
     try {
-      planner::format_named(record.format);
+      if (planner::format_named(record.format).write == planner::write_terra && !scene.design.any())
+        add({Fault::Severity::kError, "", 0, "", record.format, "needs a design: without one nothing is to be dug",
+             "give the scene a <navvy:design>"},
+            "format");
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }

@@ -265,5 +265,26 @@ TEST_F(Record, OfAnUnknownFormatOrLayerIsToldWithItsLineBeforeTheRun) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
+TEST_F(Record, OfADigSetWithoutADesignIsRefused) {
+  std::string bare = scene(R"(<navvy:record name="dig"><format>terra</format></navvy:record>)");
+  const std::size_t from = bare.find("<navvy:design>"), end = bare.find("</navvy:design>") + 15;
+  bare.erase(from, end - from);
+  std::ofstream(folder_ / "bare.sdf") << bare;
+  const int status = test::wait_for(test::start(
+      {NAVVY_PROGRAM, {"check", folder_ / "bare.sdf"}, {}, "/dev/null", folder_ / "stdout", folder_ / "stderr"}));
+  EXPECT_EQ(status, 2);
+  const std::string said = text_of(folder_ / "stdout");
+  for (const char* part : {"navvy:record[dig]/format", "'terra'", "needs a design", "<navvy:design>"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+}
+
+TEST_F(Record, AnAddressOfAnotherKindIsNoFolder) {
+  EXPECT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", "udp:5005"}, ""), 2);
+  const std::string said = text_of(folder_ / "stderr");
+  for (const char* part : {"'udp:5005'", "tcp:PORT", "./udp:5005"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+  EXPECT_FALSE(std::filesystem::exists("udp:5005"));
+}
+
 }  // namespace
 }  // namespace navvy
