@@ -31,7 +31,7 @@ void read_differential(Element& element, scene::Differential& out, Faults& fault
   if (out.kind == Kind::kLimitedSlip && out.preload == 0 && out.bias == 0)
     faults.error(element, "limited_slip", "slips without limit: preload_nm and bias are both 0",
                  "give one of them, or <kind>open</kind>");
-  if (out.kind != Kind::kLimitedSlip && (fields.has("preload_nm") || fields.has("bias")))
+  if (fields.has("kind") && out.kind != Kind::kLimitedSlip && (fields.has("preload_nm") || fields.has("bias")))
     faults.error(element, text_of(*element.FirstChildElement("kind")), "has neither preload_nm nor bias",
                  "remove them, or <kind>limited_slip</kind>");
 }
