@@ -26,7 +26,8 @@ std::uint64_t hash_under(const terramechanics::GroundQuery& ground, const btVect
   const auto ny = static_cast<std::uint32_t>(node(high.y(), lattice.node.y()) + 2 - y0);
   StateHash hash;
   for (std::uint32_t k = part; k < nx * ny; k += of) {
-    const Vec2 p = lattice.node + step * Vec2(x0 + k % nx, y0 + k / nx);
+    const std::uint32_t row = k / nx;
+    const Vec2 p = lattice.node + step * Vec2(x0 + (k - row * nx), y0 + row);
     hash.value(ground.height(p.x(), p.y()));
   }
   return hash.digest();
