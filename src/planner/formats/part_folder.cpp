@@ -57,6 +57,7 @@ void require_ours(const std::string& path, const fs::path& folder, const std::ve
 
 std::vector<std::string> within(const std::string& folder, const std::vector<std::string>& files) {
   std::vector<std::string> out;
+  out.reserve(files.size());
   for (const std::string& file : files) out.push_back(folder + "/" + file);
   return out;
 }
