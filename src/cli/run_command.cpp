@@ -85,6 +85,28 @@ std::string short_text(double value) {
   return text;
 }
 
+/// What a controller may ask of the recorder.
+ControlDesk desk_of(record::Recorder& recorder) {
+  ControlDesk desk;
+  desk.draw = [&recorder](const std::string& camera) {
+    const render::Image image = recorder.draw(camera);
+    return Picture{image.width, image.height,
+                   planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
+  };
+  return desk;
+}
+
+/// Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it. Throws nothing of its
+/// own: the failure is what the user reads.
+void publish_end_of_failure(PublishedMap* published) {
+  if (published == nullptr) return;
+  try {
+    published->finish();
+  } catch (const std::exception& error) {
+    log(LogLevel::kError, std::string("the published map is not that of the end: ") + error.what());
+  }
+}
+
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
 int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
                     StopSignals& signals, PublishedMap* published) {
@@ -92,12 +114,7 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
-  ControlDesk desk;
-  desk.draw = [&](const std::string& camera) {
-    const render::Image image = recorder.draw(camera);
-    return Picture{image.width, image.height,
-                   planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
-  };
+  const ControlDesk desk = desk_of(recorder);
   if (!options.control.empty())
     control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
   bool snapshot_due = !options.snapshot.empty(), told_to_end = false;
@@ -135,12 +152,7 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
     line.end();
     signals.obeyed();
     recorder.finish("failed", error.what());
-    // Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it.
-    if (published != nullptr) try {
-        published->finish();
-      } catch (const std::exception& second) {
-        log(LogLevel::kError, std::string("the published map is not that of the end: ") + second.what());
-      }
+    publish_end_of_failure(published);
     // The exit status says which kind of failure it was.
     throw;
   }

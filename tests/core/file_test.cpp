@@ -112,7 +112,9 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
   fs::create_symlink("/dev/full", path("full"));
   const std::pair<std::string, std::string> all[] = {
       {"folder", "a directory"}, {"pipe", "a pipe"}, {"link", "a pipe"}, {"full", "a device"}};
-  for (const auto& [name, what] : all) {
+  for (const auto& each : all) {
+    // A lambda takes no structured binding along.
+    const std::string &name = each.first, &what = each.second;
     const std::string told =
         "cannot write '" + path(name) + "': it is " + what + ", and only a plain file is replaced (name a file)";
     EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
