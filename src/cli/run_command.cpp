@@ -96,6 +96,29 @@ ControlDesk desk_of(record::Recorder& recorder) {
   return desk;
 }
 
+/// A controller's turn, if there is one. False: it told the run to end.
+bool exchange(ControlStdio* control, record::Recorder& recorder, PublishedMap* published) {
+  if (control == nullptr) return true;
+  const bool go_on = control->exchange();
+  // Also where the controller ends right after it: what is written next is of the state as it is now.
+  if (control->take_moved()) {
+    recorder.restart();
+    if (published != nullptr) published->restart();
+  }
+  return go_on;
+}
+
+/// The map of the end. @throws what keeps it from readers, after the recorder has closed as "failed".
+void publish_end(PublishedMap* published, record::Recorder& recorder) {
+  if (published == nullptr) return;
+  try {
+    published->finish();
+  } catch (const std::exception& error) {
+    recorder.finish("failed", error.what());
+    throw;
+  }
+}
+
 /// Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it. Throws nothing of its
 /// own: the failure is what the user reads.
 void publish_end_of_failure(PublishedMap* published) {
@@ -122,16 +145,8 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
     while (!session.done() && !StopSignals::asked()) {
-      const bool go_on = !control || control->exchange();
-      // Also where the controller ends right after it: what is written next is of the state as it is now.
-      if (control && control->take_moved()) {
-        recorder.restart();
-        if (published != nullptr) published->restart();
-      }
-      if (!go_on) {
-        told_to_end = true;
-        break;
-      }
+      told_to_end = !exchange(control.get(), recorder, published);
+      if (told_to_end) break;
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
         snapshot_due = false;
@@ -164,14 +179,7 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // From here on nobody hurries: the files are closed in their order.
   const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
   signals.obeyed();
-  if (published != nullptr) {
-    try {
-      published->finish();
-    } catch (const std::exception& error) {
-      recorder.finish("failed", error.what());
-      throw;
-    }
-  }
+  publish_end(published, recorder);
   const bool complete = session.complete();
   recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
   if (interrupted) return kInterrupted;
