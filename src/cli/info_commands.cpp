@@ -19,8 +19,6 @@
 #include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
 #include "planner/path_planner.h"
 #include "record/map_recorder.h"
 #include "scene_io/loader.h"
@@ -32,10 +30,12 @@
 namespace navvy::cli {
 namespace {
 
-/// Tells of the map under the site, lets the machines settle, says how each stands, and adds what is wrong with that.
+/// Tells of the map under the site and of its design, lets the machines settle, says how each stands, and adds what is
+/// wrong with that.
 void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
   sim::StartCheck start = sim::check_start(scene);
   std::fputs(start.terrain.c_str(), stdout);
+  std::fputs(start.design.c_str(), stdout);
   for (std::size_t m = 0; m < start.standing.size(); ++m) {
     const vehicle::Stability& stands = start.standing[m];
     if (!stands.free) continue;
@@ -59,29 +59,6 @@ void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
 /// Says what follows from a machine's file without standing in it.
 void tell_derived(const std::string& name, const scene::Machine& machine) {
   for (const std::string& one : machine.derived) std::printf("'%s': %s\n", name.c_str(), one.c_str());
-}
-
-/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
-void tell_design(const scene::Scene& scene) {
-  if (!scene.design.any()) return;
-  try {
-    const heightfield::Ground ground = heightfield::make_ground(scene);
-    const heightfield::DesignSurface design = heightfield::make_design(scene, ground).value();
-    const heightfield::DesignFigures figures = heightfield::against_design(ground, design);
-    double least = INFINITY, most = -INFINITY;
-    for (const float z : design.z) {
-      least = std::fmin(least, static_cast<double>(z));
-      most = std::fmax(most, static_cast<double>(z));
-    }
-    const std::string what = scene.design.file.empty() ? std::to_string(scene.design.areas.size()) +
-                                                             (scene.design.areas.size() == 1 ? " area" : " areas")
-                             : scene.design.tin ? scene.design.file + ", surface '" + scene.design.tin->name + "'"
-                                                : scene.design.file;
-    std::printf("design %s: %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n",
-                what.c_str(), figures.area, least, most, figures.design_cut, figures.design_fill);
-  } catch (const InputError&) {
-    return;
-  }
 }
 
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
@@ -121,7 +98,6 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
     // And what its machines do in their first second.
     if (world) check_machines(*world, faults);
-    if (world) tell_design(*world);
     for (std::size_t i = 0; i < faults.size(); ++i) {
       // On standard output: it is what was asked for.
       std::cout << faults[i].text() << "\n";

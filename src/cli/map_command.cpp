@@ -92,8 +92,7 @@ std::pair<std::string, std::string> why_unknown(planner::Layer layer, From from)
 std::string look_for_unknown(const MapCommand& options, const planner::Format& format, const planner::TerrainMap& map,
                              const std::vector<planner::Layer>& layers, From from) {
   std::string unknown;
-  if (format.write == planner::write_terra && map.has(planner::Layer::kTarget) &&
-      unknown_everywhere(map, planner::Layer::kTarget))
+  if (format.needs_design && map.has(planner::Layer::kTarget) && unknown_everywhere(map, planner::Layer::kTarget))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
                            "says what is to be dug, and the scene has no design", "add a <navvy:design> to the scene"});
   for (const planner::Layer layer : layers) {

@@ -3,22 +3,21 @@
 
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include "core/error.h"
+#include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
 
-/// Driven wheels left (y > 0) or right of the machine's middle; the first with an encoder counts.
+/// The first driven wheel of a side that has an encoder.
 CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
-  for (const scene::Wheel& wheel : machine.wheels) {
-    const int joint = machine.joint_index(wheel.joint);
-    if (joint < 0 || !wheel.driven) continue;
-    const auto link = static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
-    if ((machine.links[link].X_ML.translation().y() > 0) != left) continue;
+  const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(machine);
+  for (std::size_t w = 0; w < about.size(); ++w)
     for (const scene::Encoder& encoder : machine.encoders)
-      if (encoder.joint == wheel.joint) return {encoder.counts_per_turn / (2 * kPi * wheel.radius), encoder.bits};
-  }
+      if (about[w].driven && about[w].left == left && encoder.joint == machine.wheels[w].joint)
+        return {encoder.counts_per_turn / (2 * kPi * about[w].radius), encoder.bits};
   throw InputError(Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]", "",
                          std::string("odometry needs an encoder on a driven wheel on the ") + (left ? "left" : "right"),
                          "add <navvy:encoder> with the wheel's joint"});

@@ -59,8 +59,9 @@ bool is_listed(const fs::path& relative) {
 /// What the driver writes to before it gives a file its name.
 bool is_temporary(const fs::path& relative) { return relative.filename().string().rfind("tempfile_", 0) == 0; }
 
-/// Keeps neighbours from writing the manifest between our reading and our writing. Where it cannot be had nobody waits:
-/// a list that lacks files only makes the next process compile again.
+/// Keeps neighbours from writing the manifest between our reading and our writing; one that holds it is waited for, a
+/// few milliseconds. Where its file cannot be made it keeps nobody: a list that lacks files only makes the next process
+/// compile again.
 class ManifestLock {
  public:
   explicit ManifestLock(const fs::path& folder)

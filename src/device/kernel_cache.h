@@ -36,8 +36,8 @@ class KernelCache {
   std::size_t removed() const { return removed_; }
 
   /// Lists the files that are new since the folder was opened, also those that a neighbour has listed, whose places
-  /// this process's own may have taken. Never throws: a list that cannot be written only makes
-  /// the next process compile again.
+  /// this process's own may have taken. Never throws: a list that cannot be written only makes the next process compile
+  /// again.
   void seal() noexcept;
 
   /// Name of the lock file: a folder that holds it is one of ours.

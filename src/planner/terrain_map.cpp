@@ -188,10 +188,10 @@ TerrainMap TerrainMap::with(Layer layer, std::span<const float> values) const {
   return out;
 }
 
-TerrainMap TerrainMap::numbered(std::uint64_t sequence) const {
-  TerrainMap out = *this;
-  out.sequence_ = sequence;
-  return out;
+// A copy counts a reference for every tile of every layer: milliseconds on a site of 1 km2.
+TerrainMap TerrainMap::numbered(std::uint64_t sequence) && {
+  sequence_ = sequence;
+  return std::move(*this);
 }
 
 }  // namespace navvy::planner

@@ -136,8 +136,8 @@ class TerrainMap {
   TerrainMap with(Layer layer, std::span<const float> values) const;
   /// This map with what `source` says as that layer; null: unknown everywhere.
   TerrainMap with(Layer layer, std::shared_ptr<const LayerSource> source) const;
-  /// This map under another number.
-  TerrainMap numbered(std::uint64_t sequence) const;
+  /// This map, which goes, under another number.
+  TerrainMap numbered(std::uint64_t sequence) &&;
 
  private:
   friend class MapMaker;

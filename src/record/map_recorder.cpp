@@ -40,7 +40,7 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
       faults.push_back(std::move(fault));
     };
     try {
-      if (planner::format_named(record.format).write == planner::write_terra && !scene.design.any())
+      if (planner::format_named(record.format).needs_design && !scene.design.any())
         add({Fault::Severity::kError, "", 0, "", record.format, "needs a design: without one nothing is to be dug",
              "give the scene a <navvy:design>"},
             "format");
@@ -133,10 +133,9 @@ void MapRecorder::observe() {
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(sim::sample_number(world.steps(), world.dt(), record.rate)));
     // All its files are the run's before they are there.
-    const std::string stem = "maps/" + stream->label + number;
-    if (!format.extension.empty()) folder_.path(stem + format.extension);
-    for (const std::string& end : format.others) folder_.path(stem + end);
-    format.write(map, stream->layers, folder_.directory() + "/" + stem + format.extension);
+    const std::string name = "maps/" + stream->label + number + format.extension;
+    for (const std::string& file : planner::files_of(format, name)) folder_.path(file);
+    format.write(map, stream->layers, folder_.directory() + "/" + name);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/drive.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvy::scene {

@@ -57,8 +57,8 @@ struct DifferentialDrive : Powertrain {
   double track = 0.5;  ///< between the middles of left and right wheels [m]; of skid-steered machines an effective one
 };
 
-/// An open differential, and two steered wheels that one motor turns through a trapezoid of arms and tie rod, which
-/// meets a common centre only nearly. It steers by the motor's position [rad, at the motor], positive to the left.
+/// As AckermannDrive, but one motor turns the two steered wheels through a trapezoid of arms and tie rod, which meets a
+/// common centre only nearly. It steers by the motor's position [rad, at the motor], positive to the left.
 struct LinkageDrive : AckermannDrive {
   static constexpr const char* kName = "linkage";
   static constexpr const char* kSteerUnit = "rad";

@@ -2,12 +2,14 @@
 #include "sim/start_check.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "coupling/settling.h"
 #include "geometry/oriented_box.h"
+#include "heightfield/design.h"
 #include "heightfield/site.h"
 #include "sim/collision_box.h"
 #include "sim/placing.h"
@@ -114,10 +116,34 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
   return faults;
 }
 
+/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
+std::string told_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
+  const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
+  if (!design) return "";
+  const heightfield::DesignFigures figures = heightfield::against_design(ground, *design);
+  double least = INFINITY, most = -INFINITY;
+  for (const float z : design->z) {
+    least = std::fmin(least, static_cast<double>(z));
+    most = std::fmax(most, static_cast<double>(z));
+  }
+  const std::size_t areas = scene.design.areas.size();
+  const std::string what = scene.design.file.empty() ? std::to_string(areas) + (areas == 1 ? " area" : " areas")
+                           : scene.design.tin        ? scene.design.file + ", surface '" + scene.design.tin->name + "'"
+                                                     : scene.design.file;
+  std::array<char, 160> out{};
+  std::snprintf(out.data(), out.size(),
+                ": %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n", figures.area,
+                least, most, figures.design_cut, figures.design_fill);
+  return "design " + what + out.data();
+} catch (const InputError&) {
+  return "";
+}
+
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, &out.terrain);
+    out.design = told_design(scene, ground);
     const std::vector<Pose> X_WB = starting_poses(scene, ground);
     out.faults = check_overlaps(scene, X_WB);
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);

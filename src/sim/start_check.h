@@ -28,6 +28,7 @@ struct StartCheck {
   std::vector<bool> falling;                 ///< likewise: it has not reached the ground yet
   std::vector<Fault> faults;                 ///< overlaps, what starts in the ground, machines that tip
   std::string terrain;                       ///< what was found in the ground's map, some lines; empty without a map
+  std::string design;                        ///< what the design is on the untouched site, a line; empty without one
 };
 
 /// Lays the ground, puts the machines on it and lets them settle for a second (soil at rest, joints held). A ground

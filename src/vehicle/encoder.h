@@ -65,11 +65,6 @@ class Encoders {
   JointEncoder& operator[](std::size_t i) { return encoders_[i]; }
   const JointEncoder& operator[](std::size_t i) const { return encoders_[i]; }
   /// Of a joint's index; null where it has none.
-  JointEncoder* of_joint(int joint) {
-    const int e = place_of(joint);
-    return e < 0 ? nullptr : &encoders_[static_cast<std::size_t>(e)];
-  }
-
   const JointEncoder* of_joint(int joint) const {
     const int e = place_of(joint);
     return e < 0 ? nullptr : &encoders_[static_cast<std::size_t>(e)];

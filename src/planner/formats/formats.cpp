@@ -31,13 +31,21 @@ const std::vector<Format>& formats() {
        "folder of NumPy arrays: target -1/0/1, occupancy, dumpability, distance",
        {Layer::kTarget, Layer::kElevation, Layer::kTraversability},
        write_terra,
-       {"/images/img_1.npy", "/occupancy/img_1.npy", "/dumpability/img_1.npy", "/distance/img_1.npy"}},
+       {},
+       terra_files,
+       true},
       {"mcap",
        ".mcap",
        "ROS 2 messages in one file: grid_map, occupancy, points",
        {Layer::kElevation, Layer::kTraversability},
        write_mcap},
-      {"bag", "", "the same as a rosbag2 folder (SQLite)", {Layer::kElevation, Layer::kTraversability}, write_bag},
+      {"bag",
+       "",
+       "the same as a rosbag2 folder (SQLite)",
+       {Layer::kElevation, Layer::kTraversability},
+       write_bag,
+       {},
+       bag_files},
       {"ply", ".ply", "triangles with layers at the vertices", {Layer::kElevation}, write_ply},
   };
   return table;
@@ -56,18 +64,18 @@ const Format& format_named(const std::string& name) {
 std::vector<std::string> files_of(const Format& format, const std::string& path) {
   std::vector<std::string> out;
   // A folder's files lie in it, others beside the first one.
-  if (!format.extension.empty()) out.push_back(path);
-  for (const std::string& end : format.others)
-    out.push_back(format.extension.empty() ? path + end : std::filesystem::path(path).replace_extension(end).string());
-  if (format.write == write_bag) {
-    for (const std::string& name : bag_files(folder_name(path))) out.push_back(path + "/" + name);
+  if (format.within != nullptr) {
+    for (const std::string& name : format.within(folder_name(path))) out.push_back(path + "/" + name);
+    return out;
   }
+  out.push_back(path);
+  for (const std::string& end : format.others)
+    out.push_back(std::filesystem::path(path).replace_extension(end).string());
   return out;
 }
 
 void require_writable(const Format& format, const std::string& path) {
-  if (format.write == write_terra) return require_folder(path, terra_files());
-  if (format.write == write_bag) return require_folder(path, bag_files(folder_name(path)));
+  if (format.within != nullptr) return require_folder(path, format.within(folder_name(path)));
   for (const std::string& file : files_of(format, path)) navvy::require_writable(file);
 }
 

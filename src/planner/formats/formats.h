@@ -74,11 +74,13 @@ struct Format {
   std::string meaning;            ///< one line
   std::vector<Layer> by_default;  ///< written when none is asked for
   void (*write)(const TerrainMap&, const std::vector<Layer>&, const std::string&) = nullptr;
-  /// Ends of the other files that come with it: ".pgm" beside ".yaml", of a folder "/images/img_1.npy".
-  std::vector<std::string> others = {};
+  std::vector<std::string> others = {};  ///< extensions of the files that come with it: ".pgm" beside ".yaml"
+  /// Of a folder called `name`: the files in it.
+  std::vector<std::string> (*within)(const std::string& name) = nullptr;
+  bool needs_design = false;  ///< without one it would say nothing
 };
 const std::vector<Format>& formats();
-/// Paths of all files that `format` writes for `path`; of a bag's folder those of its storage.
+/// Paths of all files that `format` writes for `path`, with its extension.
 std::vector<std::string> files_of(const Format& format, const std::string& path);
 /// Whether `format` could write to `path`, without touching it: for what is known before a map is made. Whether there
 /// is room is not known then. @throws FileError, InputError as the writers.

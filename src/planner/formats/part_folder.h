@@ -37,8 +37,8 @@ void require_folder(const std::string& path, const std::vector<std::string>& fil
 /// The last name of a folder's path: "bag" of "out/bag/".
 std::string folder_name(const std::string& path);
 
-/// What the folders of the two formats hold, as names below them; `name` is a bag's own.
-std::vector<std::string> terra_files();
+/// What the folders of the two formats hold, as names below them; `name` is the folder's own.
+std::vector<std::string> terra_files(const std::string& name);
 std::vector<std::string> bag_files(const std::string& name);
 
 }  // namespace navvy::planner

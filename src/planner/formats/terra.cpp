@@ -71,7 +71,8 @@ std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int
 
 }  // namespace
 
-std::vector<std::string> terra_files() {
+std::vector<std::string> terra_files(const std::string& name) {
+  (void)name;  // all are called alike
   std::vector<std::string> out;
   for (const char* folder : kFolders) out.push_back(std::string(folder) + "/" + kImage);
   return out;
@@ -98,7 +99,7 @@ void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const 
     dumpable.push_back(aim >= 0 && good[k] > 0 ? 1 : 0);
   }
   const std::vector<float> distance = distances(dig, map.nx(), map.ny(), map.cell());
-  PartFolder part(path, terra_files());
+  PartFolder part(path, terra_files(folder_name(path)));
   const auto write = [&](const char* folder, const auto& values) {
     const std::filesystem::path place = std::filesystem::path(part.place()) / folder;
     std::error_code failed;

@@ -18,8 +18,6 @@ class DifferentialRow final : public WorldConstraint {
 
   /// For the coming step: impulse between the shafts at most [N m s]; 0: they turn freely.
   void limit(double impulse) { limit_ = impulse; }
-  /// In the last step [N m s], positive on joints of positive weight.
-  double impulse() { return getAppliedImpulse(0); }
 
   // Called by Bullet in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,

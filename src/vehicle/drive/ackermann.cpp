@@ -28,6 +28,12 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle) {
   return {std::atan2(t, 1 - share), std::atan2(t, 1 + share)};
 }
 
+double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left) {
+  const double t = std::tan(angle), half = 0.5 * drive.track / drive.wheelbase;
+  // The left wheel is the inner one of a turn to the left.
+  return std::clamp(t / std::max(left ? 1 + half * t : 1 - half * t, kLeastShare), -kSharpest, kSharpest);
+}
+
 AckermannLine::AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels)
     : DriveLine(drive, {all_driven(wheels)}), drive_(drive), wheels_(wheels) {}
 
@@ -46,11 +52,8 @@ Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
       ++driven;
     }
     if (!motion[w].steer) continue;
-    // The bicycle's tangent by this wheel alone: ackermann() the other way round, the left wheel the inner one. Angles
-    // that do not fit each other drag a wheel, and the machine follows their mean.
-    const double t = std::tan(*motion[w].steer), half = 0.5 * drive_.track / drive_.wheelbase;
-    const double share = std::max(wheels_[w].left ? 1 + half * t : 1 - half * t, kLeastShare);
-    tangent += std::clamp(t / share, -kSharpest, kSharpest);
+    // Angles that do not fit each other drag a wheel, and the machine follows their mean.
+    tangent += bicycle_tangent(drive_, *motion[w].steer, wheels_[w].left);
     ++steered;
   }
   speed /= std::max(driven, 1);

@@ -17,6 +17,9 @@ struct SteerAngles {
 /// For a bicycle angle [rad] in the middle of the front axle, which is cut so that the inner wheel keeps within
 /// `drive.max_steer`. At one angle all wheels roll about one centre.
 SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle);
+/// The other way round: tangent of the bicycle's angle by one wheel alone, the left or the right one, at `angle` [rad];
+/// bounded where the wheel stands across the machine and no bicycle follows.
+double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left);
 /// Largest bicycle angle [rad]: the one at which the inner wheel is at `drive.max_steer`.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 

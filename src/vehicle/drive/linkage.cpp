@@ -24,11 +24,15 @@ double across(const scene::LinkageDrive& drive, double left) {
   return std::remainder(angle, 2 * kPi);
 }
 
-/// Tangent of the bicycle's angle by one wheel alone, and the mean of both: wheels that disagree drag.
-double bicycle_tangent(const scene::AckermannDrive& drive, const SteerAngles& angles) {
-  const double half = 0.5 * drive.track / drive.wheelbase;
-  const double left = std::tan(angles.left), right = std::tan(angles.right);
-  return 0.5 * (left / (1 + half * left) + right / (1 - half * right));
+/// Of both wheels, whatever the stops are.
+SteerAngles angles_at(const scene::LinkageDrive& drive, double motor) {
+  const double left = motor / drive.gear_ratio;
+  return {left, across(drive, left)};
+}
+
+/// Of both wheels, the mean: wheels that disagree drag.
+double mean_tangent(const scene::LinkageDrive& drive, const SteerAngles& angles) {
+  return 0.5 * (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
 }
 
 }  // namespace
@@ -42,8 +46,7 @@ MotorRange motor_range(const scene::LinkageDrive& drive) {
 
 SteerAngles linkage_angles(const scene::LinkageDrive& drive, double motor) {
   const MotorRange range = motor_range(drive);
-  const double left = std::clamp(motor, range.right, range.left) / drive.gear_ratio;
-  return {left, across(drive, left)};
+  return angles_at(drive, std::clamp(motor, range.right, range.left));
 }
 
 double ackermann_error(const scene::AckermannDrive& drive, const SteerAngles& angles) {
@@ -59,7 +62,7 @@ LinkageLine::LinkageLine(const scene::LinkageDrive& drive, const std::vector<Dri
 
 Roll LinkageLine::roll(const DriveInput& input) const {
   const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
-  return {speed, speed * bicycle_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
+  return {speed, speed * mean_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
 }
 
 std::optional<double> LinkageLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
@@ -76,7 +79,7 @@ double command_of(const scene::LinkageDrive& drive, double bicycle, double speed
   MotorRange range = motor_range(drive);
   for (int i = 0; i < 52; ++i) {
     const double middle = 0.5 * (range.right + range.left);
-    (bicycle_tangent(drive, linkage_angles(drive, middle)) < wanted ? range.right : range.left) = middle;
+    (mean_tangent(drive, angles_at(drive, middle)) < wanted ? range.right : range.left) = middle;
   }
   return 0.5 * (range.right + range.left);
 }

@@ -22,7 +22,7 @@ MotorRange motor_range(const scene::LinkageDrive& drive);
 /// where it turns too far, as a parallelogram does; 0 where the wheels are straight or turned against each other.
 double ackermann_error(const scene::AckermannDrive& drive, const SteerAngles& angles);
 
-/// An open differential as of AckermannLine; DriveInput::steer is the motor's position.
+/// An AckermannLine whose DriveInput::steer is the motor's position.
 class LinkageLine final : public AckermannLine {
  public:
   LinkageLine(const scene::LinkageDrive& drive, const std::vector<DriveWheel>& wheels);
