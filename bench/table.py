@@ -78,6 +78,21 @@ def scene(rows):
             number(row, "median_ms", form="%.0f"), number(row, "real_time_factor")
 
 
+def host(rows):
+    """Work of the host: machines, maps. A site's edge where it is what varies."""
+    yield "bench", "site [m]", "least ms", "median ms", "of processor, ms", "real-time factor"
+    for row in rows:
+        yield "`%s`" % row["bench"], row["site_m"] or "-", number(row, "min_ms"), number(row, "median_ms"), \
+            number(row, "processor_ms"), number(row, "real_time_factor")
+
+
+def limits(rows):
+    """Files of others at 64 MB and maps at their full size."""
+    yield "file", "MiB", "s of processor", "memory, MiB", "status"
+    for row in rows:
+        yield row["file"], row["mib"], row["processor_s"], row["peak_mib"], row["status"]
+
+
 def commands(rows):
     """Whole commands, timed by hand: rows of what, seconds, wanted, where."""
     yield "command", "took [s]", "wanted", "where"
@@ -85,7 +100,8 @@ def commands(rows):
         yield row["what"], row["seconds"], row["wanted"] or "-", row["where"]
 
 
-KINDS = {"soil": soil, "native": native, "scene": scene, "commands": commands}
+KINDS = {"soil": soil, "native": native, "scene": scene, "host": host, "limits": limits,
+         "commands": commands}
 
 
 def table(kind, path):
@@ -100,7 +116,7 @@ def table(kind, path):
     else:
         sys.exit("table.py: %s/measured.csv does not say when %s was measured; `table.py stamp %s %s` does" %
                  (folder, name, folder, name))
-    on = ", ".join("%s, driver %s" % pair for pair in
+    on = ", ".join("%s, driver %s" % pair if pair[1] else pair[0] for pair in
                    dict.fromkeys((row["device"], row["driver"]) for row in rows if row.get("device")))
     peaks = [max((float(row[column]) for row in rows if row.get(column)), default=0) / 1e9
              for column in ("copy_bytes_per_s", "fma_flops_per_s")]
