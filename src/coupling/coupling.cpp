@@ -28,6 +28,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
     // Both engines number their machines from 0: who asks for one says its number in the scene.
     vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
+    if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
       ToolLoad load;
@@ -72,7 +73,10 @@ void Coupling::step(double dt) {
   for (const ToolLoad& tool : tools_) before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
   {
     const Lap lap(time_share_.vehicle);
-    if (dynamic_.machine_count() > 0) dynamic_.step(dt, view_);
+    if (dynamic_.machine_count() > 0) {
+      show_movers();
+      dynamic_.step(dt, view_);
+    }
     if (kinematic_.machine_count() > 0) kinematic_.step(dt, view_);
   }
   {
@@ -82,6 +86,17 @@ void Coupling::step(double dt) {
   const Lap lap(time_share_.ground);
   if (steps_ % kRutInterval == 0) press_ruts(dt);
   ++steps_;
+}
+
+void Coupling::show_movers() {
+  std::vector<vehicle::LinkState> links;
+  for (std::size_t m = 0; m < placed_.size(); ++m) {
+    if (placed_[m].mover < 0) continue;
+    links.clear();
+    for (std::size_t l = 0; l < world_.machines[m].machine.links.size(); ++l)
+      links.push_back(placed_[m].engine->link(placed_[m].index, static_cast<int>(l)));
+    dynamic_.move(placed_[m].mover, links);
+  }
 }
 
 void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_before) {

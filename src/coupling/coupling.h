@@ -66,7 +66,10 @@ class Coupling {
   struct PlacedMachine {
     vehicle::Engine* engine = nullptr;  ///< one of the two given
     int index = 0;                      ///< of the machine in that engine
+    int mover = -1;                     ///< its number in the dynamic engine of what another one moves
   };
+  /// Tells the dynamic engine where kinematic machines are.
+  void show_movers();
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 

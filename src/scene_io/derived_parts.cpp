@@ -171,7 +171,7 @@ void derive_parts(const Element& model, scene::Machine& machine, Faults& faults)
   if (const Element* e = model.FirstChildElement("navvy:derive_collisions")) read_flag(*e, wanted, faults);
   const bool given = std::any_of(machine.links.begin(), machine.links.end(),
                                  [](const scene::Link& link) { return !link.collisions.empty(); });
-  if (wanted && !given && !machine.kinematic) derive_collisions(model, machine, faults);
+  if (wanted && !given) derive_collisions(model, machine, faults);
   for (scene::Link& link : machine.links)
     if (const Element* element = named_child(model, "link", link.name)) weigh(*element, link, machine, faults);
 }

@@ -122,7 +122,7 @@ void check_materials(const scene::Scene& world, Faults& faults) {
     std::set<std::pair<std::string, bool>> seen;
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
       const scene::LinkMaterial& material = machine.links[l].material;
-      // Machines that move as told touch no bodies.
+      // Machines that move as told do not meet the ground, nor each other.
       const bool stands = machine.kinematic || (l == 0 && machine.fixed_base);
       if (!material.name.empty() && seen.emplace(material.name, stands).second) uses.push_back({m, &material, stands});
     }

@@ -26,7 +26,13 @@ constexpr double kTipped = radians(45);
 struct LinkBox {
   geometry::OrientedBox box;
   const scene::Link* link = nullptr;
+  bool as_told = false, stands = false;  // of a kinematic machine; a base that is held
 };
+
+/// What moves as told goes through its like and through what stands.
+bool may_meet(const LinkBox& a, const LinkBox& b) {
+  return !(a.as_told && (b.as_told || b.stands)) && !(b.as_told && a.stands);
+}
 
 std::string text(const char* format, double value) {
   std::array<char, 48> out{};
@@ -37,8 +43,6 @@ std::string text(const char* format, double value) {
 std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X_WB) {
   std::vector<LinkBox> out;
   const scene::Machine& machine = placed.machine;
-  // Kinematic machines touch no others.
-  if (machine.kinematic) return out;
   std::vector<double> q;
   for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
   const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, X_WB, q);
@@ -46,7 +50,7 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
     for (const scene::Collision& collision : machine.links[l].collisions)
       if (std::optional<geometry::OrientedBox> box = box_of(collision)) {
         box->X_WO = X_WL[l] * box->X_WO;
-        out.push_back({*box, &machine.links[l]});
+        out.push_back({*box, &machine.links[l], machine.kinematic, machine.fixed_base && l == 0});
       }
   return out;
 }
@@ -69,7 +73,7 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
       const scene::Link *of_a = nullptr, *of_b = nullptr;
       for (const LinkBox& one : boxes[a])
         for (const LinkBox& other : boxes[b]) {
-          const double depth = geometry::penetration(one.box, other.box);
+          const double depth = may_meet(one, other) ? geometry::penetration(one.box, other.box) : 0;
           if (depth > deepest) deepest = depth, of_a = one.link, of_b = other.link;
         }
       if (!of_a) continue;

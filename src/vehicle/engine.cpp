@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/engine.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "core/error.h"
@@ -16,13 +14,18 @@ void Engine::set_base(int machine, const BaseInput& input) {
                          "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
 }
 
+int Engine::add_mover(const scene::Machine& machine) {
+  (void)machine;
+  return -1;
+}
+
+void Engine::move(int mover, const std::vector<LinkState>& links) { (void)mover, (void)links; }
+
 BaseInput Engine::base(int machine) const {
   const Pose X = link(machine, 0).X_WL;
-  const Mat3 R = X.linear();
   BaseInput out;
   out.p_W = X.translation();
-  // Rounding may take the sine a hair past one.
-  out.angles = {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+  out.angles = fixed_angles(X.linear());
   return out;
 }
 

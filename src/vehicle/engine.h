@@ -40,6 +40,13 @@ class Engine {
   /// The place it is on its way to, or where it is as long as nothing was told.
   virtual BaseInput base(int machine) const;
 
+  /// A machine that another engine moves: what this one moves is pushed by its collision shapes and shells, and does
+  /// not push back. Nothing to an engine without contacts.
+  /// @return its number among them. @throws InputError for what this engine cannot build.
+  virtual int add_mover(const scene::Machine& machine);
+  /// Where its links are at the start of the next step and how they move, by link; told before every step.
+  virtual void move(int mover, const std::vector<LinkState>& links);
+
   /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
   /// articulated inertia. Counted in `external_impulse`.
   virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) = 0;
@@ -86,7 +93,7 @@ class Engine {
 };
 
 /// Dynamics under gravity [m/s2, W], contacts by `materials` where both bodies have one; and positions as commanded,
-/// without forces. Neither knows the other's machines.
+/// without forces. Neither knows the other's machines but by add_mover.
 std::unique_ptr<Engine> make_bullet_engine(const Vec3& gravity, const scene::Materials& materials = {});
 std::unique_ptr<Engine> make_kinematic_engine();
 

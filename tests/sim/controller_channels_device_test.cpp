@@ -79,6 +79,32 @@ TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
   EXPECT_THROW(world.command(world.machine("bucket"), far), InputError);
 }
 
+/// A block of 0.6 x 0.6 x 0.4 m by its visual alone.
+std::string block(const std::string& name, const std::string& x, const std::string& about) {
+  return "<model name=\"" + name + "\"><pose>" + x + " 0 0.2 0 0 0</pose>" + about +
+         "<link name=\"block\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><visual name=\"v\"><geometry>"
+         "<box><size>0.6 0.6 0.4</size></box></geometry></visual></link></model>";
+}
+
+TEST_F(ControllerChannels, AKinematicBodyPushesALooseOne) {
+  const scene::Scene scene = scene_io::load_scene_from_string(
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/><navvy:ground>"
+      "<size_m>12 8</size_m></navvy:ground>" +
+          block("pushed", "0.8", "") + block("pusher", "0", "<navvy:engine>kinematic</navvy:engine>") +
+          "</world></sdf>",
+      "w.sdf", control::step_kinds());
+  World whole(scene, device_), resumed(scene, device_);
+  whole.set("pusher/pose/duration", 2);
+  whole.set("pusher/pose/x", 1);
+  while (whole.time() < 1) whole.step();
+  EXPECT_NEAR(whole.get("pushed/pose/x"), 1.1, 0.01);
+  load_saved(saved(whole), resumed);
+  for (World* world : {&whole, &resumed})
+    while (world->time() < 2.5) world->step();
+  EXPECT_NEAR(whole.get("pushed/pose/x"), 1.6, 0.02);
+  EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+}
+
 TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   const scene::Scene scene = testing::load("paper/diff_kinematic.sdf");
   World whole(scene, device_), resumed(scene, device_), other(scene, device_);

@@ -381,6 +381,16 @@ void TreeBody::place_colliders() {
   body_->updateCollisionObjectWorldTransforms(turns, places);
 }
 
+void TreeBody::set_base(const LinkState& link) {
+  const Pose X_WI = link.X_WL * X_LI_[0];
+  const Vec3 v_W = link.v_WL + link.w_WL.cross(X_WI.translation() - link.X_WL.translation());
+  body_->setBasePos(to_bt(Vec3(X_WI.translation())));
+  body_->setWorldToBaseRot(to_bt(Mat3(X_WI.linear())).inverse());
+  body_->setBaseVel(to_bt(v_W));
+  body_->setBaseOmega(to_bt(link.w_WL));
+  moved();
+}
+
 void TreeBody::stop() {
   place(coordinates(), std::vector<double>(6 + index(body_->getNumDofs()), 0.0));
   kinematics_valid_ = false;
@@ -430,6 +440,7 @@ void TreeBody::visit(Archive& a) {
   const auto finite = [](double v) { return std::isfinite(v); };
   const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
   a.require(near, "coordinates", "a machine has no finite place, or none near any site");
+  a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates", "a machine's turn has a scale");
   a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
   place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.

@@ -70,6 +70,8 @@ class TreeBody {
   void step_velocities(const Vec3& gravity, double dt);
   /// Takes all speed from it.
   void stop();
+  /// Puts the base's link there, whatever it was, at this speed; the joints stay.
+  void set_base(const LinkState& link);
   /// The solver's velocity changes, then positions.
   void step_positions(double dt);
   /// Positions changed from outside: what was worked out from them is void.

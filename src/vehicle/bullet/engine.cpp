@@ -17,6 +17,7 @@
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/ground_shape.h"
 #include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/mover.h"
 #include "vehicle/bullet/refuse.h"
 #include "vehicle/bullet/tyre_bodies.h"
 
@@ -63,27 +64,16 @@ class BulletEngine final : public Engine {
     // The world keeps bare pointers: they leave it before their owners go.
     for (const auto& machine : machines_)
       for (btMultiBodyLinkCollider* collider : machine->all_colliders()) world_.removeCollisionObject(collider);
+    for (const Mover& mover : movers_)
+      for (const auto& body : mover.bodies())
+        for (btMultiBodyLinkCollider* collider : body->all_colliders()) world_.removeCollisionObject(collider);
     world_.removeCollisionObject(&ground_);
   }
 
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
-    if (world_.getNumCollisionObjects() + static_cast<int>(machine.links.size() + machine.shells.size()) > kMostShapes)
-      refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
-             "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
+    require_room(machine);
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
-    const auto& colliders = machines_.back()->colliders();
-    for (std::size_t l = 0; l < colliders.size(); ++l) {
-      if (!colliders[l]) continue;
-      const bool stands = l == 0 && machines_.back()->tree().fixed_base();
-      world_.addCollisionObject(colliders[l].get(), stands ? kStandingGroup : kMachineGroup,
-                                stands ? kMachineGroup : kGroundGroup | kMachineGroup | kStandingGroup);
-    }
-    for (const auto& plates : machines_.back()->steel()) {
-      const bool stands = plates->m_link < 0 && machines_.back()->tree().fixed_base();
-      world_.addCollisionObject(plates.get(), stands ? kStandingGroup : kMachineGroup,
-                                stands ? kMachineGroup : kMachineGroup | kStandingGroup);
-    }
-    materials_.mark(*machines_.back());
+    add_shapes(*machines_.back());
     // The order in which rows are given to the solver is part of the result: joints, balls, differentials, then rock,
     // by machine.
     for (const auto& servo : machines_.back()->servos())
@@ -97,6 +87,20 @@ class BulletEngine final : public Engine {
     return static_cast<int>(machines_.size()) - 1;
   }
   int machine_count() const override { return static_cast<int>(machines_.size()); }
+
+  int add_mover(const scene::Machine& machine) override {
+    require_room(machine);
+    movers_.emplace_back(machine);
+    for (const auto& body : movers_.back().bodies()) add_shapes(*body);
+    return static_cast<int>(movers_.size()) - 1;
+  }
+  void move(int mover, const std::vector<LinkState>& links) override {
+    Mover& one = movers_.at(static_cast<std::size_t>(mover));
+    one.move(links);
+    // Where it has come to rest the world would not look again.
+    for (const auto& body : one.bodies())
+      for (btMultiBodyLinkCollider* collider : body->all_colliders()) world_.updateSingleAabb(collider);
+  }
 
   void set_joint(int machine, int joint, const JointInput& input) override { at(machine).set_joint(joint, input); }
   void set_drive(int machine, const DriveInput& input) override { at(machine).set_drive(input); }
@@ -112,7 +116,7 @@ class BulletEngine final : public Engine {
     if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all, then positions.
     for (auto& machine : machines_) machine->begin_step(ground, dt);
-    tyre_bodies_.push(machines_, world_, dt);
+    tyre_bodies_.push(machines_, movers_, world_, dt);
     ground_shape_.set_ground(&ground);
     detect();
     turn_ground_contacts();
@@ -157,7 +161,7 @@ class BulletEngine final : public Engine {
     a.section("bullet", kVersion, [&] {
       a.constant("machines", machines_.size(), "the snapshot holds another number of machines than the scene");
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
-      tyre_bodies_.visit(a, machines_);
+      tyre_bodies_.visit(a, machines_, movers_);
     });
     // What does not stir is not looked at in a step.
     if (a.loading())
@@ -169,10 +173,34 @@ class BulletEngine final : public Engine {
   BulletMachine& at(int machine) { return *machines_.at(static_cast<std::size_t>(machine)); }
   const BulletMachine& at(int machine) const { return *machines_.at(static_cast<std::size_t>(machine)); }
 
+  void require_room(const scene::Machine& machine) const {
+    if (world_.getNumCollisionObjects() + static_cast<int>(machine.links.size() + machine.shells.size()) > kMostShapes)
+      refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
+             "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
+  }
+  /// Its links' shapes and its shells' plates to the world.
+  void add_shapes(BulletMachine& machine) {
+    const auto& colliders = machine.colliders();
+    for (std::size_t l = 0; l < colliders.size(); ++l) {
+      if (!colliders[l]) continue;
+      const bool stands = l == 0 && machine.tree().fixed_base();
+      world_.addCollisionObject(colliders[l].get(), stands ? kStandingGroup : kMachineGroup,
+                                stands ? kMachineGroup : kGroundGroup | kMachineGroup | kStandingGroup);
+    }
+    for (const auto& plates : machine.steel()) {
+      const bool stands = plates->m_link < 0 && machine.tree().fixed_base();
+      world_.addCollisionObject(plates.get(), stands ? kStandingGroup : kMachineGroup,
+                                stands ? kMachineGroup : kMachineGroup | kStandingGroup);
+    }
+    materials_.mark(machine);
+  }
+
   void solve(double dt) {
     // One group for the whole world: no islands, so nobody's result depends on who is near.
     info_.m_timeStep = dt;
     for (auto& machine : machines_) machine->tree().multibody().setCompanionId(-1);
+    for (const Mover& mover : movers_)
+      for (const auto& body : mover.bodies()) body->tree().multibody().setCompanionId(-1);
     btAlignedObjectArray<btCollisionObject*>& objects = world_.getCollisionObjectArray();
     const int manifolds = dispatcher_.getNumManifolds();
     solver_.solveMultiBodyGroup(
@@ -268,6 +296,7 @@ class BulletEngine final : public Engine {
   btCollisionObject ground_;
   TyreBodies tyre_bodies_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
+  std::vector<Mover> movers_;
   std::vector<btMultiBodyConstraint*> constraints_;
   double rock_height_ = -1e6;  // far below, until told
 };

@@ -126,6 +126,16 @@ void BulletMachine::disturb() {
   set_active(true);
 }
 
+void BulletMachine::move_base(const LinkState& link) {
+  const bool still = link.v_WL.isZero(0) && link.w_WL.isZero(0);
+  tree_.set_base(link);
+  // Tyres push at it, which moves nothing.
+  tree_.multibody().clearForcesAndTorques();
+  place_colliders();
+  for (btMultiBodyLinkCollider* collider : all_colliders())
+    collider->forceActivationState(still ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);
+}
+
 void BulletMachine::box(btVector3& low, btVector3& high) const {
   colliders_[0]->getCollisionShape()->getAabb(colliders_[0]->getWorldTransform(), low, high);
 }

@@ -61,6 +61,8 @@ class BulletMachine {
   void wake(double still);
   /// It is pushed.
   void disturb();
+  /// Of one that stands, where what moves it has its base now, and how fast; it meets what lies still only on its way.
+  void move_base(const LinkState& link);
 
   /// Before the solver: servo demands, drive, tyres on the ground; then gravity and all forces change the velocities.
   void begin_step(const GroundQuery& ground, double dt);

@@ -41,6 +41,10 @@ struct Meeting final : btCollisionWorld::ContactResultCallback {
   double sum = 0, depth = 0;
 };
 
+bool meets_nobody(const TyreBodies::Machines& machines, const std::vector<Mover>& movers) {
+  return machines.size() + movers.size() < 2;
+}
+
 /// How much a body gives way to an impulse of 1 along `n` at `p` [1/kg].
 double inverse_mass(const TreeBody& tree, int link, const Vec3& n, const Vec3& p) {
   if (tree.fixed_base() && link == 0) return 0;
@@ -51,18 +55,23 @@ double inverse_mass(const TreeBody& tree, int link, const Vec3& n, const Vec3& p
 
 }  // namespace
 
-void TyreBodies::gather(Machines& machines) {
+void TyreBodies::gather(const Machines& machines, const std::vector<Mover>& movers) {
   bodies_.clear();
-  for (auto& machine : machines)
-    for (std::size_t l = 0; l < machine->colliders().size(); ++l) {
-      Body body;
-      body.collider = machine->colliders()[l].get();
-      if (body.collider == nullptr) continue;
-      body.machine = machine.get();
-      body.link = static_cast<int>(l);
-      body.collider->getCollisionShape()->getAabb(body.collider->getWorldTransform(), body.low, body.high);
-      bodies_.push_back(body);
-    }
+  for (const auto& machine : machines) gather(*machine);
+  for (const Mover& mover : movers)
+    for (const auto& body : mover.bodies()) gather(*body);
+}
+
+void TyreBodies::gather(BulletMachine& machine) {
+  for (std::size_t l = 0; l < machine.colliders().size(); ++l) {
+    Body body;
+    body.collider = machine.colliders()[l].get();
+    if (body.collider == nullptr) continue;
+    body.machine = &machine;
+    body.link = static_cast<int>(l);
+    body.collider->getCollisionShape()->getAabb(body.collider->getWorldTransform(), body.low, body.high);
+    bodies_.push_back(body);
+  }
 }
 
 TyreBodies::Disc& TyreBodies::disc(std::size_t machine, std::size_t wheel, const scene::Wheel& about) {
@@ -124,9 +133,9 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
   }
 }
 
-void TyreBodies::push(Machines& machines, btCollisionWorld& world, double dt) {
-  if (machines.size() < 2) return;
-  gather(machines);
+void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world, double dt) {
+  if (meets_nobody(machines, movers)) return;
+  gather(machines, movers);
   for (std::size_t m = 0; m < machines.size(); ++m)
     for (std::size_t w = 0; w < machines[m]->wheels().size(); ++w) {
       MachineWheels& wheels = machines[m]->wheels();
@@ -142,8 +151,8 @@ void TyreBodies::push(Machines& machines, btCollisionWorld& world, double dt) {
     }
 }
 
-void TyreBodies::visit(Archive& a, Machines& machines) {
-  if (machines.size() < 2) return;
+void TyreBodies::visit(Archive& a, Machines& machines, const std::vector<Mover>& movers) {
+  if (meets_nobody(machines, movers)) return;
   for (std::size_t m = 0; m < machines.size(); ++m)
     for (std::size_t w = 0; w < machines[m]->wheels().size(); ++w)
       a.item(m * limits::kLinks + w, [&] {

@@ -10,6 +10,7 @@
 
 #include "terramechanics/tyre_body.h"
 #include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/mover.h"
 
 namespace navvy::vehicle {
 
@@ -22,11 +23,12 @@ class TyreBodies {
  public:
   using Machines = std::vector<std::unique_ptr<BulletMachine>>;
 
-  /// Adds the forces [N] of this step to the trees of wheels and bodies: after the ground's, before gravity.
-  void push(Machines& machines, btCollisionWorld& world, double dt);
+  /// Adds the forces [N] of this step to the trees of wheels and bodies: after the ground's, before gravity. Bodies of
+  /// `movers` take none.
+  void push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world, double dt);
 
   /// Stretch of the tread on bodies, and the forces of the last step. A machine alone meets nobody and has none.
-  void visit(Archive& a, Machines& machines);
+  void visit(Archive& a, Machines& machines, const std::vector<Mover>& movers);
 
  private:
   /// A body's shape where it is now.
@@ -46,7 +48,8 @@ class TyreBodies {
     std::unique_ptr<btCollisionObject> object;
   };
 
-  void gather(Machines& machines);
+  void gather(const Machines& machines, const std::vector<Mover>& movers);
+  void gather(BulletMachine& machine);
   Disc& disc(std::size_t machine, std::size_t wheel, const scene::Wheel& about);
   void touch(const BulletMachine& own, Disc& disc, const Pose& X_WTrack, const scene::Wheel& about,
              btCollisionWorld& world);
