@@ -117,12 +117,15 @@ struct ArchiveParts {
   /// every load, and a run continued from a snapshot would leave the run it came from.
   static void part(Archive& a, Eigen::Quaterniond& q) { a.block(q.coeffs().data(), 4 * sizeof(double)); }
   /// Column by column: three of the turn, then the place; the last row is always 0 0 0 1. `makeAffine` sets that row
-  /// again, which loading did not touch.
+  /// again, which loading did not touch. A turn with a scale in it is refused: whoever has a pose counts on there being
+  /// none.
   static void part(Archive& a, Pose& X) {
     // One scalar at a time: the affine matrix has a row that is not saved, so there is no single run of bytes.
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 3; ++r) a.scalar(&X.matrix()(r, c), sizeof(double));
-    if (a.loading_) X.makeAffine();
+    if (!a.loading_) return;
+    X.makeAffine();
+    if (!is_rigid(X)) a.fail("is no finite place of a rigid body");
   }
 
   /// As bytes, whatever they spell. No encoding is assumed: whoever shows the text decides what it means.

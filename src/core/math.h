@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -51,6 +52,17 @@ inline Pose make_pose(double x, double y, double z, double roll = 0, double pitc
                    .toRotationMatrix();
   X.translation() = Vec3(x, y, z);
   return X;
+}
+/// Whether X is finite and its turn orthonormal up to the rounding that a run gathers.
+inline bool is_rigid(const Pose& X) {
+  const Mat3 R = X.linear();
+  return X.matrix().allFinite() && (R * R.transpose()).isIdentity(1e-6);
+}
+
+/// Roll, pitch and yaw of a turn, as make_pose takes them [rad]: pitch within +-pi/2, the others within +-pi.
+inline Vec3 fixed_angles(const Mat3& R) {
+  // Rounding may take the sine a hair past one.
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
 }
 
 }  // namespace navvy

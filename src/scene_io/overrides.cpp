@@ -99,11 +99,6 @@ void set_value(Element& parent, const std::string& name, const std::string& valu
   parent.InsertNewChildElement(name.c_str())->SetText(value.c_str());
 }
 
-/// Roll, pitch and yaw of a turn, as make_pose takes them [rad].
-Vec3 euler_of(const Mat3& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-}
-
 // x_m, y_m, z_m and yaw_deg of a machine are parts of its <pose>.
 bool set_place(Element& machine, const std::string& name, const std::string& value) {
   const std::vector<std::string> names = {"x_m", "y_m", "z_m", "", "", "yaw_deg"};
@@ -117,7 +112,7 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     Pose X;
     Faults unread;
     if (quaternion && i == 5 && read_pose(*pose, X, unread)) {
-      const Vec3 turn = euler_of(X.linear());
+      const Vec3 turn = fixed_angles(X.linear());
       words.resize(6);
       for (int k = 0; k < 3; ++k) words[static_cast<std::size_t>(3 + k)] = shortest(turn[k]);
       quaternion = false;

@@ -183,18 +183,13 @@ void add_pose(const LinkHandle& link, const std::string& prefix, const std::stri
     outputs.add({prefix + "velocity/" + axes[i], "m/s", "of " + of + "'s origin"},
                 [link, i] { return link.velocity()[i]; });
   }
-  outputs.add({prefix + "pose/roll", "rad", "fixed-axis roll"}, [link] {
-    const Mat3 R = link.pose().linear();
-    return std::atan2(R(2, 1), R(2, 2));
-  });
-  // Rounding may take the sine a hair past one.
-  outputs.add({prefix + "pose/pitch", "rad", "fixed-axis pitch, positive nose down"},
-              [link] { return std::asin(std::clamp(-link.pose().linear()(2, 0), -1.0, 1.0)); });
   // Not unwrapped: a jump of a turn is left to the reader.
-  outputs.add({prefix + "pose/yaw", "rad", "heading, counter-clockwise from x"}, [link] {
-    const Mat3 R = link.pose().linear();
-    return std::atan2(R(1, 0), R(0, 0));
-  });
+  const char* angles[][2] = {{"pose/roll", "fixed-axis roll"},
+                             {"pose/pitch", "fixed-axis pitch, positive nose down"},
+                             {"pose/yaw", "heading, counter-clockwise from x"}};
+  for (int i = 0; i < 3; ++i)
+    outputs.add({prefix + angles[i][0], "rad", angles[i][1]},
+                [link, i] { return fixed_angles(link.pose().linear())[i]; });
 }
 
 /// What an engineer watches of a tyre; forces in all axes are in the handle's state.

@@ -26,9 +26,12 @@ class Staircase {
  public:
   explicit Staircase(double unit) : unit_(unit) {}
   void look(double height) {
-    const double steps = height / unit_;
-    // A float of a whole metre in feet is off by less.
-    whole_ = whole_ && std::abs(steps - std::round(steps)) < 1e-4;
+    if (whole_) {
+      // No call of std::round: this is asked of 10^8 cells. A float of a whole metre in feet is off by less.
+      const double steps = height / unit_;
+      const auto nearest = static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
+      whole_ = std::abs(steps - static_cast<double>(nearest)) < 1e-4;
+    }
     least_ = std::min(least_, height);
     most_ = std::max(most_, height);
   }
@@ -82,8 +85,8 @@ class Decoder {
     // Compared in float32: a double that went through a float file is no longer equal.
     const auto single = static_cast<float>(raw);
     if (std::isnan(single) || (has_nodata_ && single == nodata_)) return true;
-    const double usual[] = {-9999.0, -9999.005859375, -32768.0, -32767.0};
-    return std::find(std::begin(usual), std::end(usual), raw) != std::end(usual);
+    constexpr double usual[] = {-9999.0, -9999.005859375, -32768.0, -32767.0};
+    return raw <= usual[0] && std::find(std::begin(usual), std::end(usual), raw) != std::end(usual);
   }
 
  private:

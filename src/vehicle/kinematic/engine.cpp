@@ -166,7 +166,7 @@ class KinematicEngine final : public Engine {
     a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
     a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() && body.goal.p_W.norm() < limits::kFarthest,
               "goal", "a machine is on its way to no finite place, or to none near any site");
-    a.require(body.X_WB.matrix().allFinite() && body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
+    a.require(body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
               "a machine has no finite place, or none near any site");
     // Poses of all links follow from base and joints.
     if (a.loading()) update_links(body);
