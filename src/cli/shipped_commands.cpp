@@ -102,6 +102,27 @@ std::string told(const scene::Machine& machine, const scene::Joint& joint) {
   return out + limits;
 }
 
+void tell_drive(const scene::Drive& drive) {
+  const scene::Powertrain& common = scene::powertrain(drive);
+  const scene::DriveEngine* engine = scene::drive_engine(drive);
+  if (engine == nullptr) {
+    std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(drive), common.max_speed,
+                common.tractive_force / 1000, common.power / 1000);
+  } else {
+    std::printf("  drive: %s, %.1f m/s\n", scene::drive_name(drive), common.max_speed);
+    const scene::DriveEngine::Point rated = scene::rated_point(*engine);
+    if (engine->kind == scene::DriveEngine::Kind::kSpeedSource)
+      std::printf("  engine: speed source, %.3g N m, %.0f rpm at most; gears", engine->max_torque,
+                  engine->max_speed * 30 / kPi);
+    else
+      std::printf("  engine: torque curve, %.1f kW at %.0f rpm; gears", rated.torque * rated.speed / 1000,
+                  rated.speed * 30 / kPi);
+    for (const double gear : engine->gears) std::printf(" %g", gear);
+    std::printf(", final %g\n", engine->final_ratio);
+  }
+  if (common.engine_power > 0) std::printf("  drive and pump share an engine of %.0f kW\n", common.engine_power / 1000);
+}
+
 /// What it weighs, what moves, what it takes up and what drives it.
 int one_machine(const std::string& name) {
   const std::map<std::string, std::string> files = all_machines();
@@ -146,11 +167,7 @@ int one_machine(const std::string& name) {
   if (machine.levers.given)
     std::printf("  levers: %s, dead band %.0f %%\n",
                 machine.levers.pattern == scene::Levers::Pattern::kIso ? "ISO" : "SAE", 100 * machine.levers.dead_band);
-  if (machine.has_drive) {
-    const scene::Powertrain& common = scene::powertrain(machine.drive);
-    std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(machine.drive),
-                common.max_speed, common.tractive_force / 1000, common.power / 1000);
-  }
+  if (machine.has_drive) tell_drive(machine.drive);
   return kOk;
 }
 

@@ -3,7 +3,9 @@
 // vehicle/drive/, how it is written in a file in scene_io/machine_reader.cpp.
 #pragma once
 
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "core/math.h"
 
@@ -15,7 +17,28 @@ struct Powertrain {
   double tractive_force = 100e3;  ///< all driven wheels together [N]
   double power = 90e3;            ///< at the wheels [W]
   double brake_force = 150e3;     ///< all wheels together, each braked [N]
+  double engine_power = 0;        ///< of an engine that also drives the pump, for both together [W]; 0: the drive's own
 };
+
+/// An engine that turns a drive line through gears, in place of the governed motor: either one with a torque curve, or
+/// a source of speed, which keeps to its speed up to its largest torque.
+struct DriveEngine {
+  enum class Kind { kTorqueCurve, kSpeedSource };
+  struct Point {
+    double speed = 0;   ///< [rad/s]
+    double torque = 0;  ///< at full throttle [N m]
+  };
+  Kind kind = Kind::kTorqueCurve;
+  std::vector<Point> curve;   ///< from idle to the governed speed, linear between
+  double braking_torque = 0;  ///< with a torque curve: that takes to turn it without fuel [N m]
+  double max_speed = 0;       ///< of a source of speed [rad/s]
+  double max_torque = 0;      ///< likewise [N m]
+  std::vector<double> gears;  ///< falling: turns of the engine for one of the shaft behind the gears
+  double final_ratio = 1;     ///< of that shaft for one of the differential's cage
+  double efficiency = 0.9;    ///< of all gears together [-]
+};
+/// Where the curve's torque x speed is largest.
+DriveEngine::Point rated_point(const DriveEngine& engine);
 
 /// What lets two shafts of a drive line turn at different speeds. The slower one gets more torque than the faster one
 /// by the locking torque: none of an open one, whatever it takes of a locked one, and of one with limited slip at most
@@ -36,12 +59,13 @@ struct AckermannDrive : Powertrain {
   static constexpr const char* kSteerUnit = "rad";
   static constexpr const char* kSteerMeaning = "bicycle angle, positive to the left";
 
-  double max_steer = radians(35);   ///< of the inner wheel [rad]
-  double wheelbase = 2.8;           ///< [m]
-  double track = 1.94;              ///< between king pins [m]
-  double steer_rate = radians(30);  ///< of a steered wheel [rad/s]
-  Differential axles;               ///< between the wheels of each driven axle
-  Differential centre;              ///< between the foremost driven axle and the others
+  double max_steer = radians(35);     ///< of the inner wheel [rad]
+  double wheelbase = 2.8;             ///< [m]
+  double track = 1.94;                ///< between king pins [m]
+  double steer_rate = radians(30);    ///< of a steered wheel [rad/s]
+  Differential axles;                 ///< between the wheels of each driven axle
+  Differential centre;                ///< between the foremost driven axle and the others
+  std::optional<DriveEngine> engine;  ///< without: the governed motor of Powertrain
 };
 
 /// Left and right wheels driven each side by itself: most mobile robots, skid-steered loaders. It steers by a yaw rate
@@ -80,6 +104,13 @@ using Drive = std::variant<AckermannDrive, DifferentialDrive, LinkageDrive>;
 /// What all kinds share.
 inline const Powertrain& powertrain(const Drive& drive) {
   return std::visit([](const Powertrain& common) -> const Powertrain& { return common; }, drive);
+}
+
+/// Its engine, null where the drive has a governed motor.
+inline const DriveEngine* drive_engine(const Drive& drive) {
+  const auto* steered = std::get_if<AckermannDrive>(&drive);
+  if (steered == nullptr) steered = std::get_if<LinkageDrive>(&drive);
+  return steered != nullptr && steered->engine ? &*steered->engine : nullptr;
 }
 
 /// Name of the kind in a file.

@@ -244,6 +244,22 @@ void put(const Writer& w, const Wheel& wheel) {
   w("rolling_resistance", rolling_resistance);
 }
 
+void put(const Writer& w, const DriveEngine& engine) {
+  const auto& [kind, curve, braking_torque, max_speed, max_torque, gears, final_ratio, efficiency] = engine;
+  w("kind", static_cast<int>(kind));
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const auto& [speed, torque] = curve[i];
+    w.at("point", i)("speed", speed);
+    w.at("point", i)("torque", torque);
+  }
+  w("braking_torque", braking_torque);
+  w("max_speed", max_speed);
+  w("max_torque", max_torque);
+  for (std::size_t i = 0; i < gears.size(); ++i) w.at("gear", i)("ratio", gears[i]);
+  w("final_ratio", final_ratio);
+  w("efficiency", efficiency);
+}
+
 // The kinds of drive and the shells have bases, which no binding takes apart: what is added there is added here.
 void put(const Writer& w, const AckermannDrive& drive) {
   w("max_steer", drive.max_steer);
@@ -259,6 +275,7 @@ void put(const Writer& w, const AckermannDrive& drive) {
     part("preload", preload);
     part("bias", bias);
   }
+  if (drive.engine) put(w.at("engine"), *drive.engine);
 }
 void put(const Writer& w, const DifferentialDrive& drive) { w("track", drive.track); }
 void put(const Writer& w, const LinkageDrive& drive) {
@@ -271,11 +288,13 @@ void put(const Writer& w, const LinkageDrive& drive) {
 
 void put(const Writer& w, const Drive& drive) {
   w("type", drive_name(drive));
-  const auto& [max_speed, tractive_force, power, brake_force] = powertrain(drive);
+  const auto& [max_speed, tractive_force, power, brake_force, engine_power] = powertrain(drive);
   w("max_speed", max_speed);
   w("tractive_force", tractive_force);
   w("power", power);
   w("brake_force", brake_force);
+  // A drive that shares no engine hashes as before there were any.
+  if (engine_power > 0) w("engine_power", engine_power);
   std::visit([&w](const auto& kind) { put(w, kind); }, drive);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "scene_io/engine_reader.h"
 #include "scene_io/fields.h"
 
 namespace navvy::scene_io {
@@ -15,7 +16,8 @@ Fields& read_powertrain(Fields& fields, scene::Powertrain& powertrain) {
       .number("max_speed_m_per_s", powertrain.max_speed, {0.01, 50})
       .number("tractive_force_n", powertrain.tractive_force, {0.1, 1e7})
       .number("power_w", powertrain.power, {0.1, 1e7})
-      .number("brake_force_n", powertrain.brake_force, {0, 1e7});
+      .number("brake_force_n", powertrain.brake_force, {0, 1e7})
+      .number("engine_power_w", powertrain.engine_power, {0.1, 1e7});
 }
 
 void read_differential(Element& element, scene::Differential& out, Faults& faults) {
@@ -37,13 +39,19 @@ void read_differential(Element& element, scene::Differential& out, Faults& fault
 }
 
 Fields& read_steering(Fields& fields, scene::AckermannDrive& drive, Faults& faults) {
-  return read_powertrain(fields, drive)
+  read_powertrain(fields, drive)
       .number("max_steer_deg", drive.max_steer, {0, 80}, kDegree)
       .number("wheelbase_m", drive.wheelbase, {0.01, 50})
       .number("track_m", drive.track, {0.01, 50})
       .number("steer_rate_deg_per_s", drive.steer_rate, {0.1, 1000}, kDegree)
       .nested("axle_differential", [&](Element& e) { read_differential(e, drive.axles, faults); })
-      .nested("centre_differential", [&](Element& e) { read_differential(e, drive.centre, faults); });
+      .nested("centre_differential", [&](Element& e) { read_differential(e, drive.centre, faults); })
+      .nested("engine", [&](Element& e) { read_engine(e, drive, faults); });
+  for (const char* name : {"tractive_force_n", "power_w", "engine_power_w"})
+    if (fields.has("engine") && fields.has(name))
+      faults.error(*fields.child(name), text_of(*fields.child(name)), "is what the drive's engine and gears say",
+                   "remove it, or <engine>");
+  return fields;
 }
 
 void read_kind(Element& element, scene::AckermannDrive& drive, Faults& faults) {
@@ -101,6 +109,19 @@ void check_kind(const Element& element, const scene::LinkageDrive&, const scene:
                  "give <steer_joint> to the two wheels between which the tie rod lies");
 }
 
+/// One engine for drive and pump needs both, and must at least drive the pump.
+void check_shared_power(const Element& element, const scene::Machine& machine, Faults& faults) {
+  const double power = scene::powertrain(machine.drive).engine_power;
+  if (power <= 0) return;
+  if (!machine.has_pump)
+    faults.error(element, std::to_string(power) + " W", "the machine has no pump to share its engine's power with",
+                 "add <navvy:pump>, or take engine_power_w or shared_with_pump out");
+  else if (machine.pump.power > power)
+    faults.error(element, std::to_string(power) + " W",
+                 "the pump alone takes up to " + std::to_string(machine.pump.power) + " W of its engine",
+                 "give the pump no more power_w than the engine has");
+}
+
 }  // namespace
 
 scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
@@ -141,6 +162,7 @@ scene::Drive read_drive(Element& element, Faults& faults) {
 
 void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults) {
   std::visit([&](const auto& kind) { check_kind(element, kind, machine, faults); }, machine.drive);
+  check_shared_power(element, machine, faults);
 }
 
 }  // namespace navvy::scene_io

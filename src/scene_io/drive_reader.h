@@ -13,7 +13,8 @@ scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults);
 /// The drive of the kind that `type` names, Ackermann without one.
 scene::Drive read_drive(Element& element, Faults& faults);
 
-/// What the kind of the machine's drive asks of its wheels; the wheels' joints and links are known.
+/// What the kind of the machine's drive asks of its wheels, and a shared engine of its pump; joints, links and pump are
+/// known.
 void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults);
 
 }  // namespace navvy::scene_io

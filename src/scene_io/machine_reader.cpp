@@ -160,7 +160,11 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   if (Element* engine = model.FirstChildElement("navvy:engine")) {
     const std::string value = text_of(*engine);
     kinematic = value == "kinematic";
-    if (!kinematic && value != "dynamic") faults.error(*engine, value, "must be dynamic or kinematic");
+    if (engine->FirstChildElement() != nullptr)
+      faults.error(*engine, engine->FirstChildElement()->Name(), "says what moves the machine, dynamic or kinematic",
+                   "the engine of a drive is <engine> inside <navvy:drive>");
+    else if (!kinematic && value != "dynamic")
+      faults.error(*engine, value, "must be dynamic or kinematic");
   }
   if (model.Attribute("placement_frame"))
     faults.error(model, attribute(model, "placement_frame"), "placement_frame is not supported", "remove it");

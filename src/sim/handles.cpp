@@ -159,6 +159,9 @@ ToolHandle MachineHandle::tool(int index) const {
 vehicle::PumpState MachineHandle::pump() const {
   return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
 }
+vehicle::EngineState MachineHandle::engine() const {
+  return parts_->coupling.engine(machine_).drive_engine(parts_->coupling.index(machine_));
+}
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
 }

@@ -141,7 +141,9 @@ class MachineHandle {
 
   /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
-  /// The command that the drive follows now: speed [m/s], steer [rad], brake.
+  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a drive without one.
+  vehicle::EngineState engine() const;
+  /// The command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;
   /// Where a kinematic machine's base is on its way to; of others where it is.
   vehicle::BaseInput base() const;

@@ -157,6 +157,12 @@ void World::require_valid(const MachineHandle& machine, const vehicle::DriveInpu
   require_machine(machine.index(), machine_count());
   require_finite("speed of the drive", input.speed);
   require_finite("steering of the drive", input.steer);
+  const scene::DriveEngine* engine = scene::drive_engine(machine.description().drive);
+  const int gears = engine == nullptr ? 0 : static_cast<int>(engine->gears.size());
+  if (input.gear < 0 || input.gear > gears)
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "gear of " + machine.name(), std::to_string(input.gear),
+                           gears == 0 ? "its drive has no gears" : "its gears are 1 to " + std::to_string(gears),
+                           "give one of them, or 0: it chooses"});
 }
 
 /// Angles may count on beyond a turn; a place must be one that a site can have.

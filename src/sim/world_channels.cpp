@@ -7,11 +7,15 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
+#include <vector>
 
+#include "core/error.h"
 #include "core/log.h"
 #include "sim/world.h"
 #include "sim/world_parts.h"
+#include "vehicle/drive/drive_line.h"
 #include "vehicle/drive/linkage.h"
 #include "vehicle/levers.h"
 
@@ -117,6 +121,13 @@ void add_base(World& world, const MachineHandle& machine, const std::string& pre
          [](vehicle::BaseInput& command) -> double& { return command.duration; });
 }
 
+/// @throws InputError for a number that is none of a gear.
+int whole_gear(const std::string& name, double value) {
+  if (value == std::floor(value) && std::abs(value) < 1000) return static_cast<int>(value);
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "input " + name, std::to_string(value),
+                         "a gear is a whole number", "give 1 for the first, 0: it chooses"});
+}
+
 /// `about` tells what steering means for this kind of drive.
 void add_drive(World& world, const MachineHandle& machine, const scene::Drive& about, const std::string& prefix,
                Inputs& inputs) {
@@ -137,6 +148,28 @@ void add_drive(World& world, const MachineHandle& machine, const scene::Drive& a
              [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
   inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases", machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
+  const scene::DriveEngine* engine = scene::drive_engine(about);
+  if (engine == nullptr) return;
+  const bool source = engine->kind == scene::DriveEngine::Kind::kSpeedSource;
+  const std::string gears = "1 to " + std::to_string(engine->gears.size());
+  inputs.add({prefix + "drive/gear", "1", gears + (source ? ", 0: the first" : ", 0: it chooses"), machine.index()},
+             [change, name = prefix + "drive/gear"](double v) {
+               change([&](vehicle::DriveInput& command) { command.gear = whole_gear(name, v); });
+             });
+  if (!source) return;
+  // Of the unloaded wheels: a tyre's deflection is no controller's knowledge.
+  double radius = 0;
+  int driven = 0;
+  for (const scene::Wheel& wheel : machine.description().wheels)
+    if (wheel.driven) radius += wheel.radius, ++driven;
+  radius /= std::max(driven, 1);
+  inputs.add({prefix + "drive/motor_speed", "rad/s", "of the motor; releases the brake", machine.index()},
+             [change, radius, ratios = engine->gears, last = engine->final_ratio](double v) {
+               change([&](vehicle::DriveInput& command) {
+                 command.speed = v * radius / (last * ratios[static_cast<std::size_t>(std::max(command.gear, 1) - 1)]);
+                 command.brake = false;
+               });
+             });
 }
 
 /// What a real robot's board gives, and the ways in which it may be told to fail. A fault is nobody's command, so it
@@ -219,6 +252,43 @@ void add_linkage(const MachineHandle& machine, const scene::LinkageDrive& drive,
               });
 }
 
+/// Torques and speeds of the engine's shaft, of the cage of each differential and of the half shafts, whose speeds are
+/// the wheels' spins.
+void add_shafts(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
+  const scene::Machine& built = machine.description();
+  const bool shared = scene::powertrain(built.drive).engine_power > 0;
+  if (scene::drive_engine(built.drive) != nullptr) {
+    outputs.add({prefix + "engine/speed", "rad/s", "of the engine's shaft"},
+                [machine] { return machine.engine().speed; });
+    outputs.add({prefix + "engine/torque", "N m", "of the engine's shaft in the last step"},
+                [machine] { return machine.engine().torque; });
+    outputs.add({prefix + "engine/gear", "1", "that is in"},
+                [machine] { return static_cast<double>(machine.engine().gear); });
+  }
+  if (shared || scene::drive_engine(built.drive) != nullptr)
+    outputs.add({prefix + "engine/power", "W", shared ? "for drive and pump together" : "for the drive"},
+                [machine] { return machine.engine().power; });
+  for (const vehicle::Coupled& one : vehicle::make_drive_line(built)->differentials()) {
+    std::vector<std::pair<WheelHandle, double>> behind;
+    for (std::size_t w = 0; w < one.weight.size(); ++w)
+      if (one.weight[w] != 0) behind.emplace_back(machine.wheel(static_cast<int>(w)), 0.5 * std::abs(one.weight[w]));
+    outputs.add({prefix + one.name + "/speed", "rad/s", "of the differential's cage"}, [behind] {
+      double speed = 0;
+      for (const auto& [wheel, weight] : behind) speed += weight * wheel.state().spin;
+      return speed;
+    });
+    outputs.add({prefix + one.name + "/torque", "N m", "of the differential's cage in the last step"}, [behind] {
+      double torque = 0;
+      for (const auto& [wheel, weight] : behind) torque += wheel.state().shaft_torque;
+      return torque;
+    });
+  }
+  for (std::size_t w = 0; w < built.wheels.size(); ++w)
+    if (built.wheels[w].driven)
+      outputs.add({prefix + built.wheels[w].joint + "/shaft_torque", "N m", "of its half shaft in the last step"},
+                  [wheel = machine.wheel(static_cast<int>(w))] { return wheel.state().shaft_torque; });
+}
+
 /// Only of machines that can tip: of others the numbers would say nothing.
 void add_stability(const MachineHandle& machine, const std::string& prefix, Outputs& outputs) {
   if (!machine.stability().free) return;
@@ -289,6 +359,9 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
     add_encoders(world, machine, prefix, inputs, outputs);
     if (const auto* linkage = std::get_if<scene::LinkageDrive>(&built.drive); linkage && built.has_drive)
       add_linkage(machine, *linkage, prefix, outputs);
+    // The motors of a differential drive are the wheels' own: the joints' efforts tell of them.
+    if (built.has_drive && !built.kinematic && !std::holds_alternative<scene::DifferentialDrive>(built.drive))
+      add_shafts(machine, prefix, outputs);
   }
   // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
   for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);

@@ -68,6 +68,11 @@ class Engine {
     (void)machine;
     return {};
   }
+  /// Zeros for a drive that neither has gears nor shares an engine with the pump, and from engines without forces.
+  virtual EngineState drive_engine(int machine) const {
+    (void)machine;
+    return {};
+  }
   /// Inverse articulated mass at the link's origin, order (angular, linear), axes of W.
   virtual Mat6 inverse_mass(int machine, int link) const = 0;
   /// Total momentum of a machine [N s], and mechanical work done by its joints and drive since the start [J].

@@ -15,6 +15,13 @@ void BaseInput::visit(Archive& a) {
   a("duration", duration);
 }
 
+void EngineState::visit(Archive& a) {
+  a("speed", speed);
+  a("torque", torque);
+  a("power", power);
+  a("gear", gear);
+}
+
 void DriveInput::visit(Archive& a) {
   a("speed", speed);
   a("steer", steer);

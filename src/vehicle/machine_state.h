@@ -46,6 +46,16 @@ struct PumpState {
   double pressure = 0;  ///< of the heaviest load it moves, smoothed [Pa]
 };
 
+/// What drives a machine, after the last step.
+struct EngineState {
+  double speed = 0;   ///< of its shaft, gears or not [rad/s]; 0 of a drive without an engine of its own
+  double torque = 0;  ///< at its shaft, for drive and pump together [N m]
+  double power = 0;   ///< for both [W]
+  int gear = 0;       ///< that is in, from 1 on
+
+  void visit(Archive& a);
+};
+
 /// Pose and velocity of a link's own frame (scene::Link), axes of W.
 struct LinkState {
   Pose X_WL = Pose::Identity();
@@ -71,6 +81,7 @@ struct WheelState {
   double steer = 0;                  ///< [rad]
   Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step, ground and bodies together [N]
   Vec3 body_W = Vec3::Zero();        ///< what bodies gave of it: it presses no rut [N]
+  double shaft_torque = 0;           ///< of the drive's half shaft in the last step, differentials included [N m]
   double slip = 0;                   ///< longitudinal [-]
   double sinkage = 0;                ///< [m]
 };

@@ -13,6 +13,7 @@
 #include "core/log.h"
 #include "folder.h"
 #include "paths.h"
+#include "scene/parameters.h"
 
 namespace navvy::scene_io {
 namespace {
@@ -226,6 +227,53 @@ TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
   EXPECT_EQ(std::get<scene::DifferentialDrive>(robot.drive).track, 0.4);
   EXPECT_EQ(scene::powertrain(robot.drive).max_speed, 1.2);
   EXPECT_STREQ(scene::steer_unit(robot.drive), "rad/s");
+}
+
+TEST(Loader, ADriveMayHaveAnEngineWithGears) {
+  const scene::Machine car = robot_with(R"(<navvy:drive><engine><kind>torque_curve</kind>
+<point><speed_rpm>600</speed_rpm><torque_nm>300</torque_nm></point>
+<point><speed_rpm>1800</speed_rpm><torque_nm>350</torque_nm></point>
+<braking_torque_nm>40</braking_torque_nm><gear_ratios>4 2 1</gear_ratios><final_ratio>12</final_ratio>
+<efficiency>0.8</efficiency></engine></navvy:drive>)");
+  const scene::DriveEngine* engine = scene::drive_engine(car.drive);
+  ASSERT_NE(engine, nullptr);
+  ASSERT_EQ(engine->curve.size(), 2u);
+  EXPECT_NEAR(engine->curve[1].speed, 60 * kPi, 1e-12);
+  EXPECT_EQ(engine->curve[1].torque, 350);
+  EXPECT_EQ(engine->gears, (std::vector<double>{4, 2, 1}));
+  EXPECT_EQ(engine->final_ratio, 12);
+  EXPECT_EQ(engine->efficiency, 0.8);
+  EXPECT_EQ(scene::powertrain(car.drive).engine_power, 0) << "it shares nothing";
+  const scene::Machine robot = robot_with(R"(<navvy:drive><engine><kind>speed_source</kind>
+<max_speed_rpm>3000</max_speed_rpm><max_torque_nm>2</max_torque_nm><gear_ratios>20</gear_ratios></engine></navvy:drive>)");
+  EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::DriveEngine::Kind::kSpeedSource);
+  EXPECT_NEAR(scene::drive_engine(robot.drive)->max_speed, 100 * kPi, 1e-12);
+  EXPECT_EQ(scene::drive_engine(robot_with("<navvy:drive/>").drive), nullptr);
+}
+
+TEST(Loader, AnEngineIsAParameterAndNoEngineIsNone) {
+  const auto of = [](const scene::Drive& drive) {
+    scene::Scene world;
+    world.machines.resize(1);
+    world.machines[0].machine.has_drive = true;
+    world.machines[0].machine.drive = drive;
+    return scene::parameters(world);
+  };
+  scene::AckermannDrive plain, geared;
+  geared.engine.emplace();
+  geared.engine->curve = {{100, 200}, {200, 300}};
+  geared.engine->gears = {2, 1};
+  for (const auto& [path, value] : of(plain)) EXPECT_EQ(path.find("engine"), std::string::npos) << path;
+  scene::AckermannDrive other = geared;
+  EXPECT_EQ(of(other), of(geared));
+  other.engine->gears[1] = 1.1;
+  EXPECT_NE(of(other), of(geared));
+  other = geared;
+  other.engine->curve[1].torque = 301;
+  EXPECT_NE(of(other), of(geared));
+  other = geared;
+  other.engine_power = 1e5;
+  EXPECT_NE(of(other), of(geared));
 }
 
 /// A shell with this geometry on a link of its own.

@@ -127,6 +127,24 @@ TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   EXPECT_EQ(whole.get("robot/pose/x"), other.get("robot/pose/x"));
 }
 
+TEST_F(ControllerChannels, OfAPowerTrainTellItsShaftsAndTakeItsGears) {
+  World world(testing::load("paper/power_train.sdf"), device_);
+  world.set("truck/drive/speed", 2);
+  world.set("truck/drive/gear", 1);
+  while (world.time() < 2.5) world.step();
+  const auto get = [&](const char* name) { return world.get(std::string("truck/") + name); };
+  EXPECT_EQ(get("engine/gear"), 1);
+  EXPECT_GT(get("engine/speed"), 1000 * kPi / 30);
+  EXPECT_NEAR(get("engine/speed"), 3.4 * 11.5 * get("axle_1/speed"), 0.02 * get("engine/speed"));
+  EXPECT_NEAR(get("engine/power"), get("engine/speed") * get("engine/torque"), 1e-6 * get("engine/power"));
+  EXPECT_NEAR(get("axle_1/speed"), 0.5 * (get("spin_rear_left/spin") + get("spin_rear_right/spin")), 1e-12);
+  EXPECT_NEAR(get("axle_1/torque"), get("spin_rear_left/shaft_torque") + get("spin_rear_right/shaft_torque"), 1e-9);
+  for (const double gear : {-1.0, 1.5, 4.0, 1e9}) EXPECT_THROW(world.set("truck/drive/gear", gear), InputError) << gear;
+  World other(testing::load("trench.sdf"), device_);
+  EXPECT_THROW(other.get("excavator/engine/speed"), InputError);
+  EXPECT_THROW(other.command(other.machine("excavator"), vehicle::DriveInput{1, 0, false, 1}), InputError);
+}
+
 TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
   for (const bool sae : {false, true}) {
     SCOPED_TRACE(sae ? "SAE" : "ISO");

@@ -12,7 +12,7 @@ DifferentialRow::DifferentialRow(btMultiBody* body, const std::vector<std::pair<
 void DifferentialRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                                            const btContactSolverInfo& info) {
   internalSetAppliedImpulse(0, 0);
-  if (limit_ > 0) add_row(0, 0, -limit_, limit_, rows, data, info);
+  if (limit_ > 0) add_row(0, speed_, -limit_, limit_, rows, data, info);
 }
 
 }  // namespace navvy::vehicle

@@ -21,7 +21,9 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
       wheels_(wheels),
       line_(make_drive_line(machine)),
       about_(drive_wheels(machine)),
-      turns_(wheels.size()) {
+      turns_(wheels.size()),
+      torque_(wheels.size()),
+      shaft_(wheels.size()) {
   // From here on joints know which of them wheels spin on: those get their torque here, not from a servo.
   joints.set_drive_rate(line_->steer_rate());
   for (const MachineWheel& wheel : wheels.all()) {
@@ -32,14 +34,22 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
   if (machine.has_drive) {
     find_axles();
     coupled_ = line_->coupled();
+    const scene::DriveEngine* engine = scene::drive_engine(machine.drive);
+    const auto driven =
+        std::count_if(about_.begin(), about_.end(), [](const DriveWheel& wheel) { return wheel.driven; });
+    if (engine != nullptr && engine->kind == scene::DriveEngine::Kind::kSpeedSource && driven > 0)
+      for (const DriveWheel& wheel : about_) cage_.push_back(wheel.driven ? 1.0 / static_cast<double>(driven) : 0.0);
   }
-  for (const Coupled& coupled : coupled_) {
-    std::vector<std::pair<int, double>> weights;
-    for (std::size_t w = 0; w < wheels.size(); ++w)
-      if (coupled.weight[w] != 0) weights.emplace_back(tree.bullet_of_joint(wheels[w].spin_joint), coupled.weight[w]);
-    rows_.push_back(std::make_unique<DifferentialRow>(&tree.multibody(), weights));
-  }
+  for (const Coupled& coupled : coupled_) add_row(coupled.weight);
+  if (!cage_.empty()) add_row(cage_);
   set(input_);
+}
+
+void MachineDrive::add_row(const std::vector<double>& weight) {
+  std::vector<std::pair<int, double>> weights;
+  for (std::size_t w = 0; w < wheels_.size(); ++w)
+    if (weight[w] != 0) weights.emplace_back(tree_.bullet_of_joint(wheels_[w].spin_joint), weight[w]);
+  rows_.push_back(std::make_unique<DifferentialRow>(&tree_.multibody(), weights));
 }
 
 void MachineDrive::find_axles() {
@@ -79,7 +89,8 @@ void MachineDrive::begin_step(double dt) {
                  about_[w].radius - wheel.force.deflection, wheel.spin_inertia};
   }
   // Present speeds go in, torques come out; the governors' memory moves on by one step.
-  line_->torques(input_, turns_, tree_.total_mass(), dt, torque_);
+  const Pump& pump = joints_.pump();
+  line_->torques(input_, turns_, tree_.total_mass(), dt, torque_, pump.flow() * pump.pressure());
   couple(dt);
   // Every wheel has a brake, driven or not; each holds its part.
   const double brake_force = scene::powertrain(machine_.drive).brake_force;
@@ -101,19 +112,52 @@ void MachineDrive::begin_step(double dt) {
 }
 
 void MachineDrive::couple(double dt) {
-  for (std::size_t d = 0; d < rows_.size(); ++d) {
+  for (std::size_t d = 0; d < coupled_.size(); ++d) {
     const scene::Differential& about = coupled_[d].about;
     double through = 0;
     bool whole = !input_.brake;  // wheels are held each by its brake
     for (std::size_t w = 0; w < wheels_.size(); ++w) {
       if (coupled_[d].weight[w] == 0) continue;
-      through += std::abs(torque_[w]);
+      // What a source of speed gives is known after the step alone.
+      through += std::abs(cage_.empty() ? torque_[w] : shaft_[w]);
       whole = whole && turns_[w].on_line;
     }
     // One side gets what the other loses, so they differ by twice the row's torque.
     const double torque =
         about.kind == scene::Differential::Kind::kLocked ? kHeld : 0.5 * (about.preload + about.bias * through);
     rows_[d]->limit(whole ? torque * dt : 0);
+  }
+  if (cage_.empty()) return;
+  // A wheel that an input has taken leaves the others without a differential between them.
+  bool whole = line_->held().has_value();
+  double loaded = 0, unloaded = 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    whole = whole && (cage_[w] == 0 || turns_[w].on_line);
+    loaded += cage_[w] * turns_[w].radius;
+    unloaded += cage_[w] * about_[w].radius;
+  }
+  // The motor turns as it is told whatever the tyres give way: a speed counts at the unloaded rims.
+  if (whole)
+    rows_.back()->limit(line_->held()->torque * dt, line_->held()->speed * loaded / unloaded);
+  else
+    rows_.back()->limit(0);
+}
+
+void MachineDrive::end_step(double dt) {
+  if (!machine_.has_drive) return;
+  shaft_ = torque_;
+  for (std::size_t d = 0; d < coupled_.size(); ++d)
+    for (std::size_t w = 0; w < shaft_.size(); ++w) shaft_[w] += coupled_[d].weight[w] * rows_[d]->impulse() / dt;
+  if (cage_.empty()) return;
+  const double torque = rows_.back()->impulse() / dt;
+  double speed = 0;
+  for (std::size_t w = 0; w < cage_.size(); ++w) speed += cage_[w] * tree_.velocity(wheels_[w].spin_joint);
+  line_->settle(speed, torque);
+  for (std::size_t w = 0; w < shaft_.size(); ++w) {
+    if (cage_[w] == 0 || !turns_[w].on_line) continue;
+    shaft_[w] += cage_[w] * torque;
+    // As if it had been known before: the joint's effort and work are counted from it.
+    joints_[wheels_[w].spin_joint].demand.feed_forward += cage_[w] * torque;
   }
 }
 
@@ -147,6 +191,20 @@ void MachineDrive::brake(MachineWheel& wheel, double torque, double dt) {
 void MachineDrive::visit(Archive& a) {
   a("line", *line_);
   a("input", input_);
+  if (const scene::DriveEngine* engine = scene::drive_engine(machine_.drive))
+    a.ranged("gear", input_.gear, 0, static_cast<int>(engine->gears.size()));
+  // With a source of speed limited slip goes by it; otherwise it is only told, and without rows it is the joints'
+  // effort.
+  if (!cage_.empty()) {
+    a.fixed("shaft", shaft_);
+  } else if (!rows_.empty()) {
+    a.unhashed("told only", [&] { a.fixed("shaft", shaft_); });
+  } else if (a.loading()) {
+    for (std::size_t w = 0; w < shaft_.size(); ++w)
+      shaft_[w] = about_[w].driven && joints_[wheels_[w].spin_joint].driven && !wheels_[w].braked
+                      ? joints_[wheels_[w].spin_joint].effort
+                      : 0;
+  }
 }
 
 }  // namespace navvy::vehicle

@@ -31,8 +31,14 @@ class MachineDrive {
 
   /// Before the joints' part of a step: commands of steering and axles, torque or brake of the wheels.
   void begin_step(double dt);
+  /// After the solver and before the joints' part: what went through the shafts.
+  void end_step(double dt);
 
-  /// The command, and the memory of the drive line's governors.
+  /// Torque of the half shaft to a wheel in the last step [N m].
+  double shaft_torque(int wheel) const { return shaft_.at(static_cast<std::size_t>(wheel)); }
+  const EngineState& engine() const { return line_->engine(); }
+
+  /// The command, and the memory of the drive line. Visit joints and wheels before.
   void visit(Archive& a);
 
  private:
@@ -41,7 +47,9 @@ class MachineDrive {
   /// Commands of steering joints and axles for this step.
   void steer();
   void lock_axles();
-  /// Bounds of the differentials that are not open, by the torques of this step.
+  /// Adds a row over these wheels by their weights.
+  void add_row(const std::vector<double>& weight);
+  /// Bounds of the differentials that are not open, by the torques of this step; the speed of a cage that is held.
   void couple(double dt);
   /// Holds a wheel where it stopped with `torque` [N m] at most.
   void brake(MachineWheel& wheel, double torque, double dt);
@@ -55,8 +63,10 @@ class MachineDrive {
   std::vector<int> axles_;           // joints between chassis and wheel carriers: oscillation, casters
   std::vector<WheelTurn> turns_;     // of the present step, by wheel
   std::vector<double> torque_;       // likewise [N m]
+  std::vector<double> shaft_;        // of the last step, by wheel [N m]
   std::vector<Coupled> coupled_;     // differentials that are not open
-  std::vector<std::unique_ptr<DifferentialRow>> rows_;  // one each
+  std::vector<double> cage_;         // by wheel: weight of it in the cage that a source of speed turns; empty: none
+  std::vector<std::unique_ptr<DifferentialRow>> rows_;  // one each, the cage's last
   DriveInput input_;
 };
 

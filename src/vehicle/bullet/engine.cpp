@@ -151,6 +151,7 @@ class BulletEngine final : public Engine {
   WheelState wheel(int machine, int wheel) const override { return at(machine).wheel(wheel); }
   Vec3 rock_impulse(int machine, int shell) const override { return at(machine).rock_impulse(shell); }
   PumpState pump(int machine) const override { return at(machine).pump(); }
+  EngineState drive_engine(int machine) const override { return at(machine).engine(); }
   Mat6 inverse_mass(int machine, int link) const override { return at(machine).tree().inverse_mass(link); }
   Vec3 momentum(int machine) const override { return at(machine).tree().momentum(); }
   double work(int machine) const override { return at(machine).work(); }

@@ -178,6 +178,7 @@ void BulletMachine::end_step(const GroundQuery& ground, const Vec3& contact, dou
   // Rows are read before positions change: their impulses belong to the poses of the step's start.
   tree_.step_positions(dt);
   place_colliders();
+  drive_.end_step(dt);
   joints_.end_step(dt);
   if (!rest_) return;
   if (!rest_->tire(tree_.link(0).X_WL, dt)) return;
@@ -186,6 +187,12 @@ void BulletMachine::end_step(const GroundQuery& ground, const Vec3& contact, dou
   btVector3 low, high;
   box(low, high);
   rest_->lie_down(ground, low, high);
+}
+
+WheelState BulletMachine::wheel(int wheel) const {
+  WheelState state = wheels_.state(wheel);
+  state.shaft_torque = drive_.shaft_torque(wheel);
+  return state;
 }
 
 void BulletMachine::Push::visit(Archive& a) {

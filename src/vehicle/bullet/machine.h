@@ -72,11 +72,12 @@ class BulletMachine {
 
   /// As they are between two steps; indices of scene::Machine.
   JointState joint(int joint) const { return joints_.state(joint); }
-  WheelState wheel(int wheel) const { return wheels_.state(wheel); }
+  WheelState wheel(int wheel) const;
   /// Of the rock on a shell in the last step [N s].
   const Vec3& rock_impulse(int shell) const { return rock_.at(static_cast<std::size_t>(shell))->impulse(); }
   /// Zeros without a pump.
   PumpState pump() const { return {joints_.pump().flow(), joints_.pump().pressure()}; }
+  const EngineState& engine() const { return drive_.engine(); }
   double work() const { return joints_.work(); }                      ///< [J]
   const Vec3& ground_impulse() const { return ground_impulse_; }      ///< of the last step [N s]
   const Vec3& external_impulse() const { return external_impulse_; }  ///< since the start [N s]

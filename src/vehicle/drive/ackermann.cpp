@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvy::vehicle {
 namespace {
@@ -35,7 +36,7 @@ double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool le
 }
 
 AckermannLine::AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels)
-    : DriveLine(drive, {all_driven(wheels)}), drive_(drive), wheels_(wheels) {}
+    : DriveLine(drive, {all_driven(wheels)}, drive.engine), drive_(drive), wheels_(wheels) {}
 
 Roll AckermannLine::roll(const DriveInput& input) const {
   const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
@@ -72,7 +73,7 @@ std::optional<double> AckermannLine::steer_angle(const DriveInput& input, const 
   return wheel.left ? steer.left : steer.right;
 }
 
-std::vector<Coupled> AckermannLine::coupled() const {
+std::vector<Coupled> AckermannLine::differentials() const {
   // Driven axles from front to rear; twin wheels of a side count as one shaft.
   std::vector<double> axles;
   for (const DriveWheel& wheel : wheels_) {
@@ -81,28 +82,27 @@ std::vector<Coupled> AckermannLine::coupled() const {
   }
   std::sort(axles.rbegin(), axles.rend());
   std::vector<Coupled> out;
-  const auto add = [&](const scene::Differential& about, const auto& one, const auto& other) {
-    if (about.kind == scene::Differential::Kind::kOpen) return;
+  const auto add = [&](std::string name, const scene::Differential& about, const auto& one, const auto& other) {
     const auto ones = std::count_if(wheels_.begin(), wheels_.end(), one);
     const auto others = std::count_if(wheels_.begin(), wheels_.end(), other);
     if (ones == 0 || others == 0) return;
-    Coupled& coupled = out.emplace_back(Coupled{about, {}});
+    Coupled& coupled = out.emplace_back(Coupled{std::move(name), about, {}});
     for (const DriveWheel& wheel : wheels_)
       coupled.weight.push_back(one(wheel)     ? 1.0 / static_cast<double>(ones)
                                : other(wheel) ? -1.0 / static_cast<double>(others)
                                               : 0.0);
   };
-  for (const double x : axles) {
-    const auto on = [x](const DriveWheel& w, bool left) {
+  for (std::size_t a = 0; a < axles.size(); ++a) {
+    const auto on = [x = axles[a]](const DriveWheel& w, bool left) {
       return w.driven && w.left == left && std::abs(w.x - x) < kSameAxle;
     };
     add(
-        drive_.axles, [&](const DriveWheel& w) { return on(w, true); },
+        "axle_" + std::to_string(a + 1), drive_.axles, [&](const DriveWheel& w) { return on(w, true); },
         [&](const DriveWheel& w) { return on(w, false); });
   }
   if (axles.size() > 1) {
     const auto front = [&](const DriveWheel& w) { return w.driven && std::abs(w.x - axles[0]) < kSameAxle; };
-    add(drive_.centre, front, [&](const DriveWheel& w) { return w.driven && !front(w); });
+    add("centre", drive_.centre, front, [&](const DriveWheel& w) { return w.driven && !front(w); });
   }
   return out;
 }

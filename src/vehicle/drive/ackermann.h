@@ -23,7 +23,7 @@ double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool le
 /// Largest bicycle angle [rad]: the one at which the inner wheel is at `drive.max_steer`.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 
-/// One governor turns all driven wheels together; each gets the same torque.
+/// One governor, or an engine, turns all driven wheels together; each gets the same torque.
 class AckermannLine : public DriveLine {
  public:
   /// @param wheels of the machine; the driven ones are one group.
@@ -33,7 +33,7 @@ class AckermannLine : public DriveLine {
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
   double steer_rate() const override { return drive_.steer_rate; }
-  std::vector<Coupled> coupled() const override;
+  std::vector<Coupled> differentials() const override;
 
  private:
   /// The speed asked for: the governor itself knows the largest.

@@ -14,7 +14,9 @@ struct DriveInput {
   double speed = 0;   ///< forward [m/s]
   double steer = 0;   ///< [rad] or [rad/s], as said
   bool brake = true;  ///< hold the place; speed and steer of wheels that turn to steer aside, nothing else acts
+  int gear = 0;       ///< of an engine with gears, from 1 on; 0: it chooses
 
+  /// All but the gear, which only the state of a drive with gears holds.
   void visit(Archive& a);
 };
 

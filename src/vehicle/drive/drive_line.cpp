@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/drive/drive_line.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "vehicle/drive/ackermann.h"
 #include "vehicle/drive/differential.h"
 #include "vehicle/drive/linkage.h"
@@ -50,44 +54,100 @@ DriveLine::Group DriveLine::driven_side(const std::vector<DriveWheel>& wheels, b
   return group;
 }
 
+DriveLine::DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
+                     const std::optional<scene::DriveEngine>& engine)
+    : powertrain_(powertrain), groups_(std::move(groups)) {
+  if (engine) engine_.emplace(*engine, powertrain.engine_power > 0);
+}
+
+std::vector<Coupled> DriveLine::coupled() const {
+  std::vector<Coupled> out = differentials();
+  std::erase_if(out, [](const Coupled& one) { return one.about.kind == scene::Differential::Kind::kOpen; });
+  return out;
+}
+
+DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>& turns, double mass) {
+  DrivenWheels wheels;
+  for (std::size_t w = 0; w < turns.size(); ++w) {
+    if (!group.members[w] || !turns[w].on_line) continue;
+    wheels.spin += turns[w].spin;
+    wheels.radius += turns[w].radius;
+    wheels.spin_inertia += turns[w].spin_inertia;
+    ++wheels.count;
+  }
+  if (wheels.count == 0) return wheels;
+  // The cage of an open differential turns with the mean of its wheels.
+  wheels.spin /= wheels.count;
+  wheels.radius /= wheels.count;
+  wheels.mass = group.share * mass;
+  return wheels;
+}
+
+double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt, double pump_power) {
+  // The motor's force and power are shared out, the speed is every group's own.
+  scene::Powertrain part = powertrain_;
+  part.tractive_force *= group.share;
+  part.power *= group.share;
+  if (powertrain_.engine_power <= 0) return group.governor.wheel_torque(part, speed, wheels, dt);
+  const double left = group.share * std::max(0.0, powertrain_.engine_power - pump_power);
+  const double each = group.governor.wheel_torque(part, speed, wheels, dt, left);
+  state_.power += std::max(0.0, each * wheels.count * wheels.spin);
+  return each;
+}
+
+double DriveLine::engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt,
+                                double pump_power) {
+  const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
+  const double goal = std::clamp(input.speed, -most, most);
+  // The reverser stands as is asked, or at speed 0 as it rolls.
+  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin), cage = way * wheels.spin;
+  const double asked = group.governor.ask(goal, wheels, dt);
+  engine_->shift(input.gear, cage, way * asked * wheels.radius, dt);
+  const GearedEngine::Bounds most_torque = engine_->bounds(cage, pump_power);
+  if (engine_->about().kind == scene::DriveEngine::Kind::kSpeedSource) {
+    held_ = HeldCage{group.governor.asked() / wheels.radius, most_torque.high};
+    return 0;
+  }
+  double low = most_torque.low / wheels.radius, high = most_torque.high / wheels.radius;
+  if (way < 0) low = -std::exchange(high, -low);
+  const double torque = group.governor.give(asked, low, high, wheels, dt) * wheels.radius;
+  state_ = engine_->state(cage, way * torque, pump_power);
+  return torque / wheels.count;
+}
+
 void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
-                        std::vector<double>& torque) {
+                        std::vector<double>& torque, double pump_power) {
   // Group by group: one governor each, from the mean of its wheels.
   torque.assign(turns.size(), 0);
+  held_.reset();
+  if (powertrain_.engine_power <= 0) pump_power = 0;
+  state_ = engine_ ? engine_->state(0, 0, pump_power) : EngineState{0, 0, pump_power, 0};
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
-    DrivenWheels wheels;
-    for (std::size_t w = 0; w < turns.size(); ++w) {
-      if (!group.members[w] || !turns[w].on_line) continue;
-      wheels.spin += turns[w].spin;
-      wheels.radius += turns[w].radius;
-      wheels.spin_inertia += turns[w].spin_inertia;
-      ++wheels.count;
-    }
+    const DrivenWheels wheels = on_line(group, turns, mass);
     // All taken over by joint commands: the governor waits as it is.
     if (wheels.count == 0) continue;
-    // The cage of an open differential turns with the mean of its wheels.
-    wheels.spin /= wheels.count;
-    wheels.radius /= wheels.count;
-    wheels.mass = group.share * mass;
     if (input.brake) {
       group.governor.reset(wheels.spin * wheels.radius);
       continue;
     }
-    // The motor's force and power are shared out, the speed is every group's own.
-    scene::Powertrain part = powertrain_;
-    part.tractive_force *= group.share;
-    part.power *= group.share;
-    const double each = group.governor.wheel_torque(part, group_speed(input, g), wheels, dt);
+    const double each = engine_ ? engine_torque(group, input, wheels, dt, pump_power)
+                                : motor_torque(group, group_speed(input, g), wheels, dt, pump_power);
     for (std::size_t w = 0; w < turns.size(); ++w)
       if (group.members[w] && turns[w].on_line) torque[w] = each;
   }
+}
+
+void DriveLine::settle(double cage, double torque) {
+  if (held_) state_ = engine_->state(cage, torque, 0);
 }
 
 void DriveLine::visit(Archive& a) {
   // A snapshot of another kind of drive has another number of them.
   a.constant("governors", groups_.size(), "the drive has another number of governors than the scene's");
   for (std::size_t g = 0; g < groups_.size(); ++g) a.item(g, [&] { a("governor", groups_[g].governor); });
+  if (engine_) a("engine", *engine_);
+  if (engine_ || powertrain_.engine_power > 0) a.unhashed("told only", [&] { a("engine_state", state_); });
 }
 
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine) {

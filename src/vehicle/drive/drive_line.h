@@ -4,11 +4,13 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/archive.h"
 #include "scene/machine.h"
 #include "vehicle/drive/drive_input.h"
+#include "vehicle/drive/geared_engine.h"
 #include "vehicle/drive/governor.h"
 
 namespace navvy::vehicle {
@@ -23,10 +25,18 @@ struct DriveWheel {
 /// One for each of machine.wheels.
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine);
 
-/// A differential of the line that holds its shafts together, locked or with limited slip.
+/// A differential of the line. Its cage turns with half the sum of |weight| x spin, and its torque is the sum of its
+/// shafts'.
 struct Coupled {
+  std::string name;  ///< axle_1 of the foremost driven axle and so on, centre between that and the others
   scene::Differential about;
   std::vector<double> weight;  ///< by wheel [-]: of the shafts' difference in speed, sum of weight x spin
+};
+
+/// A cage that turns as it is told, over the next step.
+struct HeldCage {
+  double speed = 0;   ///< [rad/s]
+  double torque = 0;  ///< at most [N m]
 };
 
 /// A wheel as it turns at the start of a step.
@@ -70,15 +80,25 @@ class DriveLine {
   /// Fastest turning of a steering joint [rad/s].
   virtual double steer_rate() const = 0;
 
-  /// Those of the line; none where all are open.
-  virtual std::vector<Coupled> coupled() const { return {}; }
+  /// Those of the line, of a kind that has any.
+  virtual std::vector<Coupled> differentials() const { return {}; }
+  /// Those of them that hold their shafts together, locked or with limited slip.
+  std::vector<Coupled> coupled() const;
 
   /// Torque [N m] about each wheel's axis over the next step dt [s], 0 for wheels not on the line; `mass` is the
-  /// machine's [kg]. The brake is on: all 0, and the governors start afresh from the present speed.
+  /// machine's [kg], `pump_power` what its pump takes [W], which matters where both have one engine. The brake is on:
+  /// all 0, and the governors start afresh from the present speed.
   void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
-               std::vector<double>& torque);
+               std::vector<double>& torque, double pump_power = 0);
+  /// After that: the mean of all driven wheels as a source of speed holds it; nothing otherwise.
+  const std::optional<HeldCage>& held() const { return held_; }
+  /// Tells the speed that it came to [rad/s] and the torque that it took [N m].
+  void settle(double cage, double torque);
 
-  /// The governors' memory.
+  /// Zeros where neither gears nor a shared engine are.
+  const EngineState& engine() const { return state_; }
+
+  /// Memory of the governors and of the engine.
   void visit(Archive& a);
 
  protected:
@@ -88,8 +108,8 @@ class DriveLine {
     double share = 1;           // of the machine's mass, and of the motor's force and power
     SpeedGovernor governor;
   };
-  DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups)
-      : powertrain_(powertrain), groups_(std::move(groups)) {}
+  DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
+            const std::optional<scene::DriveEngine>& engine = std::nullopt);
   static Group all_driven(const std::vector<DriveWheel>& wheels);
   /// Half the machine: the driven wheels of the left or right side.
   static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);
@@ -97,8 +117,17 @@ class DriveLine {
   virtual double group_speed(const DriveInput& input, std::size_t group) const = 0;
 
  private:
+  /// Those of a group that the line turns, together.
+  static DrivenWheels on_line(const Group& group, const std::vector<WheelTurn>& turns, double mass);
+  /// For each wheel of a group [N m], of the governed motor or of the engine.
+  double motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt, double pump_power);
+  double engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt, double pump_power);
+
   scene::Powertrain powertrain_;
   std::vector<Group> groups_;
+  std::optional<GearedEngine> engine_;  // of a line of one group
+  std::optional<HeldCage> held_;        // of the present step
+  EngineState state_;
 };
 
 /// The line of machine.drive.

@@ -2,6 +2,8 @@
 // The speed governor of a hydrostatic drive. Knows no engine and no kind of drive.
 #pragma once
 
+#include <limits>
+
 #include "core/archive.h"
 #include "scene/drive.h"
 
@@ -23,8 +25,17 @@ struct DrivenWheels {
 /// the mass's acceleration, a proportional part and an integral that only grows while it can act.
 class SpeedGovernor {
  public:
-  /// Torque for each of the wheels [N m] over the next step dt [s], towards `speed` [m/s]; 0 without wheels.
-  double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels, double dt);
+  /// Torque for each of the wheels [N m] over the next step dt [s], towards `speed` [m/s]; 0 without wheels. Of its
+  /// power no more than `left` [W] drives; holding back is the motor's own.
+  double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels, double dt,
+                      double left = std::numeric_limits<double>::infinity());
+
+  /// The same in two steps, for whoever bounds the force otherwise: first what is asked for [N at the rims], then what
+  /// of it there is, from `low` to `high` [N].
+  double ask(double speed, const DrivenWheels& wheels, double dt);
+  double give(double force, double low, double high, const DrivenWheels& wheels, double dt);
+  /// The speed after the ramp [m/s].
+  double asked() const { return asked_; }
   /// Brakes are on at this speed [m/s]: the governor starts afresh from it.
   void reset(double speed);
 

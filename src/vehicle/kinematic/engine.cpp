@@ -161,6 +161,8 @@ class KinematicEngine final : public Engine {
     a.fixed("input", body.input);
     a.fixed("taken", body.taken);
     a("drive", body.drive);
+    if (const scene::DriveEngine* engine = scene::drive_engine(body.machine.drive))
+      a.ranged("gear", body.drive.gear, 0, static_cast<int>(engine->gears.size()));
     a("placed", body.placed);
     a("goal", body.goal);
     a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
