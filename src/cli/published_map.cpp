@@ -9,10 +9,24 @@
 
 namespace navvy::cli {
 
+namespace {
+
+std::vector<planner::Layer> layers_of(const PublishOptions& options) {
+  return options.layers.empty() ? planner::all_layers() : planner::layers_named(options.layers);
+}
+
+}  // namespace
+
+void require_publishable(const PublishOptions& options) {
+  if (options.place.empty()) return;
+  layers_of(options);
+  planner::Publisher::require_place(options.place);
+}
+
 PublishedMap::PublishedMap(const PublishOptions& options, const session::Session& session)
     : world_(session.world()),
       rate_(options.rate),
-      layers_(options.layers.empty() ? planner::all_layers() : planner::layers_named(options.layers)),
+      layers_(layers_of(options)),
       feed_(planner::options_for(world_.description(), world_.ground(), layers_, session.design())) {
   publisher_.emplace(feed_, options.place, layers_);
   if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));

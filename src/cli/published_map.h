@@ -18,6 +18,10 @@ struct PublishOptions {
   double rate = 10;    ///< updates per simulated second
 };
 
+/// Asks, before anything of an earlier run is touched, what a PublishedMap would fail at.
+/// @throws InputError for layers or a place that are none, or a place that is taken.
+void require_publishable(const PublishOptions& options);
+
 /// Publishes the map of a session as often as asked for, from its making on, and that of its end.
 class PublishedMap {
  public:

@@ -138,10 +138,10 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
   const ControlDesk desk = desk_of(recorder);
-  if (!options.control.empty())
-    control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
   bool snapshot_due = !options.snapshot.empty(), told_to_end = false;
   try {
+    if (!options.control.empty())
+      control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
     while (!session.done() && !StopSignals::asked()) {
@@ -237,6 +237,7 @@ int run(const RunOptions& options) {
   StopSignals signals;
   // Cheap questions first: everything that can be refused before the scene is built.
   require_snapshot(options.resume);
+  require_publishable(options.publish);
   record::Options record_options;
   // The rate goes into the scene, which is written beside the results: base steps follow from it.
   SceneOptions scene = options.scene;
@@ -274,7 +275,13 @@ int run(const RunOptions& options) {
   if (!options.snapshot.empty()) require_writable(options.snapshot);
   record::Recorder recorder(session, record_options, std::move(folder));
   std::optional<PublishedMap> published;
-  if (!options.publish.place.empty()) published.emplace(options.publish, session);
+  try {
+    if (!options.publish.place.empty()) published.emplace(options.publish, session);
+  } catch (const std::exception& error) {
+    // The port was free a moment ago.
+    recorder.finish("failed", error.what());
+    throw;
+  }
   const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;

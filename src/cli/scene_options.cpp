@@ -56,7 +56,7 @@ std::string find_scene(const std::string& name) {
   for (const auto& [scene, path] : shipped_scenes()) known.push_back(scene);
   throw InputError(
       Fault{Fault::Severity::kError, "", 0, "scene", name, "no such file here and no such shipped scene",
-            known.empty() ? "set NAVVY_DATA_DIR" : suggestion(name, known) + " `navvy scenes` lists them"});
+            known.empty() ? "set NAVVY_DATA_DIR" : suggestion(name, known) + "; `navvy scenes` lists them"});
 }
 
 void SceneOptions::add_values_to(CLI::App& command) {

@@ -155,14 +155,17 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   }
   if (any) return out;
   const Vec2 corner = shift.head<2>() + site.origin(), size = site.cell() * Vec2(site.nx(), site.ny());
-  const Vec2 swapped_low(low.y(), low.x()), swapped_high(high.y(), high.x());
-  const bool swapped =
-      (swapped_low.array() < (corner + size).array()).all() && (swapped_high.array() > corner.array()).all();
+  const auto meets_site = [&](const Vec2& from, const Vec2& to) {
+    return (from.array() < (corner + size).array()).all() && (to.array() > corner.array()).all();
+  };
+  const bool there = meets_site(low.head<2>(), high.head<2>());
+  const bool swapped = meets_site({low.y(), low.x()}, {high.y(), high.x()});
   fail(tin.file, 0, span_text(low.head<2>(), high.head<2>()),
        "the surface '" + tin.name + "' covers no column of the site, which reaches over " +
            span_text(corner, corner + size) + " [m]",
-       swapped ? "northing and easting are swapped: LandXML's points are northing easting elevation"
-               : "give both in the same coordinates and check the unit; a procedural site counts in W");
+       there     ? "its faces have no area, or are smaller than a column: look at linearUnit"
+       : swapped ? "northing and easting are swapped: LandXML's points are northing easting elevation"
+                 : "give both in the same coordinates and check the unit; a procedural site counts in W");
 }
 
 // --- Areas.

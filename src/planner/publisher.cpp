@@ -78,6 +78,26 @@ int listening(const std::string& place, int& port) {
   return file;
 }
 
+/// A folder that is there has nothing in it.
+void require_folder(const std::string& place) {
+  if (place.empty()) refuse(place, "names no folder", "a new folder, or tcp:PORT");
+  // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
+  const std::size_t colon = place.find(':');
+  if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
+    refuse(place, "is no address that is known", "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
+  std::error_code failed;
+  const fs::file_status there = fs::status(place, failed);
+  if (!fs::exists(there)) return;
+  if (!fs::is_directory(there)) refuse(place, "is there and no folder", "name a new folder");
+  const fs::directory_iterator entries(place, failed);
+  if (failed) refuse(place, "cannot be read: " + failed.message(), "name a new folder");
+  if (entries != fs::directory_iterator())
+    refuse(place, "holds '" + entries->path().filename().string() + "' already: patches are numbered from 1",
+           "name a new folder");
+}
+
+bool is_address(const std::string& place) { return place.rfind("tcp:", 0) == 0; }
+
 /// A reader whose machine is gone without a word is noticed, too: after about a minute.
 void watch_connection(int file) {
   const int yes = 1, idle = 30, every = 10, times = 3;
@@ -254,27 +274,29 @@ void Publisher::State::accept_readers() {
 Publisher::Publisher(UpdateFeed& feed, const std::string& place, std::vector<Layer> layers)
     : state_(std::make_unique<State>(feed, std::move(layers))) {
   State& s = *state_;
-  if (place.rfind("tcp:", 0) == 0) {
+  if (is_address(place)) {
     s.listener = listening(place, s.port);
     s.main = std::thread([&s] { s.accept_readers(); });
     return;
   }
-  if (place.empty()) refuse(place, "names no folder", "a new folder, or tcp:PORT");
-  // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
-  const std::size_t colon = place.find(':');
-  if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
-    refuse(place, "is no address that is known", "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
+  require_folder(place);
   s.folder = place;
   std::error_code failed;
   fs::create_directories(place, failed);
   if (failed) throw FileError("cannot make '" + place + "': " + failed.message());
-  for (const auto& entry : fs::directory_iterator(place))
-    refuse(place, "holds '" + entry.path().filename().string() + "' already: patches are numbered from 1",
-           "name a new folder");
   s.main = std::thread([&s] { s.serve_files(); });
 }
 
 Publisher::~Publisher() { finish(); }
+
+void Publisher::require_place(const std::string& place) {
+  int port = 0;
+  // Taken and let go: what is free now is free in a minute but for a rare race, which the making tells.
+  if (is_address(place))
+    ::close(listening(place, port));
+  else
+    require_folder(place);
+}
 
 void Publisher::finish() {
   State& s = *state_;

@@ -25,6 +25,8 @@ class Publisher {
   Publisher(UpdateFeed& feed, const std::string& place, std::vector<Layer> layers);
   /// As `finish`.
   ~Publisher();
+  /// Whether one could publish there: makes no folder and keeps no port. @throws InputError as the constructor does.
+  static void require_place(const std::string& place);
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 

@@ -47,7 +47,8 @@ struct Recorder::State {
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
-  Stopwatch total, since_checkpoint;
+  Stopwatch total, since_checkpoint, since_summary;
+  std::size_t summary_bytes = 0;  // of the last one
   bool finished = false;
 
   std::string path(const std::string& name) { return folder->path(name); }
@@ -165,7 +166,7 @@ void Recorder::State::checkpoint(bool force) {
   // At most every other second unless it is the last.
   telemetry.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
-  write_summary(force);
+  if (force || since_summary.seconds() >= rewrite_period(summary_bytes)) write_summary(force);
   // Counted from the end of the writing, or a slow disk would do nothing else.
   since_checkpoint.restart();
 }
@@ -175,6 +176,8 @@ void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
   last_words.keep(text);
   write_file_atomically(path("summary.json"), text);
+  summary_bytes = text.size();
+  since_summary.restart();
 }
 
 /// In the order of cost: a full disk is noticed at the cheapest.

@@ -24,6 +24,10 @@ struct RunStatus {
   int frames = 0;
 };
 
+/// Wall time that passes at least between rewrites of a summary of so many bytes [s]: over a day it writes 5 kB a
+/// second at most, however many cycles it lists.
+inline double rewrite_period(std::size_t bytes) { return static_cast<double>(bytes) / 5000; }
+
 /// The file's text: JSON, keys sorted, SI units in the names. Where the scene has a design the ground is held against
 /// it. The hash costs a pass over the whole state; without it `state_hash` is null.
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash = true);

@@ -84,7 +84,10 @@ scene::Design read_design(Element& element, Faults& faults) {
     faults.error(element, design.file, "needs either a <file> or an <area>", "remove one of them, or add one");
   if (design.file.empty()) return design;
   Element& file = *fields.child("file");
+  const std::size_t before = faults.error_count();
   resolve_raster(file, design.file, faults);
+  // What is no plain file is not opened: a pipe would wait for its writer for ever.
+  if (faults.error_count() > before) return design;
   const bool landxml = is_landxml(design.file);
   if (landxml) design.tin = read_landxml(design.file, surface, faults);
   if (landxml && design.scale.any())

@@ -172,7 +172,8 @@ std::vector<char> read_text(const Reading& reading) {
 }  // namespace
 
 bool is_landxml(const std::string& file) {
-  std::string head(4096, '\0');
+  // Past what exporters write before the root: a declaration, a comment on licence and settings.
+  std::string head(65536, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));

@@ -69,7 +69,7 @@ void SnapshotStart::visit(Archive& a) {
     if (!anyway)
       throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
                              "it was taken of a scene that differs: " + differences,
-                             "go on from it in the scene it was taken of, or with --resume-anyway in this one"});
+                             "name the scene it was taken of; `navvy run` goes on in this one with --resume-anyway"});
     log_warning("going on from a snapshot of another scene: " + differences);
   });
 }

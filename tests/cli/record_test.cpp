@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene records while it runs, what it publishes, and how far it is from its design.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "folder.h"
@@ -276,6 +281,38 @@ TEST_F(Record, OfADigSetWithoutADesignIsRefused) {
   const std::string said = text_of(folder_ / "stdout");
   for (const char* part : {"navvy:record[dig]/format", "'terra'", "needs a design", "<navvy:design>"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+}
+
+TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out"}, ""), 0);
+  const std::string before = text_of(folder_ / "out/summary.json");
+  EXPECT_EQ(json::parse(before).at("status"), "finished");
+  // A port of somebody else's, a folder with something in it, and slips.
+  const int taken = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof address;
+  ASSERT_EQ(::bind(taken, reinterpret_cast<const sockaddr*>(&address), length), 0);
+  ASSERT_EQ(::listen(taken, 1), 0);
+  ::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &length);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
+      {{"--publish", "tcp:" + std::to_string(ntohs(address.sin_port))}, "cannot listen there"},
+      {{"--publish", "tcp:99999999"}, "no port from 0 to 65535"},
+      {{"--publish", folder_ / "out"}, "already: patches are numbered from 1"},
+      {{"--publish", folder_ / "s.sdf"}, "is there and no folder"},
+      {{"--publish", folder_ / "maps", "--publish-layers", "elevtion"}, "elevation"}};
+  for (const auto& [options, part] : slips) {
+    SCOPED_TRACE(options[1]);
+    std::vector<std::string> words = {"run", "--out", folder_ / "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(navvy(words, ""), 2);
+    EXPECT_NE(text_of(folder_ / "stderr").find(part), std::string::npos) << text_of(folder_ / "stderr");
+    EXPECT_EQ(text_of(folder_ / "out/summary.json"), before);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.previous"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "maps"));
+  }
+  ::close(taken);
 }
 
 TEST_F(Record, AnAddressOfAnotherKindIsNoFolder) {

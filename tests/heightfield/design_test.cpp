@@ -190,6 +190,16 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
   world.ground.origin = Vec2(-12, 190);
   message = message_of(world);
   EXPECT_NE(message.find("northing and easting are swapped"), std::string::npos) << message;
+  // In place, but of millimetres: swapped or not it lies on the site.
+  world = flat();
+  tin = frustum();
+  for (Vec3& p : tin->points) p.head<2>() *= 1e-4;
+  for (Vec3& p : tin->points) p.head<2>() += Vec2(0.013, 0.013);
+  world.design.file = "pit.xml";
+  world.design.tin = tin;
+  message = message_of(world);
+  EXPECT_EQ(message.find("swapped"), std::string::npos) << message;
+  EXPECT_NE(message.find("smaller than a column: look at linearUnit"), std::string::npos) << message;
 }
 
 /// What the log says while the frustum is laid on a site of that CRS and unit; a refusal's text likewise.

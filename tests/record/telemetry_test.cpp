@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "record/summary.h"
+
 namespace navvy::record {
 namespace {
 
@@ -14,6 +18,23 @@ TEST(Telemetry, StampsOfTwoStepsAreNeverTheSame) {
         EXPECT_NE(time_stamp(static_cast<double>(step) * dt), time_stamp(static_cast<double>(step + 1) * dt)) << step;
     }
   EXPECT_EQ(time_stamp(10000.02), "10000.02");
+}
+
+/// A cycle of 20 s has 380 bytes in the summary, which is written whole: over a day some 10^5 times as often as that.
+TEST(Summary, IsRewrittenSoSeldomThatItsBytesGrowLikeTime) {
+  const auto written_by = [](double end) {
+    double bytes = 0;
+    for (double time = 0; time < end;) {
+      const double size = 4000 + 380 * time / 20;
+      bytes += size;
+      time += std::max(2.0, rewrite_period(static_cast<std::size_t>(size)));
+    }
+    return bytes;
+  };
+  EXPECT_LT(written_by(86400), 5000 * 86400 * 1.01);
+  EXPECT_NEAR(written_by(2 * 86400) / written_by(86400), 2, 0.1);
+  // A short one is as fresh as before.
+  EXPECT_LT(rewrite_period(10000), 2.001);
 }
 
 }  // namespace

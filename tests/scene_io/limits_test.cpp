@@ -255,6 +255,11 @@ TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
                                  mesh + "</uri></mesh></geometry></visual></link></model>"),
                       "pipe.obj': it is a pipe, a plain file is needed"));
   EXPECT_TRUE(refused(world_text("<navvy:soil ref=\"" + pipe + "\"/>"), "no such soil"));
+  for (const char* ending : {"xml", "npy", "tif"}) {
+    const std::string design = folder / "pipe." + ending;
+    ASSERT_EQ(::mkfifo(design.c_str(), 0600), 0);
+    EXPECT_TRUE(refused(world_text("<navvy:design><file>" + design + "</file></navvy:design>"), "it is a pipe"));
+  }
   // A list of files that a run has left, changed by hand.
   Faults listed;
   const auto document =

@@ -440,7 +440,8 @@ void TreeBody::visit(Archive& a) {
   const auto finite = [](double v) { return std::isfinite(v); };
   const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
   a.require(near, "coordinates", "a machine has no finite place, or none near any site");
-  a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates", "a machine's turn has a scale");
+  a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
+            "a machine's turn has a scale");
   a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
   place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.
