@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a machine's wheels are driven and steered, one struct a kind. Plain data: what a kind does stands in
-// vehicle/drive/, how it is written in a file in scene_io/machine_reader.cpp.
+// vehicle/drive/, how it is written in a file in scene_io/drive_reader.cpp.
 #pragma once
 
 #include <optional>

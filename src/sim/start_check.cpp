@@ -120,6 +120,8 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
   return faults;
 }
 
+namespace {
+
 /// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
 std::string told_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
@@ -142,6 +144,8 @@ std::string told_design(const scene::Scene& scene, const heightfield::Ground& gr
 } catch (const InputError&) {
   return "";
 }
+
+}  // namespace
 
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;

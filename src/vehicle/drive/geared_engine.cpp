@@ -115,7 +115,7 @@ EngineState GearedEngine::state(double cage, double torque, double pump_power) c
 
 void GearedEngine::visit(Archive& a) {
   a.ranged("gear", gear_, 1, count());
-  a("held", held_);
+  a.ranged("held", held_, 0.0, kDwell);
 }
 
 }  // namespace navvy::vehicle
