@@ -51,9 +51,10 @@ void wake_ahead_of_tools(const heightfield::Ground& ground, std::span<const Tool
 /// working tool: below, the elastic ringing of soil that has just woken would wake the site.
 double motion_threshold(std::span<const ToolZone> zones);
 
-/// Rule B: a particle faster than `threshold` wakes the 3 x 3 columns around it that reach up to its cell. `may_wake`
-/// answers for a column whether this rule applies to it now. In a working tool's zone it goes three cells below the
-/// tool and no deeper. Costs the particles and nine columns for each column that moves.
+/// Rule B: a particle that has failed (plastic shear) and is faster than `threshold` wakes the 3 x 3 columns around it
+/// that reach up to its cell. `may_wake` answers for a column whether this rule applies to it now. In a working tool's
+/// zone it goes three cells below the tool and no deeper. Costs the particles and nine columns for each column that
+/// moves.
 template <class MayWake>
 void wake_around_motion(const heightfield::Ground& ground, const ColumnIndex& index, double threshold,
                         std::span<const ToolZone> zones, const MayWake& may_wake, WakePlan& plan);
@@ -63,7 +64,8 @@ void plan_wake(WakePlan& plan, int ix, int iy, double bottom);
 
 // ---- implementation of the template
 
-/// Lowest cell that holds a moving particle of the column; false when there is none.
+/// Lowest cell that holds a particle of the column that flows: faster than the threshold, and sheared; false when there
+/// is none.
 bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> column, double threshold, int& cell);
 /// Height the column must wake to because soil moves in `cell` next to it; false when it need not.
 bool wakes_beside(const heightfield::Ground& ground, std::span<const ToolZone> zones, int ix, int iy, int cell,
