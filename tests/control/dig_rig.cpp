@@ -79,7 +79,7 @@ Observation DigRig::look() const {
   if (time < settled_at) seen.X_WB.linear() = Mat3::Identity();
   seen.v_WB = engine->link(0, 0).v_WL;
   seen.ground = &ground;
-  seen.payload = payload_;
+  seen.payload = payload_ + (op.phase() == "penetrate" || op.phase() == "drag" ? in_mouth : 0);
   return seen;
 }
 
@@ -117,7 +117,9 @@ void DigRig::step() {
   time += kStep;
   const Pose X_WB = engine->link(0, machine_.link_index("bucket")).X_WL;
   // The link's origin is the pin.
-  if (!std::exchange(curling_, op.phase() == "curl")) pin_ = X_WB.translation().z();
+  const bool curled = std::exchange(curling_, op.phase() == "curl");
+  if (!curled) pin_ = X_WB.translation().z();
+  if (curling_ && !curled) steepest_curl = std::max(steepest_curl, tip_angle(X_WB));
   if (curling_) deepest_curl = std::max(deepest_curl, pin_ - X_WB.translation().z());
   sweep(X_WB);
   pour(X_WB);

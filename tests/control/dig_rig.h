@@ -46,6 +46,10 @@ class DigRig {
   bool hit_rock = false;
   /// Soil so strong that a thicker slice holds the bucket as rock does [m].
   double thickest_slice = 100;
+  /// Soil that stands in the mouth while it goes down, as if it were its load [kg].
+  double in_mouth = 0;
+  /// Angle of the line from pin to tip when a curl begins, at most [rad].
+  double steepest_curl = -kPi;
   /// How far the bucket's pin sank in a curl, at most [m].
   double deepest_curl = 0;
   /// Until then [s] the operator sees the machine stand level, and as it stands from then on: ground that gave way.

@@ -8,6 +8,7 @@
 #include "control/activities/swing.h"
 #include "control/activities/trajectory.h"
 #include "control/activities/wait.h"
+#include "control/dig_pose.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
 #include "core/log.h"
@@ -99,6 +100,18 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
   const TrenchMeasure measured = measure(rig.ground, dig);
   report(rig, measured);
   expect_good(measured);
+}
+
+TEST(Dig, CurlsOnlyABucketThatHasTurnedIn) {
+  // What stands in the mouth of a bucket that goes down along the far end looks like a load. A curl from there presses
+  // the heel into the wall.
+  Dig dig = trench();
+  dig.max_cycles = 1;
+  DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
+  rig.in_mouth = 1000;
+  ASSERT_TRUE(rig.run(60)) << rig.op.phase();
+  // Within 5 deg of its digging angle, and a control step.
+  EXPECT_LT(rig.steepest_curl, with_cut(Arm(ew180_like()), -kPi + kAttack) + radians(6));
 }
 
 TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {

@@ -14,6 +14,7 @@ namespace {
 constexpr double kDownAir = 0.9, kDownSoil = 0.45;  // [m/s]
 constexpr double kDragSpeed = 0.7;                  // [m/s]
 constexpr double kTurnIn = 0.9;                     // of the bucket while dragging [rad/s]
+constexpr double kTurnedIn = radians(5);            // so near to its digging angle a bucket may curl [rad]
 constexpr double kCurlTime = 2.2;                   // [s]
 // The lip cuts on [m/s] in this first share of the curl, if the bucket has this share of a load; one with less only
 // scrapes. Held by rock it stands still (TipPath::slow). tuned: on the trench, with kAboutPin, 0.5 m/s until 0.6 keeps
@@ -68,7 +69,8 @@ bool Digging::drag(const Observation& seen, double dt) {
   if (plan_.length() - m.s + kPastEnd >= arm_.beyond_tip(turned, depth)) m.tip.angle = turned;
   m.tip.z = std::max(floor_height(), m.tip.z - kDownSoil * m.tip.slow * dt);
   follow_tip(seen, dt);
-  const bool full = seen.payload >= m.full_mass;
+  // Before it has turned in, its heel is at the far end, and the curl would press it into the wall.
+  const bool full = seen.payload >= m.full_mass && m.tip.angle <= wish + kTurnedIn;
   const bool planned = m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
   if (!(full || planned || m.s <= 0 || overdue(kPhaseLimit))) return false;
   // The curl begins where the arm is, not where it was wished to be.
