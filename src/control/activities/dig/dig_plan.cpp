@@ -10,6 +10,9 @@ namespace {
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
 constexpr double kRefused = 0.4;     // length given up before a scoop's start when it brings nothing [m]
+// A scoop begins so far from the near end at least, if the floor there is down: the lip needs way to fill the bucket
+// and to cut on while it curls. tuned: the trench takes 17 cycles at 0 and 12 at 1.0; at 1.5 the loads are no larger.
+constexpr double kLeastRun = 1.0;    // [m]
 constexpr double kBeside = 0.5;      // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;   // a load may be larger than a full bucket by this share of it
 constexpr double kThinner = 0.7;     // a slice after one that held the bucket, of that one
@@ -152,6 +155,13 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
   return 0;
 }
 
+int DigPlan::run_up(const SurfaceView& surface, int i, double level) const {
+  // Back over the floor that is down already; what could not be dug ends it.
+  for (; i + 1 < samples() && at(i) < kLeastRun; ++i)
+    if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + kTolerance) break;
+  return i;
+}
+
 Scoop DigPlan::next(const SurfaceView& surface) const {
   // Slices of equal depth; the next one is opened only when the one above holds no worthwhile load.
   const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
@@ -161,7 +171,7 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
     for (int i = samples() - 1; i >= 1; --i)
       // Two neighbours must agree, a single crumb is not worth a cycle.
       if (remaining(surface, i, level) > kTolerance && remaining(surface, i - 1, level) > kTolerance)
-        return {at(i), fill_end(surface, i, level), level, true};
+        return {at(run_up(surface, i, level)), fill_end(surface, i, level), at(i), level, true};
   }
   return {};
 }

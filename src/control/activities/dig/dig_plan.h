@@ -26,6 +26,7 @@ TrenchLine trench_line(const Dig& dig, const Pose& X_WS);
 /// One scoop along the line, in metres from the near end.
 struct Scoop {
   double start = 0, end = 0;  ///< start > end
+  double soil = 0;            ///< where its soil begins: at `start`, or after a run over what is dug already
   double level = 0;           ///< depth of the tip below the surface at the start of the dig [m]
   bool any = false;           ///< false: nothing left to dig
 };
@@ -53,7 +54,7 @@ class DigPlan {
   /// Thickness of a slice at most [m].
   double pass_depth() const { return dig_.pass_depth; }
   /// A pass along the whole floor.
-  Scoop clean_up() const { return {length_, 0, dig_.depth, true}; }
+  Scoop clean_up() const { return {length_, 0, length_, dig_.depth, true}; }
   /// Soil above depth `level` over the trench's width [m3].
   double volume_above(const SurfaceView& surface, double level) const;
   /// Against the trench as ordered: soil that was found undiggable counts as left.
@@ -76,6 +77,8 @@ class DigPlan {
   double height(const SurfaceView& surface, double s) const;
   /// Height of soil above depth `level` at sample i that can be dug, negative where it is dug deeper [m].
   double remaining(const SurfaceView& surface, int i, double level) const;
+  /// Sample from which a scoop into the soil at sample i begins.
+  int run_up(const SurfaceView& surface, int i, double level) const;
   /// Soil above depth `level` between samples i - 1 and i [m3].
   double piece_above(const SurfaceView& surface, int i, double level) const;
   double at(int i) const { return length_ * i / (samples() - 1); }

@@ -96,6 +96,7 @@ bool Digging::plan_scoop(const Observation& seen) {
   }
   if (!scoop.any || beyond_reach(scoop)) return false;
   m.scoop_start = scoop.start;
+  m.soil_start = scoop.soil;
   m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
   return true;
@@ -303,7 +304,7 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       // A pass along the whole floor may well bring little; a scoop that does shows soil that cannot be dug.
       if (m.empty_scoops > 0 && m.cleaning == 0)
-        with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.scoop_start); });
+        with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
       tell(CycleEvent::kDumpStart);
       start_dump(seen);
       break;
@@ -329,6 +330,7 @@ void DiggingMemory::visit(Archive& a) {
   a("clean_ups", clean_ups);
   a("cleaning", cleaning);
   a("scoop_start", scoop_start);
+  a("soil_start", soil_start);
   a("scoop_end", scoop_end);
   a("scoop_level", scoop_level);
   a("s", s);

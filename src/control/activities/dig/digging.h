@@ -21,6 +21,7 @@ struct DiggingMemory {
   std::int64_t clean_ups = 0;
   std::int64_t cleaning = 0;                               ///< 1: the scoop is a pass along the whole floor
   double scoop_start = 0, scoop_end = 0, scoop_level = 0;  ///< as in Scoop [m]
+  double soil_start = 0;                                   ///< Scoop::soil [m]
   double s = 0;                                            ///< the tip's place along the trench, from its near end [m]
   double progress = 0;                                     ///< of the curl, 0..1
   double curl_angle = 0, curl_z = 0;                       ///< of the tip path when the curl began [rad], [m]
