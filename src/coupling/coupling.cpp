@@ -22,13 +22,15 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       solver_(solver),
       ground_(ground),
       view_(ground, ground.setup().soils),
-      ruts_(ground) {
+      ruts_(ground),
+      track_ruts_(ground) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     // Both engines number their machines from 0: who asks for one says its number in the scene.
     vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
     if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
+    for (const scene::Wheel& wheel : placed.machine.wheels) has_tracks_ |= wheel.track.has_value();
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
       ToolLoad load;
@@ -130,12 +132,22 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
 void Coupling::press_ruts(double dt) {
   // All at once: what one wheel does not bear another may.
   std::vector<LoadedTyre> tyres;
+  std::vector<terramechanics::BeltPatch> belts;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
-    for (std::size_t w = 0; w < machine.wheels.size(); ++w)
-      tyres.push_back({machine.wheels[w], placed_[m].engine->wheel(placed_[m].index, static_cast<int>(w))});
+    const vehicle::Engine& engine = *placed_[m].engine;
+    for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+      const int wheel = static_cast<int>(w);
+      if (machine.wheels[w].track)
+        for (const terramechanics::BeltPatch& patch : engine.belt_patches(placed_[m].index, wheel))
+          belts.push_back(patch);
+      else
+        tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
+    }
   }
-  ruts_.press(tyres, kSinkSpeed * kRutInterval * dt);
+  const double most = kSinkSpeed * kRutInterval * dt;
+  if (!tyres.empty() || !has_tracks_) ruts_.press(tyres, most);
+  if (has_tracks_) track_ruts_.press(belts, most, tyres.empty());
 }
 
 void ToolLoad::visit(Archive& a) {
@@ -160,6 +172,7 @@ void Coupling::visit(Archive& a) {
     a("steps", steps_);
     a.fixed("tools", tools_);
     a("ruts", ruts_);
+    if (has_tracks_) a("track_ruts", track_ruts_);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "core/archive.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
+#include "coupling/track_ruts.h"
 #include "heightfield/ground.h"
 #include "scene/scene.h"
 #include "soil/solver.h"
@@ -80,6 +81,8 @@ class Coupling {
   heightfield::Ground& ground_;
   GroundView view_;
   Ruts ruts_;
+  TrackRuts track_ruts_;
+  bool has_tracks_ = false;
   std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;

@@ -21,6 +21,11 @@ std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
   for (const scene::Wheel& wheel : machine.wheels) {
     const int joint = machine.joint_index(wheel.joint);
     if (joint < 0) continue;
+    if (wheel.track) {
+      const int carrier = machine.joints[static_cast<std::size_t>(joint)].parent;
+      for (const Vec3& p : wheel.track->lower_run()) out.push_back(X_WL[static_cast<std::size_t>(carrier)] * p);
+      continue;
+    }
     const int link = machine.joints[static_cast<std::size_t>(joint)].child;
     out.push_back(X_WL[static_cast<std::size_t>(link)].translation() - wheel.radius * up);
   }

@@ -7,6 +7,7 @@
 #include "coupling/ground_view.h"
 #include "coupling/placing.h"
 #include "coupling/ruts.h"
+#include "coupling/track_ruts.h"
 #include "vehicle/engine.h"
 #include "vehicle/stability.h"
 
@@ -26,18 +27,28 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   engine->set_rock(ground.datum());
   const GroundView view(ground, ground.setup().soils);
   Ruts ruts(ground);
+  TrackRuts track_ruts(ground);
   const double dt = scene.solver.max_step;
   const int steps = static_cast<int>(std::ceil(time / dt));
   for (int step = 0; step < steps; ++step) {
     engine->step(dt, view);
     if (step % kRutInterval != 0) continue;
     std::vector<LoadedTyre> tyres;
+    std::vector<terramechanics::BeltPatch> belts;
     for (std::size_t i = 0; i < of.size(); ++i) {
       const std::vector<scene::Wheel>& wheels = scene.machines[of[i]].machine.wheels;
-      for (std::size_t w = 0; w < wheels.size(); ++w)
-        tyres.push_back({wheels[w], engine->wheel(static_cast<int>(i), static_cast<int>(w))});
+      for (std::size_t w = 0; w < wheels.size(); ++w) {
+        const int machine = static_cast<int>(i), wheel = static_cast<int>(w);
+        if (!wheels[w].track) {
+          tyres.push_back({wheels[w], engine->wheel(machine, wheel)});
+          continue;
+        }
+        for (const terramechanics::BeltPatch& patch : engine->belt_patches(machine, wheel)) belts.push_back(patch);
+      }
     }
-    ruts.press(tyres, kSinkSpeed * kRutInterval * dt);
+    const double most = kSinkSpeed * kRutInterval * dt;
+    ruts.press(tyres, most);
+    if (!belts.empty()) track_ruts.press(belts, most, tyres.empty());
   }
   for (std::size_t i = 0; i < of.size(); ++i)
     out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),

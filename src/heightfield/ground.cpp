@@ -181,6 +181,12 @@ void Ground::hold(std::set<std::int64_t> columns) {
   state_->held = std::move(columns);
 }
 
+void Ground::hold_more(const std::set<std::int64_t>& columns) {
+  std::set<std::int64_t> all = state_->held;
+  all.insert(columns.begin(), columns.end());
+  hold(std::move(all));
+}
+
 bool Ground::held(int ix, int iy) const {
   return !state_->held.empty() && state_->held.count(static_cast<std::int64_t>(iy) * nx() + ix) != 0;
 }

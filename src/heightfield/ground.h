@@ -57,6 +57,8 @@ class Ground final : public Terrain {
   /// leaves them nor slides onto them by itself. Columns let go count as changed, so that who waited looks again.
   /// @throws Error for a column outside the site; nothing has changed then.
   void hold(std::set<std::int64_t> columns);
+  /// As hold, besides those held already.
+  void hold_more(const std::set<std::int64_t>& columns);
   bool held(int ix, int iy) const;
 
   /// Sum over the touched tiles of mass now minus mass at the start, per soil, recounted from the columns.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,7 @@ struct Joint {
   // Of the joint's speed: [N m s/rad] or [N s/m], and dry friction [N m] or [N].
   double damping = 0, friction = 0;
   double initial = 0;  ///< position at the start
+  double brake = 0;    ///< most that its brake holds, which a command puts on [N m] or [N]; 0: it has none
   /// Of a ball: how far the joint's x axis on the child may lean from where it points at the start, and how far the
   /// child may turn about it either way [rad]; pi is free.
   double cone = kPi, twist = kPi;
@@ -110,6 +112,23 @@ struct Pump {
   double power = 0;  ///< flow x pressure at most [W]
 };
 
+/// The belt of a crawler. It runs round a sprocket, an idler and the rollers between them, which press its lower run on
+/// the ground; it does not stretch [docs/machines.md, tracks]. Points are in the frame of the link that carries it, the
+/// parent of the sprocket's joint, x ahead and z up.
+struct Track {
+  Vec3 p_idler = Vec3::Zero();  ///< middle of the idler [m]
+  double idler_radius = 0.35;   ///< [m]
+  std::vector<Vec3> rollers;    ///< middles, from the foremost to the last, two at least [m]
+  double roller_radius = 0.1;   ///< [m]
+  double thickness = 0.05;      ///< of the belt, from the rims of wheels and rollers to the ground [m]
+
+  /// Where the lower run ends: on the ground under the first and the last roller [m].
+  std::array<Vec3, 2> lower_run() const {
+    const Vec3 down(0, 0, -roller_radius - thickness);
+    return {Vec3(rollers.front() + down), Vec3(rollers.back() + down)};
+  }
+};
+
 /// A tyre (or a twin pair as one) with its own force law on the ground. Its forces come from pressure, slip and load
 /// [docs/machines.md, tyres]; what it presses for good is a rut [docs/machines.md, ruts].
 struct Wheel {
@@ -123,6 +142,9 @@ struct Wheel {
   double damping = 1.5e4;            ///< [N s/m]
   double friction = 0.8;             ///< tyre on firm ground [-]
   double rolling_resistance = 0.02;  ///< share of the load [-]
+  /// It is the sprocket of a crawler's belt: radius is that of its rim, width the belt's, stiffness and damping those
+  /// of all rollers together.
+  std::optional<Track> track;
 };
 
 /// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a real robot hands it to its

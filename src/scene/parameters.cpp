@@ -191,7 +191,7 @@ void put(const Writer& w, const Materials& materials) {
 
 void put(const Writer& w, const Joint& joint) {
   const auto& [name, type, parent, child, X_LcJ, axis, has_limits, lower, upper, effort, velocity, damping, friction,
-               initial, cone, twist] = joint;
+               initial, brake, cone, twist] = joint;
   w("type", static_cast<int>(type));
   w("parent", parent);
   w("child", child);
@@ -205,6 +205,8 @@ void put(const Writer& w, const Joint& joint) {
   w("damping", damping);
   w("friction", friction);
   w("initial", initial);
+  // A joint without a brake is what it was before there were any.
+  if (brake > 0) w("brake", brake);
   w("cone", cone);
   w("twist", twist);
 }
@@ -230,9 +232,18 @@ void put(const Writer& w, const Cylinder& cylinder) {
   w("flow", flow);
 }
 
+void put(const Writer& w, const Track& track) {
+  const auto& [p_idler, idler_radius, rollers, roller_radius, thickness] = track;
+  w("idler", p_idler);
+  w("idler_radius", idler_radius);
+  for (std::size_t i = 0; i < rollers.size(); ++i) w.at("roller", i)("place", rollers[i]);
+  w("roller_radius", roller_radius);
+  w("thickness", thickness);
+}
+
 void put(const Writer& w, const Wheel& wheel) {
   const auto& [joint, steer_joint, driven, radius, width, twin_spacing, stiffness, damping, friction,
-               rolling_resistance] = wheel;
+               rolling_resistance, track] = wheel;
   w("steer_joint", steer_joint);
   w("driven", driven);
   w("radius", radius);
@@ -242,6 +253,7 @@ void put(const Writer& w, const Wheel& wheel) {
   w("damping", damping);
   w("friction", friction);
   w("rolling_resistance", rolling_resistance);
+  if (track) put(w.at("track"), *track);
 }
 
 void put(const Writer& w, const DriveEngine& engine) {

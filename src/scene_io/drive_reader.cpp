@@ -145,6 +145,112 @@ scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
   return wheel;
 }
 
+scene::Wheel read_track(Element& element, const Names& names, Faults& faults) {
+  scene::Wheel wheel;
+  scene::Track track;
+  wheel.driven = true;
+  // Of the class of 18 t (U); a robot's file says its own.
+  wheel.width = 0.6;
+  wheel.stiffness = 1.2e7;
+  wheel.damping = 1.2e5;
+  wheel.radius = 0.35;
+  Fields(element, faults)
+      .attribute("name")
+      .text("joint", wheel.joint)
+      .required("joint")
+      .number("sprocket_radius_m", wheel.radius, {0.01, 5})
+      .required("sprocket_radius_m")
+      .vec3("idler_m", track.p_idler)
+      .required("idler_m")
+      .number("idler_radius_m", track.idler_radius, {0.01, 5})
+      .required("idler_radius_m")
+      .each("roller_m",
+            [&](Element& e) {
+              std::vector<double> p;
+              if (read_numbers(e, 3, {-1e3, 1e3}, p, faults)) track.rollers.emplace_back(p[0], p[1], p[2]);
+            })
+      .required("roller_m")
+      .number("roller_radius_m", track.roller_radius, {0.005, 5})
+      .required("roller_radius_m")
+      .number("thickness_m", track.thickness, {0, 1})
+      .number("width_m", wheel.width, {0.005, 5})
+      .number("stiffness_n_per_m", wheel.stiffness, {100, 1e9})
+      .number("damping_n_s_per_m", wheel.damping, {0, 1e8})
+      .number("friction", wheel.friction, {0, 3})
+      .number("rolling_resistance", wheel.rolling_resistance, {0, 1})
+      .finish();
+  require_name(element, "joint", "joint", names.joints, faults);
+  std::stable_sort(track.rollers.begin(), track.rollers.end(),
+                   [](const Vec3& a, const Vec3& b) { return a.x() > b.x(); });
+  wheel.track = std::move(track);
+  return wheel;
+}
+
+namespace {
+
+/// Its running gear, once its sprocket is known to be at `p_sprocket` in the carrier.
+void check_track(Element& element, const scene::Wheel& wheel, const Vec3& p_sprocket, Faults& faults) {
+  const scene::Track& track = *wheel.track;
+  const std::size_t n = track.rollers.size();
+  if (n < 2) {
+    faults.error(element, std::to_string(n), "a belt stands on two rollers at least", "add <roller_m>x y z</roller_m>");
+    return;
+  }
+  Element* rollers = element.FirstChildElement("roller_m");
+  for (std::size_t i = 1; i < n; ++i) {
+    if (track.rollers[i - 1].x() - track.rollers[i].x() < 1e-3)
+      faults.error(*rollers, std::to_string(track.rollers[i].x()), "two rollers of a belt stand at the same x",
+                   "give each a place of its own along the belt");
+    if (std::abs(track.rollers[i].z() - track.rollers[0].z()) > track.roller_radius)
+      faults.error(*rollers, std::to_string(track.rollers[i].z()),
+                   "the rollers of a belt stand in a row, within their radius of one height", "change its z");
+  }
+  const double front = std::max(track.p_idler.x(), p_sprocket.x()), rear = std::min(track.p_idler.x(), p_sprocket.x());
+  if (track.rollers.front().x() >= front || track.rollers.back().x() <= rear)
+    faults.error(*rollers, "", "the rollers must lie between idler and sprocket",
+                 "the sprocket stands at x " + std::to_string(p_sprocket.x()) + " m of the link that carries the belt");
+  const double run = track.lower_run()[0].z();
+  const struct {
+    const char* name;
+    double bottom;
+  } ends[] = {{"idler_m", track.p_idler.z() - track.idler_radius - track.thickness},
+              {"joint", p_sprocket.z() - wheel.radius - track.thickness}};
+  for (const auto& end : ends)
+    if (end.bottom < run - 1e-6)
+      faults.error(*element.FirstChildElement(end.name), std::to_string(end.bottom) + " m",
+                   "the belt would hang below its rollers, whose lower run is at z " + std::to_string(run) + " m",
+                   "raise it, or lower the rollers");
+}
+
+}  // namespace
+
+void check_tracks(Element& model, const scene::Machine& machine, Faults& faults) {
+  for (Element* e = model.FirstChildElement("navvy:track"); e; e = e->NextSiblingElement("navvy:track")) {
+    const std::string name = child_text(*e, "joint");
+    const int joint = machine.joint_index(name);
+    const auto wheel = std::find_if(machine.wheels.begin(), machine.wheels.end(), [&](const scene::Wheel& one) {
+      return one.track.has_value() && one.joint == name;
+    });
+    if (joint < 0 || wheel == machine.wheels.end()) continue;
+    const scene::Joint& spin = machine.joints[static_cast<std::size_t>(joint)];
+    if (spin.type != scene::Joint::Type::kRevolute || spin.parent < 0) {
+      faults.error(*e->FirstChildElement("joint"), name, "a sprocket spins on a revolute joint of the machine",
+                   "name the continuous joint between the track's frame and its sprocket");
+      continue;
+    }
+    const Pose X_MC = machine.links[static_cast<std::size_t>(spin.parent)].X_ML;
+    const Pose X_ML = machine.links[static_cast<std::size_t>(spin.child)].X_ML;
+    const Vec3 axis = (X_MC.inverse() * X_ML * spin.X_LcJ).linear() * spin.axis;
+    if (axis.y() < 0.999)
+      faults.error(*e->FirstChildElement("joint"), name, "a sprocket turns about y of the link that carries its belt",
+                   "write <xyz>0 1 0</xyz>, and turn that link so that x is ahead and z up");
+    check_track(*e, *wheel, X_MC.inverse() * (X_ML * Vec3(spin.X_LcJ.translation())), faults);
+    if (machine.has_drive && !std::holds_alternative<scene::DifferentialDrive>(machine.drive))
+      faults.error(*e, scene::drive_name(machine.drive), "tracks steer by the difference of their speeds",
+                   "use <navvy:drive type=\"differential\">");
+  }
+}
+
 scene::Drive read_drive(Element& element, Faults& faults) {
   const std::string type = attribute(element, "type");
   // Every kind of the variant by its name, so that a new one is offered here as soon as it has a read_kind.

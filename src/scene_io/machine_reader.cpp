@@ -119,6 +119,33 @@ void read_balls(Element& model, scene::Machine& machine, Faults& faults) {
   }
 }
 
+/// Brakes of joints that turn or slide; one that spins a wheel has the drive's.
+void read_brakes(Element& model, scene::Machine& machine, Faults& faults) {
+  using Type = scene::Joint::Type;
+  for (Element* of = model.FirstChildElement("joint"); of; of = of->NextSiblingElement("joint")) {
+    Element* element = of->FirstChildElement("navvy:brake");
+    if (element == nullptr) continue;
+    double torque = 0, force = 0;
+    Fields fields(*element, faults);
+    fields.number("torque_nm", torque, {1e-3, 1e9}).number("force_n", force, {1e-3, 1e9}).finish();
+    const std::string name = attribute(*of, "name");
+    const int joint = machine.joint_index(name);
+    if (joint < 0) continue;
+    scene::Joint& about = machine.joints[static_cast<std::size_t>(joint)];
+    const bool turns = about.type == Type::kRevolute;
+    if (!turns && about.type != Type::kPrismatic)
+      faults.error(*element, attribute(*of, "type"), "a brake holds a joint that turns or slides", "take it out");
+    else if (fields.has("torque_nm") != turns || fields.has("force_n") == turns)
+      faults.error(*element, "", turns ? "a revolute joint needs <torque_nm>" : "a prismatic joint needs <force_n>",
+                   "what the brake holds at most");
+    for (const scene::Wheel& wheel : machine.wheels)
+      if (wheel.joint == name)
+        faults.error(*element, name, "this joint spins a wheel, which the drive brakes",
+                     "take it out; brake_force_n of <navvy:drive> and the input drive/brake hold wheels");
+    about.brake = turns ? torque : force;
+  }
+}
+
 }  // namespace
 
 void read_initial_position(Element& element, scene::Machine& machine, Faults& faults) {
@@ -176,6 +203,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
   machine.kinematic = kinematic;
   read_balls(model, machine, faults);
   read_extensions(model, names, machine, faults);
+  read_brakes(model, machine, faults);
   for (scene::Link& link : machine.links)
     if (const Element* of = named_child(model, "link", link.name))
       if (const Element* material = of->FirstChildElement("navvy:material")) {
@@ -208,6 +236,7 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
     const std::string kind = e->Name();
     if (kind == "navvy:cylinder") machine.cylinders.push_back(read_cylinder(*e, names, faults));
     if (kind == "navvy:wheel") machine.wheels.push_back(read_wheel(*e, names, faults));
+    if (kind == "navvy:track") machine.wheels.push_back(read_track(*e, names, faults));
     if (kind == "navvy:shell") machine.shells.push_back(read_shell(*e, names, faults));
     if (kind == "navvy:bucket") machine.buckets.push_back(read_bucket(*e, names, faults));
     if (kind == "navvy:bed") {
@@ -230,12 +259,13 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
       machine.has_drive = true;
       machine.drive = read_drive(*e, faults);
       drive = e;
-      if (!model.FirstChildElement("navvy:wheel"))
-        faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>");
+      if (!model.FirstChildElement("navvy:wheel") && !model.FirstChildElement("navvy:track"))
+        faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>, or <navvy:track>");
     }
   }
   // After the arm, wherever it stands in the file.
   if (Element* levers = model.FirstChildElement("navvy:levers")) read_levers(*levers, machine, faults);
+  if (has_joints) check_tracks(model, machine, faults);
   for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
   if (drive != nullptr && has_joints && !machine.wheels.empty()) check_wheels(*drive, machine, faults);
 }

@@ -236,6 +236,7 @@ const Extension kExtensions[] = {
     {"world", "navvy:materials"},
     {"link", "navvy:material"},
     {"joint", "navvy:ball"},
+    {"joint", "navvy:brake"},
     {"world", "navvy:soil"},
     {"world", "navvy:ground"},
     {"world", "navvy:solver"},
@@ -257,6 +258,7 @@ const Extension kExtensions[] = {
     {"model", "navvy:arm"},
     {"model", "navvy:cylinder"},
     {"model", "navvy:wheel"},
+    {"model", "navvy:track"},
     {"model", "navvy:drive"},
     {"model", "navvy:shell"},
     {"model", "navvy:bucket"},
@@ -353,9 +355,9 @@ bool may_repeat(const char* name) {
   // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
   // first and drop the others.
   for (const char* repeatable :
-       {"model",       "include",        "light",       "link",        "joint",        "frame",        "visual",
-        "collision",   "plugin",         "sensor",      "physics",     "navvy:soil",   "navvy:camera", "navvy:record",
-        "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:shell", "navvy:bucket", "navvy:encoder"})
+       {"model",       "include",        "light",       "link",        "joint",       "frame",        "visual",
+        "collision",   "plugin",         "sensor",      "physics",     "navvy:soil",  "navvy:camera", "navvy:record",
+        "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:track", "navvy:shell", "navvy:bucket", "navvy:encoder"})
     if (std::strcmp(name, repeatable) == 0) return true;
   return false;
 }

@@ -62,6 +62,8 @@ const Count kCounts[] = {
     {"model", "navvy:joint", limits::kLinks},
     {"model", "navvy:cylinder", limits::kLinks},
     {"model", "navvy:wheel", limits::kLinks},
+    {"model", "navvy:track", limits::kLinks},
+    {"navvy:track", "roller_m", limits::kLinks},
     {"model", "navvy:shell", limits::kShells},
     {"model", "navvy:bucket", limits::kShells},
     {"model", "navvy:bed", limits::kShells},

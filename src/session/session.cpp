@@ -218,6 +218,11 @@ void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInp
   state_->take_over(machine.index());
   state_->world.command(machine, input);
 }
+void Session::brake(const sim::JointHandle& joint, bool on) {
+  state_->world.require_valid(joint, vehicle::JointInput{});
+  state_->take_over(joint.machine());
+  state_->world.brake(joint, on);
+}
 void Session::command(const sim::MachineHandle& machine, const vehicle::BaseInput& input) {
   state_->world.require_valid(machine, input);
   state_->take_over(machine.index());

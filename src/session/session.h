@@ -53,6 +53,7 @@ class Session {
   void set(const std::string& input, double value);
   void command(const sim::JointHandle& joint, const vehicle::JointInput& input);
   void command(const sim::MachineHandle& machine, const vehicle::DriveInput& input);
+  void brake(const sim::JointHandle& joint, bool on);
   void command(const sim::MachineHandle& machine, const vehicle::BaseInput& input);
   /// Adds a sensor or a map; it looks at the world at once and then at its rate. @throws InputError as World::add.
   void add(std::unique_ptr<sim::Sampler> sampler);

@@ -92,6 +92,9 @@ class World {
   /// @throws InputError for a handle of no machine of this world, or a value that is not finite; nothing changes then.
   void command(const JointHandle& joint, const vehicle::JointInput& input);
   void command(const MachineHandle& machine, const vehicle::DriveInput& input);
+  /// Puts a joint's brake on or off; what the joint is told meanwhile waits. @throws InputError for a joint without
+  /// one.
+  void brake(const JointHandle& joint, bool on);
   /// Of a kinematic machine: where its base goes. @throws InputError also for a machine that forces move.
   void command(const MachineHandle& machine, const vehicle::BaseInput& input);
   /// Only what `command` refuses. @throws InputError likewise.

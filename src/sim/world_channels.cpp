@@ -82,6 +82,12 @@ void add_joints(World& world, const MachineHandle& machine, const std::string& p
                 [handle] { return handle.velocity(); });
     outputs.add({base + "effort", linear ? "N" : "N m", "as applied in the last step"},
                 [handle] { return handle.effort(); });
+    if (joint.brake > 0) {
+      inputs.add({base + "brake", "1", "1 holds the joint whatever it is told, 0 lets go", machine.index()},
+                 [&world, handle](double on) { world.brake(handle, on != 0); });
+      outputs.add({base + "brake", "1", "1 while its brake is on"},
+                  [handle] { return handle.state().braked ? 1.0 : 0.0; });
+    }
     // Only where it means something: a column of zeros would suggest a cylinder without load.
     if (has_cylinder)
       outputs.add({base + "cylinder_force", "N", "of the cylinder on this joint"},
@@ -297,6 +303,15 @@ void add_stability(const MachineHandle& machine, const std::string& prefix, Outp
   outputs.add({prefix + "stability/margin", "m",
                "of the centre of mass, without soil, from the nearest edge between its feet; negative outside"},
               [machine] { return machine.stability().margin; });
+  if (machine.description().joint_index(machine.description().arm.bucket) < 0) return;
+  outputs.add({prefix + "stability/tipping_load", "kg",
+               "on the bucket's pin, that tips it over its weakest edge; 1e6 where none can"},
+              [machine] { return machine.stability().tipping_load; });
+  outputs.add({prefix + "stability/tipping_heading", "rad", "towards that edge, from ahead, positive to the left"},
+              [machine] { return machine.stability().tipping_heading; });
+  outputs.add({prefix + "stability/loaded_margin", "m",
+               "as margin, of the point where the ground bears it: with soil and loads"},
+              [machine] { return machine.stability().loaded_margin; });
 }
 
 /// Forces are what soil and rock do to the tool, axes of W.

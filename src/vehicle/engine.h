@@ -9,6 +9,7 @@
 #include "core/archive.h"
 #include "core/math.h"
 #include "scene/machine.h"
+#include "terramechanics/belt.h"
 #include "terramechanics/ground_query.h"
 #include "vehicle/machine_state.h"
 
@@ -32,6 +33,9 @@ class Engine {
   /// freely). A wheel's or steering joint taken by set_joint is the drive's again with the next set_drive.
   virtual void set_joint(int machine, int joint, const JointInput& input) = 0;
   virtual void set_drive(int machine, const DriveInput& input) = 0;
+  /// Puts the brake of a joint on or off, whatever the joint is told meanwhile: it holds the joint where it stands by
+  /// scene::Joint::brake at most. Nothing to a joint without a brake.
+  virtual void set_brake(int machine, int joint, bool on) = 0;
   /// The command the drive follows now.
   virtual DriveInput drive(int machine) const = 0;
 
@@ -63,6 +67,12 @@ class Engine {
   virtual JointState joint(int machine, int joint) const = 0;
   virtual LinkState link(int machine, int link) const = 0;
   virtual WheelState wheel(int machine, int wheel) const = 0;
+  /// Where the belt of a track pressed on the ground in the last step; none of a wheel without one, and from engines
+  /// without forces.
+  virtual std::vector<terramechanics::BeltPatch> belt_patches(int machine, int wheel) const {
+    (void)machine, (void)wheel;
+    return {};
+  }
   /// Zeros for a machine without a pump, and from engines that have none.
   virtual PumpState pump(int machine) const {
     (void)machine;

@@ -94,6 +94,12 @@ void JointServo::settle(const Demand& demand, const JointLimits& limits, double 
   stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
 }
 
+void JointServo::rest() {
+  velocity_ = wanted_ = stall_time_ = 0;
+  share_ = 1;
+  saturated_ = holding_ = flows_ = false;
+}
+
 void JointLimits::visit(Archive& a) {
   a("effort_positive", effort_positive);
   a("effort_negative", effort_negative);

@@ -40,6 +40,8 @@ class JointServo {
   Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double share, double dt);
   /// Tells what came of it: effort applied and velocity reached.
   void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd, double dt);
+  /// A brake has the joint: the valve closes at once, and forgets what it held.
+  void rest();
   bool stalled() const { return stall_time_ > kStallTime; }
 
   void visit(Archive& a);

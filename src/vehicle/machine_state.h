@@ -38,6 +38,7 @@ struct JointState {
   double cylinder_force = 0;                      ///< [N], 0 where no cylinder acts; positive pushes
   double cylinder_length = 0;                     ///< [m]
   bool stalled = false;                           ///< at the effort limit and not moving as told
+  bool braked = false;                            ///< its brake is on
 };
 
 /// The pump of a machine's cylinders.
@@ -71,7 +72,16 @@ struct Stability {
   /// Seen from above: how far the centre of mass is within the polygon of its feet, negative outside [m]. 0 where they
   /// span no area, as the two wheels of a robot that balances: its tilt alone tells.
   double margin = 0;
+  /// Of machines with a bucket's joint: mass [kg] that tips it over its weakest edge when it hangs there besides all
+  /// links; kNoTippingLoad where no edge can tip. 0 of one that tips already, and of others.
+  double tipping_load = 0;
+  double tipping_heading = 0;  ///< towards that edge, from x of the base link, positive to the left [rad]
+  /// As margin, of the point where the ground bears it: with soil, loads and what hangs on it [m].
+  double loaded_margin = 0;
 };
+
+/// The load point stands over the feet, so that no load tips the machine [kg].
+inline constexpr double kNoTippingLoad = 1e6;
 
 /// A wheel after the last step, its tyre's force included. Engines without forces leave force, slip and sinkage 0.
 struct WheelState {

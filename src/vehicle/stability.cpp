@@ -2,6 +2,7 @@
 #include "vehicle/stability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +28,61 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
     std::reverse(points.begin(), points.end());
   }
   return hull;
+}
+
+/// What bears a machine: where, and with what force of the last step.
+struct Bearing {
+  Vec3 p_W = Vec3::Zero(), f_W = Vec3::Zero();
+};
+
+/// Straight down from the centre of a wheel, in its plane: an axle that is tilted has its foot aside.
+Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
+  const Vec3 axis = X_WWheel.linear().col(1);
+  const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
+  return X_WWheel.translation() + wheel.radius * down.stableNormalized();
+}
+
+/// The feet of wheel `w`: one, or the ends of its belt's lower run.
+std::vector<Vec3> feet_of(const scene::Machine& machine, const Engine& engine, int index, std::size_t w) {
+  const scene::Wheel& wheel = machine.wheels[w];
+  if (!wheel.track) return {foot_of(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
+  const int joint = machine.joint_index(wheel.joint);
+  const Pose X_WC = engine.link(index, machine.joints[static_cast<std::size_t>(joint)].parent).X_WL;
+  const std::array<Vec3, 2> run = wheel.track->lower_run();
+  return {X_WC * run[0], X_WC * run[1]};
+}
+
+/// A belt's force is shared out as its rollers press.
+std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engine, int index) {
+  std::vector<Bearing> out;
+  for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+    const WheelState wheel = engine.wheel(index, static_cast<int>(w));
+    if (!machine.wheels[w].track) {
+      out.push_back({foot_of(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
+      continue;
+    }
+    const std::vector<terramechanics::BeltPatch> patches = engine.belt_patches(index, static_cast<int>(w));
+    double load = 0;
+    for (const terramechanics::BeltPatch& patch : patches) load += patch.load;
+    for (const terramechanics::BeltPatch& patch : patches)
+      out.push_back({patch.p_W, patch.load / load * wheel.force_W});
+  }
+  return out;
+}
+
+/// Where the ground bears the machine: the place below which all its forces turn about nothing, at the height of the
+/// feet.
+bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
+  double load = 0, height = 0;
+  for (const Bearing& one : bearings) {
+    load += one.f_W.z();
+    height += one.p_W.z() / static_cast<double>(bearings.size());
+  }
+  if (!(load > 0)) return false;
+  out.setZero();
+  for (const Bearing& one : bearings)
+    out += (one.f_W.z() * one.p_W.head<2>() - (one.p_W.z() - height) * one.f_W.head<2>()) / load;
+  return true;
 }
 
 /// Machines stand on what reaches down to within this share of a wheel's radius of its foot.
@@ -96,6 +152,21 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   return inside ? least : -least;
 }
 
+TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass, const Vec2& load_point) {
+  TippingLoad out;
+  const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
+  if (hull.size() < 3) return {0, Vec2::Zero()};
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const Vec2 outward(edge.y(), -edge.x());
+    const double inside = -outward.dot(centre - hull[i]), lever = outward.dot(load_point - hull[i]);
+    if (inside <= 0) return {0, outward};
+    if (lever <= 0 || mass * inside >= out.load * lever) continue;
+    out = {mass * inside / lever, outward};
+  }
+  return out;
+}
+
 Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
@@ -120,17 +191,29 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
   std::vector<Vec2> feet;
   double height = 0, radius = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
-    const Pose X = engine.wheel(index, static_cast<int>(w)).X_WWheel;
-    // Straight down from the centre, in the wheel's plane: an axle that is tilted has its foot aside.
-    const Vec3 axis = X.linear().col(1);
-    const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
-    const Vec3 foot = X.translation() + machine.wheels[w].radius * down.stableNormalized();
-    feet.push_back(foot.head<2>());
-    height += up.dot(foot) / double(machine.wheels.size());
+    const std::vector<Vec3> own = feet_of(machine, engine, index, w);
+    for (const Vec3& foot : own) {
+      feet.push_back(foot.head<2>());
+      height += up.dot(foot) / double(machine.wheels.size() * own.size());
+    }
     radius = std::min(radius, machine.wheels[w].radius);
   }
   for (const Vec3& p : skids(machine, engine, index, height, radius)) feet.push_back(p.head<2>());
-  out.margin = support_margin(std::move(feet), centre_of_mass(machine, engine, index).head<2>());
+  const Vec2 centre = centre_of_mass(machine, engine, index).head<2>();
+  out.margin = support_margin(feet, centre);
+  const int joint = machine.joint_index(machine.arm.bucket);
+  if (joint < 0) return out;
+  const scene::Joint& pin = machine.joints[static_cast<std::size_t>(joint)];
+  const Vec3 load_point = engine.link(index, pin.child).X_WL * Vec3(pin.X_LcJ.translation());
+  double mass = 0;
+  for (const scene::Link& link : machine.links) mass += link.mass;
+  const TippingLoad weakest = tipping_load(feet, centre, mass, load_point.head<2>());
+  out.tipping_load = weakest.load;
+  const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
+  out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
+  Vec2 borne = centre;
+  if (centre_of_pressure(bearings(machine, engine, index), borne))
+    out.loaded_margin = support_margin(std::move(feet), borne);
   return out;
 }
 

@@ -104,6 +104,7 @@ class BulletEngine final : public Engine {
 
   void set_joint(int machine, int joint, const JointInput& input) override { at(machine).set_joint(joint, input); }
   void set_drive(int machine, const DriveInput& input) override { at(machine).set_drive(input); }
+  void set_brake(int machine, int joint, bool on) override { at(machine).set_brake(joint, on); }
   DriveInput drive(int machine) const override { return at(machine).drive(); }
   void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) override {
     at(machine).apply_impulse(link, J_W, L_W, p_W);
@@ -149,6 +150,9 @@ class BulletEngine final : public Engine {
   JointState joint(int machine, int joint) const override { return at(machine).joint(joint); }
   LinkState link(int machine, int link) const override { return at(machine).tree().link(link); }
   WheelState wheel(int machine, int wheel) const override { return at(machine).wheel(wheel); }
+  std::vector<terramechanics::BeltPatch> belt_patches(int machine, int wheel) const override {
+    return at(machine).belt_patches(wheel);
+  }
   Vec3 rock_impulse(int machine, int shell) const override { return at(machine).rock_impulse(shell); }
   PumpState pump(int machine) const override { return at(machine).pump(); }
   EngineState drive_engine(int machine) const override { return at(machine).engine(); }

@@ -10,6 +10,9 @@
 namespace navvy::vehicle {
 namespace {
 
+constexpr double kBrakeGain = 10;  // [1/s] back to the place at which a brake took the joint
+constexpr double kSlips = 0.02;    // [rad/s|m/s] a braked joint that is faster slips through its brake
+
 bool moves(const scene::Joint& joint) {
   return joint.type == scene::Joint::Type::kRevolute || joint.type == scene::Joint::Type::kPrismatic;
 }
@@ -27,6 +30,7 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     const scene::Joint& joint = machine.joints[j];
     // Whatever nobody commands stays where it is.
     actuators_[j].servo.set({JointMode::kPosition, joint.initial});
+    actuators_[j].has_brake = joint.brake > 0 && moves(joint);
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
     const int k = tree.bullet_of_joint(static_cast<int>(j));
     if (k >= 0 && joint.type == scene::Joint::Type::kBall && (joint.cone < kPi || joint.twist < kPi)) {
@@ -46,6 +50,24 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
 // Positions only change at the end of a step and by a snapshot, so this is all that linkages ever cost.
 void MachineJoints::placed() {
   for (int c = 0; c < hydraulics_.count(); ++c) hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
+}
+
+void MachineJoints::set_brake(int joint, bool on) {
+  Actuator& a = (*this)[joint];
+  if (!a.has_brake || a.braked == on) return;
+  a.braked = on;
+  a.held = tree_.position(joint);
+  // Let go, it holds where it is until its valve opens.
+  a.servo.rest();
+}
+
+JointServo::Demand MachineJoints::hold(int joint, double dt) {
+  Actuator& a = (*this)[joint];
+  const double q = tree_.position(joint);
+  // While it still turns, or is dragged on, the place goes along.
+  if (std::abs(tree_.velocity(joint)) > kSlips) a.held = q;
+  const double most = machine_.joints[static_cast<std::size_t>(joint)].brake;
+  return {std::min(kBrakeGain, 0.2 / dt) * (a.held - q), -most, most, 0};
 }
 
 void MachineJoints::note_speeds() {
@@ -97,7 +119,9 @@ void MachineJoints::begin_step(double dt) {
     if (!constraints_[j] || is_drives(a)) continue;
     const int joint = static_cast<int>(j);
     a.limits = limits(joint);
-    a.opened = a.servo.open(machine_.joints[j], a.limits, tree_.position(joint), tree_.velocity(joint), dt);
+    // Its valve stays closed.
+    a.opened =
+        a.braked ? 0 : a.servo.open(machine_.joints[j], a.limits, tree_.position(joint), tree_.velocity(joint), dt);
   }
   const double share = share_oil(dt);
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
@@ -110,7 +134,7 @@ void MachineJoints::begin_step(double dt) {
     if (!is_drives(a)) {
       // Joints without a cylinder (a swing motor) do not share the pump.
       const double oil = hydraulics_.of_joint(joint) >= 0 ? share : 1.0;
-      a.demand = a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
+      a.demand = a.braked ? hold(joint, dt) : a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
       constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt, a.demand.effort_high * dt);
     }
     // Viscous friction, no stronger than what stops the joint within the step.
@@ -131,7 +155,7 @@ void MachineJoints::end_step(double dt) {
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
     work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
     // The servo hears the row alone: a feed-forward never saturates it.
-    a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
+    if (!a.braked) a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
     // What a load pushes back goes to the tank.
     const double driven = a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
     const int cylinder = hydraulics_.of_joint(joint);
@@ -162,6 +186,7 @@ JointState MachineJoints::state(int joint) const {
     state.cylinder_force = std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
   }
   state.stalled = a.servo.stalled();
+  state.braked = a.braked;
   return state;
 }
 
@@ -169,6 +194,10 @@ void Actuator::visit(Archive& a) {
   a("servo", servo);
   a("driven", driven);
   a("effort", effort);
+  if (has_brake) {
+    a.unhashed("hashed by the place it holds, while it is on", [&] { a("braked", braked); });
+    if (braked) a("held", held);
+  }
   // The drive turns a wheel without its servo, which then goes by what it last had. Others get theirs in every step.
   if (!spins_wheel) return;
   a("limits", limits);

@@ -23,6 +23,9 @@ struct Actuator {
   double opened = 0;  // velocity that the valve lets through with oil enough
   double effort = 0;  // in the last step
   double speed_before = 0;
+  bool has_brake = false;  // never changes
+  bool braked = false;     // by command, whatever the servo is told
+  double held = 0;         // where the brake holds it [rad|m]
 
   void visit(Archive& a);
 };
@@ -49,6 +52,9 @@ class MachineJoints {
   /// Fastest turning of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 
+  /// Nothing to a joint without a brake.
+  void set_brake(int joint, bool on);
+
   /// Velocities before anything acts: work is counted from them.
   void note_speeds();
   /// Before the solver: valves, oil, rows and damping.
@@ -68,6 +74,8 @@ class MachineJoints {
   void placed();
   /// What effort and speed are to be had in this step.
   JointLimits limits(int joint) const;
+  /// What the brake of a joint asks of its row in this step.
+  JointServo::Demand hold(int joint, double dt);
   /// Share of its oil that every function gets.
   double share_oil(double dt);
   bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }

@@ -48,6 +48,7 @@ class BulletMachine {
   /// Takes the joint from the drive until the drive's next command.
   void set_joint(int joint, const JointInput& input);
   void set_drive(const DriveInput& input) { drive_.set(input); }
+  void set_brake(int joint, bool on) { joints_.set_brake(joint, on); }
   const DriveInput& drive() const { return drive_.input(); }
   /// Force [N] at p_W during the next step; impulse [N s, N m s] at once. Both are counted as external.
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
@@ -73,6 +74,7 @@ class BulletMachine {
   /// As they are between two steps; indices of scene::Machine.
   JointState joint(int joint) const { return joints_.state(joint); }
   WheelState wheel(int wheel) const;
+  std::vector<terramechanics::BeltPatch> belt_patches(int wheel) const { return wheels_.belt_patches(wheel); }
   /// Of the rock on a shell in the last step [N s].
   const Vec3& rock_impulse(int shell) const { return rock_.at(static_cast<std::size_t>(shell))->impulse(); }
   /// Zeros without a pump.

@@ -140,6 +140,8 @@ void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCo
     for (std::size_t w = 0; w < machines[m]->wheels().size(); ++w) {
       MachineWheels& wheels = machines[m]->wheels();
       wheels[w].body_W.setZero();
+      // What a crawler's belt runs into its carrier's own shapes meet.
+      if (wheels.about(w).track) continue;
       const Pose X_WWheel = wheels.motion(wheels[w]).X_WWheel;
       const double offset = terramechanics::track_offset(wheels.about(w));
       for (std::size_t track = 0; track < 2; ++track) {

@@ -47,6 +47,10 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : ma
       wheel.steer_joint = machine.joint_index(about.steer_joint);
       if (wheel.steer_joint < 0) refuse("wheel", about.steer_joint, "no joint of this name");
     }
+    if (about.track) {
+      wheel.belt = terramechanics::BeltState::of(*about.track);
+      if (tree.bullet_of_joint(wheel.spin_joint) < 0) refuse("track", about.joint, "its sprocket cannot turn");
+    }
     wheels_.push_back(wheel);
   }
 }
@@ -68,12 +72,49 @@ Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
   Vec3 impulse = Vec3::Zero();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     MachineWheel& wheel = wheels_[w];
+    if (machine_.wheels[w].track) {
+      push_belt(w, ground, dt);
+      impulse += dt * wheel.force.force_W;
+      continue;
+    }
     const terramechanics::TyreMotion now = motion(wheel);
     wheel.force = terramechanics::tyre_force(machine_.wheels[w], now, ground, dt, wheel.tyre);
     tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W, now.X_WWheel.translation());
     impulse += dt * wheel.force.force_W;
   }
   return impulse;
+}
+
+terramechanics::BeltMotion MachineWheels::belt_motion(const MachineWheel& wheel) const {
+  const LinkState carrier = tree_.link(wheel.carrier_link);
+  terramechanics::BeltMotion motion;
+  motion.X_WC = carrier.X_WL;
+  motion.v_W = carrier.v_WL;
+  motion.w_W = carrier.w_WL;
+  motion.p_sprocket = wheel.center_C;
+  motion.spin = tree_.velocity(wheel.spin_joint);
+  motion.spin_inertia = wheel.spin_inertia;
+  return motion;
+}
+
+void MachineWheels::push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt) {
+  MachineWheel& wheel = wheels_[w];
+  const terramechanics::BeltForce force =
+      terramechanics::belt_force(machine_.wheels[w], belt_motion(wheel), ground, dt, wheel.belt);
+  // The carrier bears what acts on the lower run; what that does along the belt goes to the sprocket as a torque.
+  for (const terramechanics::BeltForce::Push& push : force.pushes)
+    tree_.add_force(wheel.carrier_link, push.f_W, Vec3::Zero(), push.p_W);
+  tree_.multibody().addJointTorque(tree_.bullet_of_joint(wheel.spin_joint), force.torque);
+  wheel.force = {};
+  wheel.force.force_W = force.force_W;
+  wheel.force.slip = force.slip;
+  wheel.force.sinkage = force.sinkage;
+}
+
+std::vector<terramechanics::BeltPatch> MachineWheels::belt_patches(int i) const {
+  const auto w = static_cast<std::size_t>(i);
+  if (!machine_.wheels.at(w).track) return {};
+  return terramechanics::belt_patches(machine_.wheels[w], belt_motion(wheels_[w]), wheels_[w].belt);
 }
 
 WheelState MachineWheels::state(int i) const {
@@ -97,6 +138,7 @@ void MachineWheel::visit(Archive& a) {
   a("force", force);
   a("held_spin", held_spin);
   a("braked", braked);
+  if (!belt.contacts.empty()) a.fixed("belt", belt.contacts);
 }
 
 }  // namespace navvy::vehicle

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "terramechanics/belt.h"
 #include "terramechanics/tyre.h"
 #include "vehicle/bullet/body.h"
 
@@ -22,6 +23,8 @@ struct MachineWheel {
   terramechanics::TyreForce force;  // of the last step
   double held_spin = 0;             // angle at which the brake holds [rad]
   bool braked = false;
+  // Of a crawler's sprocket: the belt on its rollers; no contacts of others.
+  terramechanics::BeltState belt;
 
   // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
   Vec3 body_W = Vec3::Zero();
@@ -53,8 +56,14 @@ class MachineWheels {
 
   /// For outputs and ruts: where it is now, what acted on it in the last step.
   WheelState state(int wheel) const;
+  /// Where its belt presses, with the loads of the last step; none of a wheel without one.
+  std::vector<terramechanics::BeltPatch> belt_patches(int wheel) const;
 
  private:
+  terramechanics::BeltMotion belt_motion(const MachineWheel& wheel) const;
+  /// Adds the forces on a crawler's belt, and its torque on the sprocket.
+  void push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
+
   // Tyre data stay in the machine; a wheel here knows its place in the tree.
   const scene::Machine& machine_;
   TreeBody& tree_;

@@ -23,7 +23,8 @@ struct Body {
   Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();
   std::vector<JointInput> input;
   std::vector<double> q, qd;
-  std::vector<std::uint8_t> taken;  // by joint: a command has it, of those that the drive moves
+  std::vector<std::uint8_t> braked;  // by joint
+  std::vector<std::uint8_t> taken;   // by joint: a command has it, of those that the drive moves
   DriveInput drive;
   bool placed = false;  // base inputs move it, not its drive
   BaseInput goal;
@@ -53,6 +54,7 @@ class KinematicEngine final : public Engine {
     body.q.resize(machine.joints.size());
     body.qd.assign(machine.joints.size(), 0);
     body.taken.assign(machine.joints.size(), 0);
+    body.braked.assign(machine.joints.size(), 0);
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       body.q[j] = machine.joints[j].initial;
       body.input.push_back({JointMode::kPosition, body.q[j]});
@@ -79,6 +81,10 @@ class KinematicEngine final : public Engine {
           body.taken[index(joint)] = 0;
           body.input[index(joint)] = {JointMode::kFree, 0};
         }
+  }
+  void set_brake(int machine, int joint, bool on) override {
+    Body& body = at(machine);
+    if (body.machine.joints.at(index(joint)).brake > 0) body.braked[index(joint)] = on ? 1 : 0;
   }
   DriveInput drive(int machine) const override { return at(machine).drive; }
   void set_base(int machine, const BaseInput& input) override {
@@ -113,6 +119,7 @@ class KinematicEngine final : public Engine {
     state.velocity = body.qd[index(joint)];
     state.effort_limit = about.effort;
     state.velocity_limit = about.velocity;
+    state.braked = body.braked[index(joint)] != 0;
     for (const scene::Cylinder& cylinder : body.machine.cylinders)
       if (cylinder.joint == about.name)
         state.cylinder_length = cylinder_geometry(body.machine, cylinder, state.position).length;
@@ -160,6 +167,7 @@ class KinematicEngine final : public Engine {
     a.fixed("qd", body.qd);
     a.fixed("input", body.input);
     a.fixed("taken", body.taken);
+    for (std::size_t j = 0; j < body.braked.size(); ++j) visit_brake(body, j, a);
     a("drive", body.drive);
     if (const scene::DriveEngine* engine = scene::drive_engine(body.machine.drive))
       a.ranged("gear", body.drive.gear, 0, static_cast<int>(engine->gears.size()));
@@ -174,6 +182,11 @@ class KinematicEngine final : public Engine {
     if (a.loading()) update_links(body);
   }
 
+  static void visit_brake(Body& body, std::size_t j, Archive& a) {
+    if (!(body.machine.joints[j].brake > 0)) return;
+    a.unhashed("hashed while it is on", [&] { a.ranged("braked", body.braked[j], 0, 1); });
+    if (body.braked[j] != 0) a("on", body.braked[j]);
+  }
   /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where it stands, if it has
   /// one, and no more than the joint's own.
   static double opened_speed(const Body& body, std::size_t j, double opening) {
@@ -195,6 +208,7 @@ class KinematicEngine final : public Engine {
       if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
       if (body.input[j].mode == JointMode::kOpening) wanted += dt * opened_speed(body, j, body.input[j].target);
+      if (body.braked[j] != 0) wanted = body.q[j];
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
       // At the joint's largest rate at once: no inertia, no valve.
       const double most = joint.velocity * dt;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/track_ruts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "terramechanics/plate.h"
+
+namespace navvy::coupling {
+namespace {
+
+constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
+
+}  // namespace
+
+void TrackRuts::press_column(int ix, int iy, double pressure, double width, double most) {
+  const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
+  Memory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
+  const double height = ground_.height(ix, iy);
+  // Dug, filled or slumped since: fresh ground.
+  if (std::abs(height - memory.height) > kSameHeight) memory.pressure = 0;
+  if (pressure <= memory.pressure) return;
+  const double before = terramechanics::plate_sinkage(soil, memory.pressure, width);
+  double more = terramechanics::plate_sinkage(soil, pressure, width) - before;
+  // Cut short, it has borne no more than what its depth by now bears.
+  if (more > most) {
+    more = most;
+    pressure = terramechanics::plate_pressure(soil, before + most, width);
+  }
+  memory.pressure = pressure;
+  if (more > 0) ground_.compact_to(ix, iy, height - more);
+  memory.height = ground_.height(ix, iy);
+}
+
+void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone) {
+  // A column between two segments bears the heavier one, once: each presses further only by what it bears more.
+  std::map<std::int64_t, std::pair<double, double>> under;  // pressure [Pa] and width [m]
+  for (const terramechanics::BeltPatch& patch : patches) {
+    const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
+    const Vec2 middle = patch.p_W.head<2>();
+    const double reach = 0.5 * std::hypot(patch.length, patch.width);
+    const double pressure = patch.load / (patch.length * patch.width);
+    const Vec2i low = ground_.column_at(middle.x() - reach, middle.y() - reach);
+    const Vec2i high = ground_.column_at(middle.x() + reach, middle.y() + reach);
+    for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
+      for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix) {
+        const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - middle;
+        if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > 0.5 * patch.width) continue;
+        auto& bears = under[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
+        bears = std::max(bears, std::pair(pressure, patch.width));
+      }
+  }
+  std::set<std::int64_t> columns;
+  for (const auto& [key, bears] : under) {
+    press_column(static_cast<int>(key % ground_.nx()), static_cast<int>(key / ground_.nx()), bears.first, bears.second,
+                 most);
+    columns.insert(key);
+  }
+  if (alone)
+    ground_.hold(std::move(columns));
+  else
+    ground_.hold_more(columns);
+}
+
+void TrackRuts::Memory::visit(Archive& a) {
+  a("pressure", pressure);
+  a("height", height);
+}
+
+void TrackRuts::visit(Archive& a) {
+  a.section("track_ruts", 1, [&] {
+    a("memory", memory_);
+    // Keys ascend, so the first and the last tell of all.
+    const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();
+    a.require(memory_.empty() || (memory_.begin()->first >= 0 && memory_.rbegin()->first < columns), "memory",
+              "a rut lies beside the site");
+  });
+}
+
+}  // namespace navvy::coupling

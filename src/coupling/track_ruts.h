@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ruts of crawlers: columns under a belt are pressed to the sinkage of their soil.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "core/archive.h"
+#include "heightfield/ground.h"
+#include "terramechanics/belt.h"
+
+namespace navvy::coupling {
+
+/// Presses what belts stand on, each segment as a plate of the belt's width under p = N / (b l) (plate.h), and
+/// remembers by column what it has borne: standing still, or another segment under the same load, adds nothing.
+///
+/// As Ruts does for tyres, with a memory of its own: where a tyre runs in a belt's rut it presses fresh ground.
+class TrackRuts {
+ public:
+  /// The ground must outlive it.
+  explicit TrackRuts(heightfield::Ground& ground) : ground_(ground) {}
+
+  /// Presses all patches of the world. No column sinks by more than `most` [m] at a time. Columns under belts are held
+  /// until the next call, those of tyres besides unless the belts are `alone`.
+  void press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone);
+
+  void visit(Archive& a);
+
+ private:
+  struct Memory {
+    double pressure = 0;  ///< largest borne [Pa]
+    double height = 0;    ///< surface it left behind [m]
+    void visit(Archive& a);
+  };
+  /// One column under `pressure` [Pa] of a plate of `width` [m], by its own soil.
+  void press_column(int ix, int iy, double pressure, double width, double most);
+
+  heightfield::Ground& ground_;
+  std::map<std::int64_t, Memory> memory_;  // by iy * nx + ix, ordered for repeatability
+};
+
+}  // namespace navvy::coupling

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terramechanics/belt.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terramechanics/plate.h"
+
+namespace navvy::terramechanics {
+namespace {
+
+constexpr double kFirmShear = 0.005;  // [m] give of a shoe on a firm floor (U)
+constexpr double kMostShear = 6;      // of K: 99.8 % of the strength; what is sheared further forgets no longer
+constexpr double kRest = 0.1;         // [m/s] faster shoes carry their stretch away, which damps by itself
+constexpr double kRoll = 0.05;        // [m/s] resistance turns round over this
+constexpr int kRays = 5;              // of idler and sprocket, every 20 degrees from straight down outward
+constexpr double kRayStep = radians(20);
+
+/// A wheel of the running gear as the ground sees it.
+struct RunningWheel {
+  Vec3 p_C = Vec3::Zero();  // middle, in the carrier [m]
+  double radius = 0;        // to the belt's outside [m]
+  double length = 0;        // of the belt under it [m]
+  int out = 0;              // 1: the foremost, looks ahead; -1: the last, looks back; 0: a roller
+};
+
+/// From front to rear.
+std::vector<RunningWheel> running_gear(const scene::Wheel& wheel, const Vec3& p_sprocket) {
+  const scene::Track& track = *wheel.track;
+  std::vector<RunningWheel> out;
+  const std::size_t n = track.rollers.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    // Half way to the neighbours; the outer ones bear as much belt beyond as within.
+    const double ahead = (track.rollers[i > 0 ? i - 1 : 0] - track.rollers[i > 0 ? i : 1]).norm();
+    const double behind = (track.rollers[i + 1 < n ? i : n - 2] - track.rollers[i + 1 < n ? i + 1 : n - 1]).norm();
+    out.push_back({track.rollers[i], track.roller_radius + track.thickness, 0.5 * (ahead + behind), 0});
+  }
+  RunningWheel idler{track.p_idler, track.idler_radius + track.thickness, 0, 1};
+  RunningWheel sprocket{p_sprocket, wheel.radius + track.thickness, 0, 1};
+  idler.length = 0.5 * idler.radius;
+  sprocket.length = 0.5 * sprocket.radius;
+  const bool idler_ahead = idler.p_C.x() > sprocket.p_C.x();
+  (idler_ahead ? sprocket : idler).out = -1;
+  out.insert(out.begin(), idler_ahead ? idler : sprocket);
+  out.push_back(idler_ahead ? sprocket : idler);
+  return out;
+}
+
+/// Where one wheel meets ground.
+struct Meeting {
+  Vec3 p_W = Vec3::Zero(), normal = Vec3::UnitZ();
+  double depth = 0;  // above 0: it touches [m]
+};
+
+/// A roller on a firm floor, which pushes along its own normal however the machine leans on its rollers.
+Meeting meet_floor(const RunningWheel& wheel, const Vec3& center, const GroundQuery& ground) {
+  const Vec3 n = ground.normal(center.x(), center.y());
+  const Vec3 p = center - wheel.radius * n;
+  return {p, n, std::clamp(n.z() * (ground.height(p.x(), p.y()) - p.z()), 0.0, 0.5 * wheel.radius)};
+}
+
+/// Along rays from the middle: a roller looks straight down, the outer wheels also outward.
+Meeting meet(const RunningWheel& wheel, const Pose& X_WC, const GroundQuery& ground) {
+  const Vec3 ahead = X_WC.linear().col(0), up = X_WC.linear().col(2);
+  const Vec3 center = X_WC * wheel.p_C;
+  if (wheel.out == 0 && ground.soil(center.x(), center.y()).soil == nullptr) return meet_floor(wheel, center, ground);
+  Meeting best;
+  for (int i = 0; i < (wheel.out == 0 ? 1 : kRays); ++i) {
+    const Vec3 ray = std::sin(kRayStep * i) * wheel.out * ahead - std::cos(kRayStep * i) * up;
+    const Vec3 p = center + wheel.radius * ray;
+    const double height = ground.height(p.x(), p.y());
+    if (height <= p.z()) continue;
+    const Vec3 n = ground.normal(p.x(), p.y());
+    // Of the plane of the ground there, along the ray; one that hangs over counts as level.
+    const double depth = n.z() * (height - p.z()) / std::max(-n.dot(ray), 0.3);
+    if (depth > best.depth) best = {p, -ray, std::min(depth, 0.5 * wheel.radius)};
+  }
+  return best;
+}
+
+/// How one step goes on for all contacts.
+struct Step {
+  const scene::Wheel& wheel;
+  const BeltMotion& motion;
+  const GroundQuery& ground;
+  double dt = 0, belt_speed = 0, rim_mass = 0;
+
+  Vec3 velocity(const Vec3& p_W) const { return motion.v_W + motion.w_W.cross(p_W - motion.X_WC.translation()); }
+};
+
+/// Shear force (ahead, left) [N] on the shoes of a contact that slip by `slip` [m/s] and are sheared by `shear` [m].
+Vec2 shear_force(const Step& step, double area, double load, const SoilState& soil, const Vec2& shear,
+                 const Vec2& slip) {
+  const ShearStrength strength = belt_strength(step.wheel, soil);
+  const double most = area * strength.cohesion + load * strength.slope;
+  if (!(most > 0)) return Vec2::Zero();
+  // Not stiffer than what the step can bear with the mass of the belt alone.
+  const double K = std::max(soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear,
+                            most * step.dt * step.dt / (0.25 * step.rim_mass));
+  const double j = shear.norm(), share = mobilised_share(j, K);
+  Vec2 force = j > 0 ? Vec2(-most * share / j * shear) : Vec2(Vec2::Zero());
+  const double damping = std::min(0.8 * std::sqrt(most / K * step.rim_mass), 0.3 * step.rim_mass / step.dt);
+  force -= damping * std::exp(-std::abs(step.belt_speed) / kRest) * slip;
+  return force.norm() > most ? Vec2(most * force.normalized()) : force;
+}
+
+/// How deep the belt's leading end stands in ground that it has not pressed yet, and what pressing costs [N].
+double compaction(const Step& step, const std::vector<RunningWheel>& gear, const std::vector<Meeting>& met,
+                  const BeltState& state) {
+  const bool forward = step.belt_speed >= 0;
+  const std::size_t n = gear.size();
+  const std::size_t lead = forward ? 1 : n - 2;
+  const double load = state.contacts[lead].load;
+  if (!(load > 0)) return 0;
+  const SoilState under = step.ground.soil(met[lead].p_W.x(), met[lead].p_W.y());
+  if (under.soil == nullptr) return 0;
+  const double beyond = 0.5 * gear[lead].length + 1.5 * step.ground.lattice().spacing;
+  const Vec3 p = met[lead].p_W + (forward ? beyond : -beyond) * step.motion.X_WC.linear().col(0);
+  const double up = step.motion.X_WC.linear()(2, 2);
+  const double above = up * (step.ground.height(p.x(), p.y()) - p.z()) - met[lead].depth;
+  // What rises ahead may be a slope: no deeper than this load presses.
+  const double b = step.wheel.width;
+  const double deepest = plate_sinkage(*under.soil, load / (b * gear[lead].length), b);
+  const double z = std::clamp(above, 0.0, deepest);
+  const double resistance = b * plate_pressure(*under.soil, z, b) * z / (under.soil->bekker_n + 1);
+  return -resistance * std::tanh(step.belt_speed / kRoll);
+}
+
+/// The shear of all contacts a step on: shoes come in unsheared where the belt's speed brings them, segment by segment
+/// implicitly, so that no speed is too large.
+/// @return of each contact what the soil under its middle is sheared by.
+std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& gear, const std::vector<Meeting>& met,
+                           const std::vector<Vec2>& slip, BeltState& state) {
+  const std::size_t n = gear.size();
+  std::vector<Vec2> middle(n, Vec2::Zero());
+  Vec2 before = Vec2::Zero();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = step.belt_speed >= 0 ? k : n - 1 - k;
+    BeltContact& contact = state.contacts[i];
+    if (!(contact.load > 0)) {
+      contact.shear = before = Vec2::Zero();
+      continue;
+    }
+    const double carried = std::abs(step.belt_speed) * step.dt / gear[i].length;
+    contact.shear = (contact.shear + step.dt * slip[i] + carried * before) / (1 + carried);
+    const SoilState soil = step.ground.soil(met[i].p_W.x(), met[i].p_W.y());
+    const double most = kMostShear * (soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear);
+    if (contact.shear.norm() > most) contact.shear *= most / contact.shear.norm();
+    // Over the segment it grows evenly. Where nothing comes in, all of it is sheared alike.
+    const double rolls = 1 - std::exp(-std::abs(step.belt_speed) / kRest);
+    middle[i] = contact.shear - 0.5 * rolls * (contact.shear - before);
+    before = contact.shear;
+  }
+  return middle;
+}
+
+double rut_depth(const Step& step, const std::vector<Meeting>& met, const BeltState& state) {
+  double depth = 0, load = 0;
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    if (!(state.contacts[i].load > 0)) continue;
+    const Vec3& p = met[i].p_W;
+    const Vec3 aside =
+        (0.5 * step.wheel.width + 1.5 * step.ground.lattice().spacing) * step.motion.X_WC.linear().col(1);
+    const double beside = 0.5 * (step.ground.height(p.x() + aside.x(), p.y() + aside.y()) +
+                                 step.ground.height(p.x() - aside.x(), p.y() - aside.y()));
+    depth += state.contacts[i].load * (beside - step.ground.height(p.x(), p.y()));
+    load += state.contacts[i].load;
+  }
+  return load > 0 ? std::max(0.0, depth / load) : 0;
+}
+
+}  // namespace
+
+void BeltContact::visit(Archive& a) {
+  a("load", load);
+  a("shear", shear);
+}
+
+BeltState BeltState::of(const scene::Track& track) {
+  BeltState state;
+  state.contacts.resize(track.rollers.size() + 2);
+  return state;
+}
+
+ShearStrength belt_strength(const scene::Wheel& wheel, const SoilState& ground) {
+  if (ground.soil == nullptr) return {0, wheel.friction};
+  const scene::Soil& soil = *ground.soil;
+  const double loose = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0;
+  return {soil.cohesion + loose * (soil.residual_cohesion - soil.cohesion), std::tan(soil.friction_angle)};
+}
+
+BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const GroundQuery& ground, double dt,
+                     BeltState& state) {
+  BeltForce out;
+  const std::vector<RunningWheel> gear = running_gear(wheel, motion.p_sprocket);
+  const double rollers = static_cast<double>(wheel.track->rollers.size());
+  const Step step{wheel,
+                  motion,
+                  ground,
+                  dt,
+                  motion.spin * wheel.radius,
+                  motion.spin_inertia / (wheel.radius * wheel.radius) / rollers};
+  const Vec3 left = motion.X_WC.linear().col(1);
+  std::vector<Meeting> met;
+  std::vector<Vec2> slip;
+  double load = 0, ground_speed = 0;
+  for (std::size_t i = 0; i < gear.size(); ++i) {
+    met.push_back(meet(gear[i], motion.X_WC, ground));
+    const Meeting& at = met.back();
+    const Vec3 v = step.velocity(at.p_W), ahead = left.cross(at.normal);
+    const double press = wheel.stiffness * at.depth - wheel.damping * at.normal.dot(v);
+    state.contacts[i].load = at.depth > 0 ? std::max(0.0, press / rollers) : 0;
+    slip.emplace_back(v.dot(ahead) - step.belt_speed, v.dot(left));
+    load += state.contacts[i].load;
+    ground_speed += state.contacts[i].load * v.dot(ahead);
+  }
+  if (!(load > 0)) {
+    for (BeltContact& contact : state.contacts) contact.shear.setZero();
+    return out;
+  }
+  const std::vector<Vec2> shear = carry_on(step, gear, met, slip, state);
+  for (std::size_t i = 0; i < gear.size(); ++i) {
+    const BeltContact& contact = state.contacts[i];
+    if (!(contact.load > 0)) continue;
+    const SoilState soil = ground.soil(met[i].p_W.x(), met[i].p_W.y());
+    const Vec2 f = shear_force(step, wheel.width * gear[i].length, contact.load, soil, shear[i], slip[i]);
+    const Vec3 ahead = left.cross(met[i].normal);
+    out.pushes.push_back({contact.load * met[i].normal + f.x() * ahead + f.y() * left, met[i].p_W});
+    // Work of a force on the belt, which runs back under the machine as the sprocket turns.
+    out.torque -= wheel.radius * f.x();
+  }
+  const std::size_t lead = step.belt_speed >= 0 ? 1 : gear.size() - 2;
+  const double resistance = compaction(step, gear, met, state);
+  if (resistance != 0) out.pushes.push_back({resistance * motion.X_WC.linear().col(0), met[lead].p_W});
+  for (const BeltForce::Push& push : out.pushes) out.force_W += push.f_W;
+  // Rollers, links and bushings turn against the spin; smooth through zero, within what the step can bear.
+  const double inner = wheel.rolling_resistance * load;
+  const double band = std::max(kRoll, inner * dt / (0.15 * step.rim_mass * rollers));
+  out.torque -= inner * wheel.radius * std::tanh(step.belt_speed / band);
+  ground_speed /= load;
+  out.slip = (step.belt_speed - ground_speed) / std::max({std::abs(step.belt_speed), std::abs(ground_speed), 0.1});
+  out.sinkage = rut_depth(step, met, state);
+  return out;
+}
+
+std::vector<BeltPatch> belt_patches(const scene::Wheel& wheel, const BeltMotion& motion, const BeltState& state) {
+  std::vector<BeltPatch> out;
+  const std::vector<RunningWheel> gear = running_gear(wheel, motion.p_sprocket);
+  const Mat3& R = motion.X_WC.linear();
+  for (std::size_t i = 0; i < gear.size(); ++i)
+    if (state.contacts[i].load > 0)
+      out.push_back({motion.X_WC * gear[i].p_C - gear[i].radius * R.col(2), R.col(0), gear[i].length, wheel.width,
+                     state.contacts[i].load});
+  return out;
+}
+
+}  // namespace navvy::terramechanics

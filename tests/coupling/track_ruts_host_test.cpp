@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/track_ruts.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/saved_state.h"
+#include "terramechanics/plate.h"
+
+namespace navvy::coupling {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+heightfield::Ground flat_loam() {
+  scene::Soil loam;
+  loam.name = "loam";
+  heightfield::Ground::Setup setup;
+  setup.nx = setup.ny = 64;
+  setup.cell = 0.1;
+  setup.datum = -2;
+  setup.soils = {loam};
+  setup.layers = {{loam.name, 10}};
+  setup.surface = [](int, int) { return 0.0; };
+  return heightfield::Ground(std::move(setup));
+}
+
+/// 0.4 m of a belt of 0.6 m under `load` [N].
+terramechanics::BeltPatch patch_at(double x, double y, double load) {
+  return {Vec3(x, y, 0), Vec3::UnitX(), 0.4, 0.6, load};
+}
+
+TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
+  heightfield::Ground ground = flat_loam();
+  TrackRuts ruts(ground);
+  const double pressure = 12e3 / (0.4 * 0.6);
+  const double z = terramechanics::plate_sinkage(ground.setup().soils[0], pressure, 0.6);
+  for (int pass = 0; pass < 3; ++pass) {
+    ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+    const Vec2i at = ground.column_at(3.2, 3.2), beside = ground.column_at(3.2, 3.8);
+    EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 1e-4);
+    EXPECT_NEAR(ground.height(beside.x(), beside.y()), 0, 1e-6);
+    EXPECT_TRUE(ground.held(at.x(), at.y()));
+  }
+  // A lighter one adds nothing, a heavier one what it presses more.
+  ruts.press({patch_at(3.2, 3.2, 6e3)}, kFar, true);
+  const Vec2i at = ground.column_at(3.2, 3.2);
+  EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 1e-4);
+  ruts.press({patch_at(3.2, 3.2, 24e3)}, kFar, true);
+  EXPECT_NEAR(ground.height(at.x(), at.y()), -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6),
+              2e-4);
+  // Pressed, not lost.
+  for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
+}
+
+TEST(TrackRuts, HoldWhatTyresHoldBesides) {
+  heightfield::Ground ground = flat_loam();
+  TrackRuts ruts(ground);
+  const Vec2i tyre = ground.column_at(1, 1), belt = ground.column_at(3.2, 3.2);
+  ground.hold({static_cast<std::int64_t>(tyre.y()) * ground.nx() + tyre.x()});
+  ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, false);
+  EXPECT_TRUE(ground.held(tyre.x(), tyre.y()));
+  EXPECT_TRUE(ground.held(belt.x(), belt.y()));
+  ruts.press({}, kFar, true);
+  EXPECT_FALSE(ground.held(belt.x(), belt.y()));
+}
+
+TEST(TrackRuts, GiveWayNoFasterThanTold) {
+  heightfield::Ground ground = flat_loam();
+  TrackRuts ruts(ground);
+  const Vec2i at = ground.column_at(3.2, 3.2);
+  ruts.press({patch_at(3.2, 3.2, 12e3)}, 0.002, true);
+  EXPECT_NEAR(ground.height(at.x(), at.y()), -0.002, 1e-5);
+  for (int i = 0; i < 20; ++i) ruts.press({patch_at(3.2, 3.2, 12e3)}, 0.002, true);
+  const double z = terramechanics::plate_sinkage(ground.setup().soils[0], 12e3 / 0.24, 0.6);
+  EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 2e-4);
+}
+
+TEST(TrackRuts, RememberThroughASnapshot) {
+  heightfield::Ground ground = flat_loam();
+  TrackRuts ruts(ground), resumed(ground);
+  ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+  load_saved(saved(ruts), resumed);
+  const Vec2i at = ground.column_at(3.2, 3.2);
+  const double height = ground.height(at.x(), at.y());
+  resumed.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+  EXPECT_EQ(ground.height(at.x(), at.y()), height);
+}
+
+}  // namespace
+}  // namespace navvy::coupling
