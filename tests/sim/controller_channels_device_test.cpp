@@ -164,6 +164,57 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
   }
 }
 
+TEST_F(ControllerChannels, BrakesHoldJointsUntilTheyAreLetGo) {
+  World world(testing::load("trench.sdf"), device_);
+  const auto get = [&](const char* name) { return world.get(std::string("excavator/") + name); };
+  world.set("excavator/swing_joint/brake", 1);
+  world.set("excavator/levers/left_x", -1);
+  world.set("excavator/front_axle_oscillation/brake", 1);
+  for (int i = 0; i < 200; ++i) world.step();
+  EXPECT_EQ(get("swing_joint/brake"), 1);
+  EXPECT_NEAR(get("swing_joint/position"), 0, 1e-3);
+  world.set("excavator/drive/speed", 0.5);  // the lock is no matter of the drive
+  for (int i = 0; i < 200; ++i) world.step();
+  EXPECT_EQ(get("front_axle_oscillation/brake"), 1);
+  world.set("excavator/swing_joint/brake", 0);
+  for (int i = 0; i < 200; ++i) world.step();
+  EXPECT_EQ(get("swing_joint/brake"), 0);
+  EXPECT_GT(get("swing_joint/velocity"), 0.2);
+  EXPECT_THROW(world.set("excavator/boom_joint/brake", 1), InputError);
+  EXPECT_THROW(world.brake(world.machine("excavator").joint("boom_joint"), true), InputError);
+  // Of the same machine: how near it is to tipping.
+  EXPECT_GT(get("stability/tipping_load"), 500);
+  // It drives and swings: inertia counts.
+  EXPECT_GT(get("stability/loaded_margin"), 0.3);
+  EXPECT_LT(get("stability/loaded_margin"), 1.3);
+}
+
+TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
+  World world(testing::load("paper/tracks.sdf"), device_);
+  World wheeled(testing::load("paper/diff_physics.sdf"), device_);
+  for (const char* name : {"drive/speed", "drive/steer", "drive/brake"}) {
+    EXPECT_NO_THROW(world.input(std::string("crawler/") + name));
+    EXPECT_NO_THROW(wheeled.input(std::string("robot/") + name));
+  }
+  world.set("robot/drive/speed", 0.4);
+  world.set("crawler/drive/speed", 0);
+  world.set("crawler/drive/steer", 0.3);
+  while (world.time() < 3) world.step();
+  EXPECT_NEAR(world.get("robot/velocity/x"), 0.4, 0.03);
+  EXPECT_GT(world.get("robot/drive_left/counts"), 0);
+  EXPECT_LT(world.get("crawler/drive_left/spin"), 0);
+  EXPECT_GT(world.get("crawler/drive_right/spin"), 0);
+  EXPECT_GT(world.get("crawler/pose/yaw"), 0.05);
+  EXPECT_GT(world.get("crawler/drive_left/load"), 50e3);
+  // As one number: ruts, shear and belts are part of the state.
+  World other(testing::load("paper/tracks.sdf"), device_);
+  load_saved(saved(world), other);
+  EXPECT_EQ(hash_of(other).digest(), hash_of(world).digest());
+  for (World* one : {&world, &other})
+    for (int i = 0; i < 100; ++i) one->step();
+  EXPECT_EQ(hash_of(other).digest(), hash_of(world).digest());
+}
+
 TEST_F(ControllerChannels, AnyLinkIsWatchedByItsName) {
   World world(testing::load("trench.sdf"), device_);
   const std::size_t before = world.outputs().size();
