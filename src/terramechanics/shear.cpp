@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terramechanics/shear.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvy::terramechanics {
@@ -10,6 +11,14 @@ ShearStrength rim_strength(const scene::Soil& soil) {
   const bool steel = soil.tool_friction_angle < soil.friction_angle;
   return {steel ? soil.adhesion : soil.residual_cohesion,
           std::tan(steel ? soil.tool_friction_angle : soil.friction_angle)};
+}
+
+ShearStrength surface_strength(const SoilState& ground) {
+  if (ground.soil == nullptr) return {};
+  const scene::Soil& soil = *ground.soil;
+  // A soil that does not swell is as strong loose as in bank state.
+  const double swollen = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
+  return {soil.cohesion + swollen * (soil.residual_cohesion - soil.cohesion), std::tan(soil.friction_angle)};
 }
 
 double mobilised_share(double displacement, double janosi_k) {

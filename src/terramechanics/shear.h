@@ -8,6 +8,7 @@
 #pragma once
 
 #include "scene/soil.h"
+#include "terramechanics/ground_query.h"
 
 namespace navvy::terramechanics {
 
@@ -20,6 +21,11 @@ struct ShearStrength {
 /// Strength between this soil and a bare rim or tool: the one with less friction of the soil's own (residual cohesion
 /// with phi) and the steel's (adhesion with delta), as the weaker of two layers slides. Its cohesion goes with it.
 ShearStrength rim_strength(const scene::Soil& soil);
+
+/// Strength of a surface of soil under rubber or grousers, which hold the soil between them: phi with the cohesion of
+/// its density state, intact at bank density and above, residual once swollen, in proportion between. Nothing on a firm
+/// floor.
+ShearStrength surface_strength(const SoilState& ground);
 
 /// Share of the strength that a shear displacement mobilises, 0 to 1: 1 - exp(-|j| / K).
 double mobilised_share(double displacement, double janosi_k);

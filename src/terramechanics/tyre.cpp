@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terramechanics/shear.h"
+#include "terramechanics/tyre_patch.h"
 #include "terramechanics/tyre_track.h"
 
 namespace navvy::terramechanics {
@@ -67,6 +69,24 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
   return track;
 }
 
+/// Of one track (forward, left) [N], which presses with `normal_force` [N] on firm ground or on soil.
+Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double normal_force, const Vec2& slip,
+                      double rolling, double rim_mass, double dt, Vec2& bristle, double& sheared) {
+  if (ground.soil == nullptr)
+    return bristle_force(tyre, 0.5, slip, rolling, tyre_friction(tyre, ground, 0) * normal_force, rim_mass, dt,
+                         bristle);
+  // The patch of a wheel of which both tracks bear as much.
+  const TyrePatch patch = tyre_patch(tyre, *ground.soil, 2 * normal_force);
+  if (!(patch.pressure > 0)) {
+    bristle.setZero();
+    sheared = 0;
+    return Vec2::Zero();
+  }
+  const TrackShear soil{tyre_friction(tyre, ground, patch.pressure) * normal_force, ground.soil->janosi_k,
+                        patch.half_length};
+  return shear_force(tyre, 0.5, slip, rolling, soil, rim_mass, dt, bristle, sheared);
+}
+
 /// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
   const Vec3 p = X.translation(), left = X.linear().col(1);
@@ -81,9 +101,10 @@ double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& groun
 
 }  // namespace
 
-double tyre_friction(const scene::Wheel& tyre, const SoilState& ground) {
-  (void)ground;  // decides nothing yet: every soil grips as the tyre says
-  return tyre.friction;
+double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double pressure) {
+  if (ground.soil == nullptr || !(pressure > 0)) return tyre.friction;
+  const ShearStrength strength = surface_strength(ground);
+  return std::min(tyre.friction, strength.slope + strength.cohesion / pressure);
 }
 
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
@@ -100,6 +121,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec3 in_plane = track.normal - track.normal.dot(axis) * axis;
     if (track.deflection <= 0 || in_plane.norm() < 0.05) {
       bristle.setZero();
+      state.sheared[static_cast<std::size_t>(t)] = 0;
       continue;
     }
     // What the tread does at the contact: the carrier's motion there, and the rim's by the spin.
@@ -113,10 +135,10 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec3 ahead = axis.cross(track.normal).normalized(), left = track.normal.cross(ahead);
     const Vec3 v_slip = v_carrier + v_rim;
     const SoilState soil = ground.soil(center.x() + p.x(), center.y() + p.y());
-    const double limit = tyre_friction(tyre, soil) * normal_force;
     const double rolling = -v_rim.dot(ahead);
-    const Vec2 f =
-        bristle_force(tyre, 0.5, Vec2(v_slip.dot(ahead), v_slip.dot(left)), rolling, limit, rim_mass, dt, bristle);
+    const Vec2 slip(v_slip.dot(ahead), v_slip.dot(left));
+    const Vec2 f = tangential_force(tyre, soil, normal_force, slip, rolling, rim_mass, dt, bristle,
+                                    state.sheared[static_cast<std::size_t>(t)]);
     const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
     out.force_W += force;
     out.moment_W += p.cross(force);
@@ -139,7 +161,10 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
   return out;
 }
 
-void TyreState::visit(Archive& a) { a("bristle", bristle); }
+void TyreState::visit(Archive& a) {
+  a("bristle", bristle);
+  a("sheared", sheared);
+}
 
 void TyreForce::visit(Archive& a) {
   a("force_W", force_W);

@@ -22,4 +22,20 @@ double radial_force(const scene::Wheel& tyre, double share, double deflection, d
 Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, double limit,
                    double rim_mass, double dt, Vec2& bristle);
 
+/// What soil under a track does when it is sheared.
+struct TrackShear {
+  double limit = 0;        ///< largest force along the ground [N]
+  double janosi_k = 0;     ///< displacement at which 63 % of it is mobilised [m]
+  double half_length = 0;  ///< of the patch: fresh soil comes under it within this way [m]
+};
+
+/// The same on soil: the bristle in series with soil that yields once its mobilised strength is reached,
+///
+///   F = -k u - c v_s,  |F| <= limit (1 - exp(-j / K)),  dj/dt = yielding - |V| / l j
+///
+/// with `sheared` j [m], kept in TyreState. Rolling steadily at a small slip s, j = s l: the mean displacement over a
+/// patch of length 2 l. Standing soil that has yielded holds what it bore. K = 0 is bristle_force.
+Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, const TrackShear& soil,
+                 double rim_mass, double dt, Vec2& bristle, double& sheared);
+
 }  // namespace navvy::terramechanics

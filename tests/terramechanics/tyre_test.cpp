@@ -97,13 +97,18 @@ TEST(TyreForce, TwinOnAnEdgeStandsOnOneTyre) {
   EXPECT_GT(out.moment_W.x(), 0);  // lifts the left side
 }
 
-TEST(TyreFriction, IsTheTyresOwnWhateverTheSoilSoFar) {
+TEST(TyreFriction, IsTheWeakerOfRubberAndSoil) {
   scene::Wheel tyre;
   tyre.friction = 0.7;
   scene::Soil clay;
-  clay.friction_angle = radians(5);
-  EXPECT_EQ(tyre_friction(tyre, {}), 0.7);
-  EXPECT_EQ(tyre_friction(tyre, {&clay, 1.2}), 0.7);
+  clay.friction_angle = radians(20);
+  clay.cohesion = 20e3, clay.residual_cohesion = 5e3, clay.swell = 1.2;
+  EXPECT_EQ(tyre_friction(tyre, {}, 1e5), 0.7);
+  EXPECT_NEAR(tyre_friction(tyre, {&clay, 1}, 1e5), std::tan(radians(20)) + 0.2, 1e-12);
+  EXPECT_NEAR(tyre_friction(tyre, {&clay, 1.1}, 1e5), std::tan(radians(20)) + 0.125, 1e-12);
+  EXPECT_NEAR(tyre_friction(tyre, {&clay, 1.2}, 1e5), std::tan(radians(20)) + 0.05, 1e-12);
+  EXPECT_NEAR(tyre_friction(tyre, {&clay, 0.9}, 1e5), std::tan(radians(20)) + 0.2, 1e-12);
+  EXPECT_EQ(tyre_friction(tyre, {&clay, 1}, 2e4), 0.7);  // cohesion holds a light wheel better than its rubber
 }
 
 TEST(TyreForce, AsksForTheSoilUnderEachTrackThatTouches) {
