@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tyres on soil: what slip mobilises of the soil's strength.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "terramechanics/grounds.h"
+#include "terramechanics/shear.h"
+#include "terramechanics/tyre.h"
+#include "terramechanics/tyre_patch.h"
+#include "terramechanics/tyre_track.h"
+
+namespace navvy::terramechanics {
+namespace {
+
+constexpr double kStep = 1.0 / 600;
+constexpr double kHeight = 0.49;  // of the axle: 35 mm of deflection
+
+scene::Wheel twin() {
+  scene::Wheel wheel;
+  wheel.twin_spacing = 0.32;
+  wheel.damping = 0;
+  return wheel;
+}
+
+/// Level and level it stays: no rut, so that grip alone is measured.
+FunctionGround level(const scene::Soil& soil) {
+  FunctionGround ground = flat();
+  ground.set_soil([&soil](double, double) { return SoilState{&soil, 1}; });
+  return ground;
+}
+
+/// Force after `seconds` at these speeds of carrier and rim [m/s].
+TyreForce steady(const GroundQuery& ground, const Vec2& carrier, double rim, double seconds = 5) {
+  TyreMotion motion;
+  motion.X_WWheel.translation() = Vec3(0, 0, kHeight);
+  motion.spin_inertia = 60;
+  motion.v_W.head<2>() = carrier;
+  motion.spin = rim / kHeight;
+  TyreState state;
+  TyreForce out;
+  for (int i = 0; i < seconds / kStep; ++i) out = tyre_force(twin(), motion, ground, kStep, state);
+  return out;
+}
+
+double limit_of(const scene::Soil& soil, double load) {
+  const double pressure = tyre_patch(twin(), soil, load).pressure;
+  return load * (std::tan(soil.friction_angle) + soil.cohesion / pressure);
+}
+
+TEST(TyreOnSoil, PullGrowsWithSlipAndSaturatesAtTheSoilsStrength) {
+  const scene::Soil loam;
+  const FunctionGround ground = level(loam);
+  double before = 0, load = 0;
+  for (const double slip : {0.02, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+    const TyreForce out = steady(ground, Vec2(1 - slip, 0), 1);
+    load = out.force_W.z();
+    EXPECT_GT(out.force_W.x(), before) << slip;
+    before = out.force_W.x();
+  }
+  EXPECT_LT(before, limit_of(loam, load));
+  EXPECT_GT(before, 0.99 * limit_of(loam, load));
+  EXPECT_LT(limit_of(loam, load), 0.8 * load);  // rubber on a floor
+}
+
+TEST(TyreOnSoil, SlipIsThatOfCarcassAndSoilInSeries) {
+  const scene::Soil loam;
+  const double slip = 0.1;
+  const TyreForce out = steady(level(loam), Vec2(1 - slip, 0), 1);
+  const scene::Wheel tyre = twin();
+  const double load = out.force_W.z(), limit = limit_of(loam, load);
+  // s = F / (k sigma) + j / l with F = limit (1 - exp(-j / K)) [docs/machines.md, tyres].
+  const double carcass = out.force_W.x() / (0.8 * tyre.stiffness * 0.6 * tyre.radius);
+  const double j = -loam.janosi_k * std::log(1 - out.force_W.x() / limit);
+  const double soil = j / tyre_patch(tyre, loam, load).half_length;
+  // 1 %: the implicit step of bristle and soil.
+  EXPECT_NEAR(carcass + soil, slip, 0.01 * slip);
+}
+
+TEST(TyreOnSoil, SideForceAndPullShareOneLimit) {
+  const scene::Soil loam;
+  const FunctionGround ground = level(loam);
+  const TyreForce straight = steady(ground, Vec2(0.5, 0), 1), askew = steady(ground, Vec2(0.5, 0.5), 1);
+  const double limit = limit_of(loam, straight.force_W.z());
+  EXPECT_NEAR(straight.force_W.head<2>().norm(), limit, 0.01 * limit);
+  EXPECT_NEAR(askew.force_W.head<2>().norm(), limit, 0.01 * limit);
+  EXPECT_NEAR(-askew.force_W.y() / askew.force_W.x(), 1, 0.01);  // against the slip, which is at 45 deg
+}
+
+TEST(TyreOnSoil, SideForceGrowsWithTheSlipAngle) {
+  const scene::Soil loam;
+  double before = 0;
+  for (const double angle : {2.0, 5.0, 10.0, 20.0}) {
+    const TyreForce out = steady(level(loam), Vec2(1, std::tan(radians(angle))), 1);
+    EXPECT_LT(out.force_W.y(), before) << angle;
+    before = out.force_W.y();
+  }
+}
+
+TEST(TyreOnSoil, WithoutKAndStrongerThanRubberIsAFirmFloor) {
+  scene::Soil rock;
+  rock.cohesion = rock.residual_cohesion = 1e9;
+  rock.janosi_k = 1e-9;
+  for (const Vec2& carrier : {Vec2(0.98, 0), Vec2(0.9, 0.05), Vec2(0.2, 0.3)}) {
+    const Vec3 soft = steady(level(rock), carrier, 1).force_W, firm = steady(flat(), carrier, 1).force_W;
+    EXPECT_LT((soft - firm).norm(), 1e-6 * firm.norm());
+  }
+}
+
+TEST(TyreOnSoil, StandingItHoldsWhatItBoreWithoutCreep) {
+  const scene::Soil loam;
+  const FunctionGround ground = level(loam);
+  TyreMotion motion;
+  motion.X_WWheel.translation() = Vec3(0, 0, kHeight);
+  motion.spin_inertia = 60;
+  TyreState state;
+  motion.v_W.x() = 0.02;
+  for (int i = 0; i < 300; ++i) tyre_force(twin(), motion, ground, kStep, state);  // dragged by 10 mm
+  motion.v_W.x() = 0;
+  const TyreForce first = tyre_force(twin(), motion, ground, kStep, state);
+  TyreForce last;
+  for (int i = 0; i < 10000; ++i) last = tyre_force(twin(), motion, ground, kStep, state);
+  EXPECT_LT(first.force_W.x(), -1000);
+  EXPECT_EQ(first.force_W.x(), last.force_W.x());
+  EXPECT_GT(state.sheared[0], 0);
+}
+
+TEST(TyreOnSoil, ForceIsTheMobilisedShareOfTheLimit) {
+  const scene::Wheel tyre = twin();
+  const TrackShear soil{10e3, 0.02, 0.2};
+  Vec2 bristle = Vec2::Zero();
+  double sheared = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 f = shear_force(tyre, 0.5, Vec2(0.1, 0), 0, soil, 60 / 0.25, kStep, bristle, sheared);
+    // What Newton's steps leave open.
+    EXPECT_NEAR(-f.x(), soil.limit * mobilised_share(sheared, soil.janosi_k), 1e-4 * soil.limit) << i;
+  }
+}
+
+TEST(TyreOnSoil, InTheAirForgets) {
+  const scene::Soil loam;
+  TyreMotion motion;
+  motion.X_WWheel.translation() = Vec3(0, 0, 0.6);
+  TyreState state;
+  state.sheared = {0.1, 0.1};
+  EXPECT_TRUE(tyre_force(twin(), motion, level(loam), kStep, state).force_W.isZero());
+  EXPECT_EQ(state.sheared[0], 0);
+}
+
+}  // namespace
+}  // namespace navvy::terramechanics
