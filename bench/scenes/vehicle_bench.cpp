@@ -58,9 +58,9 @@ void measure_case(const Case& what, const scene::Machine& excavator) {
   site.ground.size = Vec2(80, 60);
   site.ground.layers.push_back({site.soils[0].name, 1});
   heightfield::Ground ground = heightfield::make_ground(site);
-  const coupling::GroundView columns(ground, ground.setup().soils);
-  const FirmGround firm;
   coupling::Ruts ruts(ground);
+  const coupling::GroundView columns(ground, ground.setup().soils, &ruts);
+  const FirmGround firm;
   const terramechanics::GroundQuery* under = &firm;
   if (what.loam) under = &columns;
   const auto second = [&] {
@@ -71,7 +71,7 @@ void measure_case(const Case& what, const scene::Machine& excavator) {
       for (int m = 0; m < what.excavators; ++m)
         for (std::size_t w = 0; w < excavator.wheels.size(); ++w)
           tyres.push_back({excavator.wheels[w], engine->wheel(m, static_cast<int>(w))});
-      ruts.press(tyres, coupling::kSinkSpeed * coupling::kRutInterval * kStep);
+      ruts.press(tyres, coupling::kRutInterval * kStep);
     }
   };
   second();

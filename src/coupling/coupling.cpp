@@ -21,9 +21,9 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       kinematic_(kinematic),
       solver_(solver),
       ground_(ground),
-      view_(ground, ground.setup().soils),
       ruts_(ground),
-      track_ruts_(ground) {
+      track_ruts_(ground),
+      view_(ground, ground.setup().soils, &ruts_) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     // Both engines number their machines from 0: who asks for one says its number in the scene.
@@ -145,9 +145,9 @@ void Coupling::press_ruts(double dt) {
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
     }
   }
-  const double most = kSinkSpeed * kRutInterval * dt;
-  if (!tyres.empty() || !has_tracks_) ruts_.press(tyres, most);
-  if (has_tracks_) track_ruts_.press(belts, most, tyres.empty());
+  const double interval = kRutInterval * dt;
+  if (!tyres.empty() || !has_tracks_) ruts_.press(tyres, interval);
+  if (has_tracks_) track_ruts_.press(belts, kSinkSpeed * interval, tyres.empty());
 }
 
 void ToolLoad::visit(Archive& a) {

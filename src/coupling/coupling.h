@@ -79,10 +79,10 @@ class Coupling {
   vehicle::Engine& kinematic_;
   soil::Solver& solver_;
   heightfield::Ground& ground_;
-  GroundView view_;
   Ruts ruts_;
   TrackRuts track_ruts_;
   bool has_tracks_ = false;
+  GroundView view_;
   std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;

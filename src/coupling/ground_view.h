@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "coupling/ruts.h"
 #include "heightfield/terrain.h"
 #include "scene/soil.h"
 #include "terramechanics/ground_query.h"
@@ -12,21 +13,22 @@
 namespace navvy::coupling {
 
 /// Answers what wheels and bodies ask from the terrain it is given: the live ground means the columns of this very
-/// step, without loose soil.
+/// step, without loose soil. Of ruts it tells the work that they take, where it is given those who press them.
 ///
 /// Height and normal are bilinear between column centres, soil and density state are those at the surface of the column
-/// that holds the place; outside the site the nearest column answers. A call costs a lookup, no allocation. Terrain and
-/// soils must outlive the view.
+/// that holds the place; outside the site the nearest column answers. A call costs a lookup, no allocation. Terrain,
+/// soils and ruts must outlive the view.
 class GroundView final : public terramechanics::GroundQuery {
  public:
   /// `soils` are those that the terrain's soil indices count.
-  GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils)
-      : terrain_(terrain), soils_(soils) {}
+  GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils, const Ruts* ruts = nullptr)
+      : terrain_(terrain), soils_(soils), ruts_(ruts) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
   Vec3 normal(double x, double y) const override { return terrain_.normal(x, y); }
   terramechanics::GroundLattice lattice() const override {
     return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};
   }
+  double sinking_work(double x, double y) const override { return ruts_ != nullptr ? ruts_->work(x, y) : 0; }
   terramechanics::SoilState soil(double x, double y) const override {
     const Vec2i c = terrain_.column_at(x, y);
     const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1), iy = std::clamp(c.y(), 0, terrain_.ny() - 1);
@@ -36,6 +38,7 @@ class GroundView final : public terramechanics::GroundQuery {
  private:
   const heightfield::Terrain& terrain_;
   const std::vector<scene::Soil>& soils_;
+  const Ruts* ruts_;
 };
 
 }  // namespace navvy::coupling

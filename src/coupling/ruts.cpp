@@ -13,77 +13,129 @@ namespace navvy::coupling {
 namespace {
 
 constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
+// [s] several of a tyre's bounces, 3 to 4 Hz; a machine sinks within a second.
+// tuned: RideSoil.LoadsStayEvenInTheOwnRutWhateverTheCell
+constexpr double kBearingTime = 0.3;
 
 }  // namespace
 
-void Ruts::press_column(int ix, int iy, double pressure, double width, double most) {
+void Ruts::press_column(int ix, int iy, double pressure, const Press& press) {
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
-  Memory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
+  const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
+  Memory& memory = memory_[key];
+  // A tyre that comes, not one that stays.
+  if (under_.insert(key).second && !ground_.held(ix, iy)) memory.work = 0;
   const double height = ground_.height(ix, iy);
   // Dug, filled or slumped since: fresh ground.
   if (std::abs(height - memory.height) > kSameHeight) memory.pressure = 0;
-  if (pressure <= memory.pressure) return;
+  // Slip sinks the soil as so much more pressure would.
+  const double softer = std::pow(press.softer, soil.bekker_n);
+  const double borne = pressure * softer;
+  if (borne <= memory.pressure) return;
   // Only what the plate sinks beyond the largest pressure borne so far.
+  const double width = press.patch.width;
   const double before = terramechanics::plate_sinkage(soil, memory.pressure, width);
-  double more = terramechanics::plate_sinkage(soil, pressure, width) - before;
-  // Cut short, the column has borne no more than what its depth by now bears: the rest comes with the next press.
-  if (more > most) {
-    more = most;
-    pressure = terramechanics::plate_pressure(soil, before + most, width);
-  }
-  memory.pressure = pressure;
-  if (more > 0) ground_.compact_to(ix, iy, height - more);
+  const double after = terramechanics::plate_sinkage(soil, borne, width);
+  memory.pressure = borne;
+  memory.work +=
+      (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
+  if (after > before) ground_.compact_to(ix, iy, height - (after - before));
   memory.height = ground_.height(ix, iy);
 }
 
-void Ruts::press(const std::vector<LoadedTyre>& tyres, double most) {
+void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval) {
+  const double now = wheel.force_W.z() - wheel.body_W.z();
+  if (!std::isfinite(interval)) {
+    *this = {now, wheel.slip};
+    return;
+  }
+  load -= std::expm1(-interval / kBearingTime) * (now - load);
+  // Soil is carried away by the way of the rim: about a radius from one end of the patch to the other.
+  const double way = interval * std::max(std::abs(wheel.spin) * tyre.radius, wheel.v_W.norm());
+  slip -= std::expm1(-way / tyre.radius) * (wheel.slip - slip);
+}
+
+void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
   under_.clear();
-  for (const LoadedTyre& one : tyres) press_wheel(one.tyre, one.wheel, most);
+  bearing_.resize(tyres.size());
+  for (std::size_t i = 0; i < tyres.size(); ++i) {
+    const vehicle::WheelState& wheel = tyres[i].wheel;
+    Bearing& bearing = bearing_[i];
+    bearing.follow(tyres[i].tyre, wheel, interval);
+    press_wheel(tyres[i].tyre, wheel, bearing, interval);
+  }
   ground_.hold(std::exchange(under_, {}));
 }
 
-void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most) {
+void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing,
+                       double interval) {
   const Pose& X = wheel.X_WWheel;
+  // A tyre in the air presses nothing, however it was loaded before.
+  if (!(wheel.force_W.z() - wheel.body_W.z() > 0)) return;
   // The soil under the wheel's middle decides the size of the patch; each column then sinks by its own.
   const terramechanics::SoilState under =
       GroundView(ground_, ground_.setup().soils).soil(X.translation().x(), X.translation().y());
-  const terramechanics::TyrePatch patch =
-      terramechanics::tyre_patch(tyre, *under.soil, wheel.force_W.z() - wheel.body_W.z());
-  if (!(patch.half_length > 0)) return;
-  const bool twin = tyre.twin_spacing > 0;
-  for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0})
-    press_patch(patch, *under.soil, X, side * tyre.twin_spacing, most);
-}
-
-void Ruts::press_patch(const terramechanics::TyrePatch& patch, const scene::Soil& soil, const Pose& X, double left,
-                       double most) {
-  const Vec3 center = X * Vec3(0, left, 0);
+  Press press{terramechanics::tyre_patch(tyre, *under.soil, bearing.load), *under.soil,
+              terramechanics::slip_sinkage(bearing.slip)};
+  if (!(press.patch.half_length > 0)) return;
+  press.patch.sinkage *= press.softer;
+  // Between two columns the surface is a chord, which stands over the tread's arc by so much.
+  press.patch.deflection += ground_.cell() * ground_.cell() / (8 * tyre.radius);
+  press.patch.half_length =
+      0.5 * terramechanics::chord_length(tyre.radius, press.patch.deflection + press.patch.sinkage);
   // The patch is a rectangle in the plane, along the wheel's heading.
   const Vec2 along = Vec2(X.linear()(0, 0), X.linear()(1, 0)).normalized();
+  const Vec2 rolled = std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
+  const bool twin = tyre.twin_spacing > 0;
+  for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
+    const Vec2 center = (X * Vec3(0, side * tyre.twin_spacing, 0)).head<2>();
+    press_patch(press, center, along);
+    // Where it comes before the next press: it must not meet what it would have pressed as a wall.
+    if (!rolled.isZero(kSameHeight)) press_patch(press, center + rolled, along);
+  }
+}
+
+void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along) {
+  const terramechanics::TyrePatch& patch = press.patch;
   const Vec2 across(-along.y(), along.x());
-  const double reach = std::hypot(patch.half_length, 0.5 * patch.width);
+  // At least a cell to either side: what the tyre feels lies between the columns there.
+  const double half_width = std::max(0.5 * patch.width, ground_.cell());
+  const double reach = std::hypot(patch.half_length, half_width);
   const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);
   const Vec2i high = ground_.column_at(center.x() + reach, center.y() + reach);
   for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
     for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix) {
-      const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - center.head<2>();
+      const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - center;
       const double x = d.dot(along);
-      if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > 0.5 * patch.width) continue;
-      under_.insert(static_cast<std::int64_t>(iy) * ground_.nx() + ix);
+      if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
       // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
-      const double tread = terramechanics::plate_pressure(soil, patch.tread_depth(x), patch.width);
-      press_column(ix, iy, std::min(patch.pressure, tread), patch.width, most);
+      const double tread = terramechanics::plate_pressure(press.soil, patch.tread_depth(x) / press.softer, patch.width);
+      press_column(ix, iy, std::min(patch.pressure, tread), press);
     }
+}
+
+double Ruts::work(double x, double y) const {
+  const Vec2i c = ground_.column_at(x, y);
+  if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return 0;
+  const auto found = memory_.find(static_cast<std::int64_t>(c.y()) * ground_.nx() + c.x());
+  return found != memory_.end() ? found->second.work : 0;
 }
 
 void Ruts::Memory::visit(Archive& a) {
   a("pressure", pressure);
   a("height", height);
+  a("work", work);
+}
+
+void Ruts::Bearing::visit(Archive& a) {
+  a("load", load);
+  a("slip", slip);
 }
 
 void Ruts::visit(Archive& a) {
-  a.section("ruts", 2, [&] {
+  a.section("ruts", 3, [&] {
     a("memory", memory_);
+    a("bearing", bearing_);
     // Keys ascend, so the first and the last tell of all.
     const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();
     a.require(memory_.empty() || (memory_.begin()->first >= 0 && memory_.rbegin()->first < columns), "memory",

@@ -23,25 +23,29 @@ struct LoadedTyre {
 };
 
 constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s moves 3 cm in between
-/// Most that a column gives way in a press, over the time between presses [m/s]: a tyre that falls at it adds a tenth
-/// to its load; at 1 m/s it passes 0.4 m in the time it takes to sink 0.08 m.
-constexpr double kSinkSpeed = 0.2;
 
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
 /// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises. Columns that
 /// bear a tyre are held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, ruts].
+///
+/// What a wheel presses with is its load of the last 0.3 s and its slip over the last radius of way: a tyre that
+/// bounces does not press its bounces into the ground, which it would feel as a washboard, the ground does not give way
+/// at once under what falls on it, and a wheel that starts has carried no soil away yet.
 class Ruts {
  public:
   /// The ground must outlive it.
   explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
 
-  /// Presses the contact patches of all wheels of the world, each of which carries what of its `force_W` the ground
-  /// gave; tyres of a twin pair each carry half. Their columns are held until the next call. No column sinks by more
-  /// than `most` [m] at a time: ground that gives way at once lets the wheel fall, and what it hits with presses deeper
-  /// than its load would.
-  void press(const std::vector<LoadedTyre>& tyres, double most = std::numeric_limits<double>::infinity());
+  /// Presses the contact patches of all wheels of the world, in the same order each time, as they are and where they
+  /// roll within `interval` [s], the time until the next call. Each carries what of its `force_W` the ground gave;
+  /// tyres of a twin pair each carry half. Their columns are held until the next call. With an endless interval loads
+  /// count as they are.
+  void press(const std::vector<LoadedTyre>& tyres, double interval = std::numeric_limits<double>::infinity());
+
+  /// Work per area [J/m2] that pressing the column at x, y took since a tyre came onto it; 0 where none stands.
+  double work(double x, double y) const;
 
   void visit(Archive& a);
 
@@ -49,18 +53,32 @@ class Ruts {
   struct Memory {
     double pressure = 0;  ///< largest borne [Pa]
     double height = 0;    ///< surface it left behind [m]
+    double work = 0;      ///< of pressing it since the tyre that stands on it came [J/m2]
     void visit(Archive& a);
   };
-  void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double most);
-  /// One tyre's patch, its middle `left` [m] of the wheel's centre; `soil` is the one under the wheel.
-  void press_patch(const terramechanics::TyrePatch& patch, const scene::Soil& soil, const Pose& X_WWheel, double left,
-                   double most);
-  /// One column under `pressure` [Pa] of a plate of `width` [m], by its own soil.
-  void press_column(int ix, int iy, double pressure, double width, double most);
+  /// How a wheel loads the ground, low-passed.
+  struct Bearing {
+    double load = 0;  ///< [N]
+    double slip = 0;  ///< [-]
+    void follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval);
+    void visit(Archive& a);
+  };
+  /// A tyre's patch on the soil that decides its size.
+  struct Press {
+    terramechanics::TyrePatch patch;
+    const scene::Soil& soil;
+    double softer;  ///< by slip: sinkage over that without
+  };
+  void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing, double interval);
+  /// One tyre's patch, its middle at `center`, along the unit vector `along`.
+  void press_patch(const Press& press, const Vec2& center, const Vec2& along);
+  /// One column under `pressure` [Pa], by its own soil.
+  void press_column(int ix, int iy, double pressure, const Press& press);
 
   heightfield::Ground& ground_;
   std::set<std::int64_t> under_;           ///< columns under the tyres pressed so far in this call
   std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
+  std::vector<Bearing> bearing_;           ///< by wheel of the world
 };
 
 }  // namespace navvy::coupling

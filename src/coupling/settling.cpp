@@ -25,9 +25,9 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   }
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
-  const GroundView view(ground, ground.setup().soils);
   Ruts ruts(ground);
   TrackRuts track_ruts(ground);
+  const GroundView view(ground, ground.setup().soils, &ruts);
   const double dt = scene.solver.max_step;
   const int steps = static_cast<int>(std::ceil(time / dt));
   for (int step = 0; step < steps; ++step) {
@@ -46,9 +46,9 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
         for (const terramechanics::BeltPatch& patch : engine->belt_patches(machine, wheel)) belts.push_back(patch);
       }
     }
-    const double most = kSinkSpeed * kRutInterval * dt;
-    ruts.press(tyres, most);
-    if (!belts.empty()) track_ruts.press(belts, most, tyres.empty());
+    const double interval = kRutInterval * dt;
+    ruts.press(tyres, interval);
+    if (!belts.empty()) track_ruts.press(belts, kSinkSpeed * interval, tyres.empty());
   }
   for (std::size_t i = 0; i < of.size(); ++i)
     out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),

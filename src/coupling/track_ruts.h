@@ -13,6 +13,8 @@
 
 namespace navvy::coupling {
 
+constexpr double kSinkSpeed = 0.2;  ///< of a belt into soil that gives way, at most [m/s]
+
 /// Presses what belts stand on, each segment as a plate of the belt's width under p = N / (b l) (plate.h), and
 /// remembers by column what it has borne: standing still, or another segment under the same load, adds nothing.
 ///

@@ -51,6 +51,13 @@ class GroundQuery {
     return {};
   }
 
+  /// Work that sinking took here since the tyre that stands on it came [J/m2]; 0 where none does. Rolling on, it takes
+  /// this again from each new square metre.
+  virtual double sinking_work(double x, double y) const {
+    (void)x, (void)y;
+    return 0;
+  }
+
   /// Where its heights are given; between them rigid bodies meet flat triangles.
   virtual GroundLattice lattice() const { return {}; }
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terramechanics/plate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvy::terramechanics {
+namespace {
+
+constexpr double kMostSlip = 1.6;  // times the coefficient: 13 times as deep, where no wheel is any more
+
+}  // namespace
 
 double plate_modulus(const scene::Soil& soil, double width) { return soil.bekker_kc / width + soil.bekker_kphi; }
 
@@ -11,11 +17,21 @@ double plate_pressure(const scene::Soil& soil, double sinkage, double width) {
   return sinkage > 0 ? plate_modulus(soil, width) * std::pow(sinkage, soil.bekker_n) : 0;
 }
 
+double plate_work(const scene::Soil& soil, double sinkage, double width) {
+  return plate_pressure(soil, sinkage, width) * sinkage / (soil.bekker_n + 1);
+}
+
 double plate_sinkage(const scene::Soil& soil, double pressure, double width) {
   const double k = plate_modulus(soil, width);
   // A negative k_c may make a narrow plate's modulus negative: no number then, rather than a NaN in the ground.
   if (!(pressure > 0) || !(k > 0)) return 0;
   return std::pow(pressure / k, 1 / soil.bekker_n);
+}
+
+double slip_sinkage(double slip, double coefficient) {
+  // Below the pole of a coefficient near 2.
+  const double s = std::min(coefficient * std::min(std::abs(slip), 1.0), kMostSlip);
+  return (1 + s) / (1 - 0.5 * s);
 }
 
 }  // namespace navvy::terramechanics

@@ -87,6 +87,17 @@ Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double 
   return shear_force(tyre, 0.5, slip, rolling, soil, rim_mass, dt, bristle, sheared);
 }
 
+/// Compaction resistance of one track [N] at `speed` ahead [m/s]: R = b int p dz [Bekker 1969], the work of sinking a
+/// way further. Smooth through zero, within what the step can bear.
+double compaction(const scene::Wheel& tyre, double work, double normal_force, double speed, double rim_mass,
+                  double dt) {
+  if (!(work > 0)) return 0;
+  const double width = tyre.twin_spacing > 0 ? tyre.width : 0.5 * tyre.width;
+  const double resistance = std::min(width * work, normal_force);
+  const double band = std::max(0.05, resistance * dt / (0.15 * rim_mass));
+  return resistance * std::tanh(speed / band);
+}
+
 /// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
   const Vec3 p = X.translation(), left = X.linear().col(1);
@@ -140,7 +151,9 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec2 f = tangential_force(tyre, soil, normal_force, slip, rolling, rim_mass, dt, bristle,
                                     state.sheared[static_cast<std::size_t>(t)]);
     const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
-    out.force_W += force;
+    const double work = ground.sinking_work(center.x() + p.x(), center.y() + p.y());
+    // Soil's pressure points to the axle and turns nothing.
+    out.force_W += force - compaction(tyre, work, normal_force, v_carrier.dot(ahead), rim_mass, dt) * ahead;
     out.moment_W += p.cross(force);
     out.deflection = std::max(out.deflection, track.deflection);
 

@@ -54,8 +54,8 @@ double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double p
 /// for the soil once a track that touches.
 ///
 /// Each track is a disc that feels the ground by rays over +-60 degrees of its lower half, so edges and steps carry it
-/// as well as planes. Force ahead and to the side share one limit. A tyre's force never pushes it off the ground faster than 0.25 m/s, whatever the ground does
-/// under it.
+/// as well as planes. Force ahead and to the side share one limit. A tyre's force never pushes it off the ground faster
+/// than 0.25 m/s, whatever the ground does under it.
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
                      TyreState& state);
 

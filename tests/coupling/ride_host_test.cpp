@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The excavator on soft columns: how deep its wheels sink, how evenly they bear, what their ruts take from the drive.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "coupling/ride.h"
+#include "terramechanics/plate.h"
+#include "values.h"
+
+namespace navvy::coupling {
+namespace {
+
+using testing::bed;
+using testing::Ride;
+using testing::shipped_machine;
+using testing::shipped_soil;
+
+constexpr double kSide = 4.03;  // of the machine's middle line: not on a column's edge for any cell
+constexpr double kWidth = 0.28, kTwin = 0.32, kTrack = 1.94;
+
+/// Mean and root mean square deviation of what was added.
+class Spread {
+ public:
+  void add(double value) { sum_ += value, squares_ += value * value, ++count_; }
+  double mean() const { return sum_ / count_; }
+  double rms() const { return std::sqrt(std::max(0.0, squares_ / count_ - mean() * mean())); }
+
+ private:
+  double sum_ = 0, squares_ = 0;
+  int count_ = 0;
+};
+
+/// Depth [m] of the left wheels' rut between the places x, in the middles of both tyres.
+double rut_depth(const heightfield::Ground& ground, double from, double to) {
+  Spread depth;
+  for (double x = from; x < to; x += 0.05)
+    for (const double side : {-0.5 * kTwin, 0.5 * kTwin}) depth.add(-ground.sample(x, kSide + 0.5 * kTrack + side));
+  return depth.mean();
+}
+
+class RideSoil : public ::testing::TestWithParam<const char*> {
+ protected:
+  const scene::Machine machine_ = shipped_machine("ew180");
+  const scene::Soil soil_ = shipped_soil(GetParam());
+};
+
+TEST_P(RideSoil, StandsAsDeepAndAsEvenWhateverTheCell) {
+  std::vector<double> sinkage;
+  for (const double cell : {0.2, 0.1, 0.05}) {
+    heightfield::Ground ground = bed(soil_, cell, Vec2(12, 8)), hard = bed(soil_, cell, Vec2(12, 8));
+    Ride ride(machine_, ground, Vec2(3, kSide)), firm(machine_, hard, Vec2(3, kSide), true);
+    ride.run(2);
+    firm.run(2);
+    const auto height = [](const Ride& one, int w) { return one.wheel(w).X_WWheel.translation().z(); };
+    std::vector<double> before;
+    for (int w = 0; w < 4; ++w) {
+      const double load = ride.wheel(w).force_W.z(), other = ride.wheel(w ^ 1).force_W.z();
+      EXPECT_NEAR(load / other, 1, 0.05) << cell;  // of an axle
+      before.push_back(height(ride, w));
+      sinkage.push_back(height(firm, w) - height(ride, w));
+    }
+    ride.run(1);
+    for (int w = 0; w < 4; ++w) EXPECT_NEAR(height(ride, w), before[static_cast<std::size_t>(w)], 1e-3) << cell;
+    print_value("sinkage after 2 s, front left [m]", sinkage[sinkage.size() - 4], "equal within 10 % for each cell",
+                "[docs/machines.md, ruts]");
+  }
+  for (std::size_t i = 4; i < sinkage.size(); ++i) EXPECT_NEAR(sinkage[i] / sinkage[i % 4], 1, 0.1);
+}
+
+TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
+  std::vector<double> depth, force;
+  for (const double cell : {0.2, 0.1, 0.05}) {
+    heightfield::Ground ground = bed(soil_, cell, Vec2(16, 8));
+    Ride ride(machine_, ground, Vec2(2, kSide));
+    ride.run(2);
+    ride.engine().set_drive(0, {1.2, 0, false});
+    ride.run(4);
+    const double start = ride.place_of_base().x(), work = ride.engine().work(0);
+    std::vector<Spread> loads(4);
+    ride.run(3, [&] {
+      for (std::size_t w = 0; w < 4; ++w) loads[w].add(ride.wheel(static_cast<int>(w)).force_W.z());
+    });
+    for (const Spread& load : loads) {
+      print_value("load, rms over mean", load.rms() / load.mean(), "0 .. 0.1", "[docs/machines.md, ruts]");
+      EXPECT_LT(load.rms(), 0.1 * load.mean()) << cell;
+    }
+    const double end = ride.place_of_base().x();
+    EXPECT_NEAR(end - start, 3.6, 0.15);
+    depth.push_back(rut_depth(ground, start, end - 1));
+    force.push_back((ride.engine().work(0) - work) / (end - start));
+    for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
+    print_value("rut [m]", depth.back(), "equal within 10 % for each cell", "[docs/machines.md, ruts]");
+  }
+  for (const double one : depth) EXPECT_NEAR(one / depth[0], 1, 0.1);
+  // The drive does the work of pressing two pairs of ruts, and rolls: R = b int p dz a tyre [Bekker 1969]. What slips
+  // and what the steep front of the rut takes comes on top, half as much again at most.
+  const double rut = 4 * kWidth * terramechanics::plate_work(soil_, depth[1], kWidth);
+  const double rolling = 0.02 * 18000 * kGravity;
+  print_value("drive [N]", force[1], "1 .. 1.5 of " + std::to_string(rut + rolling), "[Bekker 1969]");
+  EXPECT_GT(force[1], rut + rolling);
+  EXPECT_LT(force[1], 1.5 * (rut + rolling));
+}
+
+TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {
+  heightfield::Ground ground = bed(soil_, 0.1, Vec2(14, 8));
+  Ride ride(machine_, ground, Vec2(2, kSide));
+  double before = 0;
+  std::vector<double> added;
+  for (const double speed : {1.2, -1.2, 1.2}) {  // both axles each time
+    ride.engine().set_drive(0, {speed, 0, false});
+    ride.run(4.5);
+    const double depth = rut_depth(ground, 4, 5);
+    added.push_back(depth - before);
+    before = depth;
+  }
+  print_value("second pass over the first", added[1] / added[0], "0 .. 0.6", "[docs/validation.md, Wheels]");
+  EXPECT_GT(added[0], 0.03);
+  EXPECT_LT(added[1], 0.6 * added[0]);
+  EXPECT_LE(added[2], added[1] + 1e-6);  // heights are whole mass quanta
+}
+
+INSTANTIATE_TEST_SUITE_P(Soils, RideSoil, ::testing::Values("loam", "sand_dry"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST(Ride, LoadsStayEvenOnFirmGround) {
+  heightfield::Ground ground = bed(shipped_soil("loam"), 0.2, Vec2(16, 8));
+  Ride ride(shipped_machine("ew180"), ground, Vec2(2, kSide), true);
+  ride.engine().set_drive(0, {1.2, 0, false});
+  ride.run(4);
+  std::vector<Spread> loads(4);
+  ride.run(2, [&] {
+    for (std::size_t w = 0; w < 4; ++w) loads[w].add(ride.wheel(static_cast<int>(w)).force_W.z());
+  });
+  for (const Spread& load : loads) EXPECT_LT(load.rms(), 0.1 * load.mean());
+}
+
+}  // namespace
+}  // namespace navvy::coupling
