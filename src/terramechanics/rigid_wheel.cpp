@@ -15,29 +15,41 @@ constexpr int kBisections = 60;  // of the entry angle: below a double's roundin
 
 /// Sums over the arc from below the axle to the entry angle; `lift` is the load it carries [N].
 struct Arc {
-  double lift = 0, drawbar = 0, torque = 0;
+  double lift = 0, drawbar = 0, torque = 0, side = 0;
 };
 
-Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
-  const double r = wheel.radius, modulus = plate_modulus(soil, wheel.width);
-  const ShearStrength strength = rim_strength(soil);
+/// Way of the rim against the soil since it entered, ahead and to the side [m].
+Vec2 rim_way(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
   // Ways against the soil depend on the ratio of speeds alone.
   const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
+  const double aside = std::tan(wheel.slip_angle);
+  // A locked rim is dragged on and on.
+  if (rim <= 1e-6) return 1e3 * soil.janosi_k * Vec2(-1, aside);
+  const double r = wheel.radius, turned = entry - at;
+  return {(r + wheel.grouser) * turned - r * (std::sin(entry) - std::sin(at)) / rim, r * turned * aside / rim};
+}
+
+Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
+  const double r = wheel.radius, shear_radius = r + wheel.grouser;
+  const double modulus =
+      plate_modulus(soil, wheel.width) / std::pow(slip_sinkage(wheel.slip, wheel.slip_sinkage), soil.bekker_n + 0.5);
+  const ShearStrength strength = wheel.grouser > 0 ? surface_strength({&soil, 1}) : rim_strength(soil);
   Arc out;
   const double slice = entry / kSlices;
   for (int i = 0; i < kSlices; ++i) {
     // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has its corner.
     const double at = (i + 0.5) * slice;
     const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
-    // Way of the rim against the soil since it entered; a locked rim is dragged on and on.
-    const double moved =
-        rim > 1e-6 ? r * ((entry - at) - (std::sin(entry) - std::sin(at)) / rim) : -1e3 * soil.janosi_k;
-    const double shear = shear_stress(strength, pressure, moved, soil.janosi_k);
+    const Vec2 way = rim_way(wheel, soil, entry, at);
+    const double moved = way.norm();
+    const double stress = shear_stress(strength, pressure, moved, soil.janosi_k);
+    const double shear = moved > 0 ? stress * way.x() / moved : 0;
     // Pressure acts along the radius, shear along the rim.
     const double area = r * wheel.width * slice;
     out.lift += (pressure * std::cos(at) + shear * std::sin(at)) * area;
     out.drawbar += (shear * std::cos(at) - pressure * std::sin(at)) * area;
-    out.torque += shear * r * area;
+    out.torque += shear * shear_radius * area;
+    out.side += moved > 0 ? stress * way.y() / moved * area : 0;
   }
   return out;
 }
@@ -59,6 +71,7 @@ WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
   out.sinkage = wheel.radius * (1 - std::cos(high));
   out.drawbar = arc.drawbar;
   out.torque = arc.torque;
+  out.side = arc.side;
   return out;
 }
 

@@ -67,6 +67,57 @@ TEST(RigidWheel, PullGrowsWithSlip) {
   }
 }
 
+TEST(RigidWheel, SinksDeeperBySlipAsLyaskoSays) {
+  scene::Soil soil = plain();
+  soil.tool_friction_angle = 0;
+  const double rolling = rigid_wheel({0.5, 0.2, 300, 0}, soil).sinkage;
+  for (const double slip : {0.2, 0.5, -0.5}) {
+    const double s = std::abs(slip), deeper = (1 + s) / (1 - 0.5 * s);
+    WheelCase wheel{0.5, 0.2, 300, slip};
+    EXPECT_EQ(rigid_wheel(wheel, soil).sinkage, rolling);
+    wheel.slip_sinkage = 1;
+    // 2 %: Bekker's power is that of small entry angles.
+    EXPECT_NEAR(rigid_wheel(wheel, soil).sinkage, deeper * rolling, 0.02 * deeper * rolling) << slip;
+  }
+}
+
+TEST(RigidWheel, SideForceGrowsWithTheSlipAngleAtTheCostOfPull) {
+  double side = 0, pull = 1e9;
+  for (const double angle : {0.0, 2.0, 5.0, 10.0, 20.0, 40.0}) {
+    WheelCase wheel{0.5, 0.2, 300, 0.3};
+    wheel.slip_angle = radians(angle);
+    const WheelForce force = rigid_wheel(wheel, plain());
+    if (angle > 0) {
+      EXPECT_GT(force.side, side) << angle;
+      EXPECT_LT(force.drawbar, pull) << angle;
+    } else {
+      EXPECT_EQ(force.side, 0);
+    }
+    side = force.side, pull = force.drawbar;
+  }
+  EXPECT_LT(side, std::tan(radians(20)) * 300 * 1.05);  // pressure stands off the plumb line: 5 %
+}
+
+TEST(RigidWheel, GrousersShearSoilOnSoil) {
+  WheelCase wheel{0.5, 0.2, 300, 0.3};
+  const double smooth = rigid_wheel(wheel, plain()).drawbar;
+  wheel.grouser = 0.02;
+  EXPECT_GT(rigid_wheel(wheel, plain()).drawbar, smooth + 0.5 * (std::tan(radians(30)) - std::tan(radians(20))) * 300);
+}
+
+TEST(RigidWheel, DrawbarHasItsPeakWhereSlipSinksIt) {
+  double best = -1e9, at = 0, last = 0;
+  for (double slip = 0; slip < 0.96; slip += 0.05) {
+    WheelCase wheel{0.5, 0.2, 2000, slip};
+    wheel.slip_sinkage = 1;
+    last = rigid_wheel(wheel, plain()).drawbar;
+    if (last > best) best = last, at = slip;
+  }
+  EXPECT_GT(at, 0.05);
+  EXPECT_LT(at, 0.6);
+  EXPECT_LT(last, best - 10);
+}
+
 TEST(RigidWheel, SaysWhenTheGroundDoesNotCarryTheLoad) {
   scene::Soil mud = plain();
   mud.bekker_kphi = 1000;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip that is kept.
 //
+// Or the law alone, without particles (`law`).
+//
 // The single-wheel test of terramechanics: slip is kept, the wheel sinks as it likes, and pull, torque and sinkage are
 // read. The formulas beside the results integrate a measured plate curve over the rim; the particles know nothing of
 // that curve, so a gap between both is no error of either.
@@ -24,10 +26,19 @@ using terramechanics::rim_speed;
 using terramechanics::WheelCase;
 using terramechanics::WheelForce;
 
+constexpr const char* kLawSource =
+    "[Bekker 1969] [Janosi 1961] [Lyasko 2010] over the arc, the soil's own parameters [docs/validation.md, Wheels]";
+constexpr const char* kNotCarried = "none: by Bekker's law the soil does not carry this load";
 constexpr double kLoading = 0.3;   // seconds in which the load comes on, at standstill, and half as many to start
 constexpr double kDashpot = 0.05;  // sinking speed at which the carriage's damper bears a tenth of the load [m/s]
 
-WheelCase wheel_of(const Setup& setup) { return {setup["radius"], setup["width"], setup["load-n"], setup["slip"]}; }
+WheelCase wheel_of(const Setup& setup) {
+  WheelCase wheel{setup["radius"], setup["width"], setup["load-n"], setup["slip"]};
+  wheel.slip_angle = radians(setup["slip-angle-deg"]);
+  wheel.grouser = setup["grouser"];
+  wheel.slip_sinkage = setup["slip-sinkage"];
+  return wheel;
+}
 
 /// Dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its plate curve is 1734 kPa
 /// (z / m)^1.34, 20 degrees of friction on the rim are an estimate.
@@ -49,12 +60,33 @@ void check_wheel(const Setup& setup) {
         Fault{Fault::Severity::kError, "", 0, std::string("lab wheel --") + name, short_text(value), rule, remedy});
   };
   const double radius = setup["radius"];
+  if (setup.is("law", "yes")) return;  // no cells, no way
+  if (setup["slip-angle-deg"] != 0) refuse("slip-angle-deg", setup["slip-angle-deg"], "0 on particles", "--law yes");
+  if (setup["grouser"] > 0) refuse("grouser", setup["grouser"], "0 on particles: their drum is smooth", "--law yes");
   if (radius < 4 * setup.cell) refuse("radius", radius, "at least 4 cells", "a finer --cell, or a larger wheel");
   if (setup["width"] < 2 * setup.cell)
     refuse("width", setup["width"], "at least 2 cells", "a finer --cell, or a wider wheel");
   if (setup["from"] >= setup["travel"])
     refuse("from", setup["from"], "less than the travel", "half the travel is usual");
   if (!faults.empty()) throw InputError(faults);
+}
+
+/// What the law gives by itself.
+Report law_alone(const Setup& setup) {
+  const WheelCase wheel = wheel_of(setup);
+  const WheelForce law = rigid_wheel(wheel, setup.soil);
+  const auto value = [&law](double number) { return law.carried ? number : kNone; };
+  const std::string source = law.carried ? kLawSource : kNotCarried;
+  Report report;
+  report.note("drawbar pull", value(law.drawbar), "N", source);
+  report.note("sinkage", value(1000 * law.sinkage), "mm", source);
+  report.note("torque", value(law.torque), "N m", source);
+  report.note("side force", value(law.side), "N", "against the way to the side; the wheel's side wall is not counted");
+  report.note("drawbar pull over the load", value(law.drawbar / wheel.load), "");
+  const double in = law.torque * rim_speed(setup["speed"], wheel.slip) / wheel.radius;
+  report.note("tractive efficiency", in > 0 ? value(law.drawbar * setup["speed"] / in) : kNone, "",
+              "pull x speed over torque x turning");
+  return report;
 }
 
 /// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
@@ -151,6 +183,7 @@ Steady steady_part(const Trace& trace, const std::vector<double>& height, double
 /// Lays the bed, loads the wheel, rolls, and averages the last part of the way.
 Report run(const Setup& setup) {
   check_wheel(setup);
+  if (setup.is("law", "yes")) return law_alone(setup);
   const WheelCase wheel = wheel_of(setup);
   const Box bed = bed_of(setup);
   SiteOptions options;
@@ -177,9 +210,7 @@ Report run(const Setup& setup) {
   const Steady mean = steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
   // A soil too soft for the law has no expected values, which is said instead.
   const WheelForce law = rigid_wheel(wheel, setup.soil);
-  const std::string source =
-      law.carried ? "[Bekker 1969] [Janosi 1961] over the arc, the soil's own parameters [docs/validation.md, Wheels]"
-                  : "none: by Bekker's law the soil does not carry this load";
+  const std::string source = law.carried ? kLawSource : kNotCarried;
   const auto expected = [&law](double value) { return law.carried ? value : kNone; };
   Report report;
   report.add("drawbar pull", mean.force.x(), "N", expected(law.drawbar), kNone, kNone, source);
@@ -223,7 +254,7 @@ Rig wheel_rig() {
       "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's "
       "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not follow; those of "
       "the default soil were measured on its sand. Contact begins up to a cell before the shell; `offset` makes up "
-      "for it.";
+      "for it. With `law` those formulas are all that is measured, in no time, at a slip angle and with grousers too.";
   rig.parameters = {
       {"radius", 0.0625, "m", "of the wheel, 4 cells or more", above(0)},
       {"width", 0.06, "m", "of the wheel, 2 cells or more", above(0)},
@@ -235,9 +266,16 @@ Rig wheel_rig() {
       {"offset", 0.5, "cells", "by which the shell is smaller than the wheel on every side: contact reaches farther",
        at_least(0)},
       {"beside", 1.6, "radii", "of soil on either side", at_least(0)},
-      {"below", 2.2, "radii", "of soil", at_least(0)}};
+      {"below", 2.2, "radii", "of soil", at_least(0)},
+      {"slip-angle-deg", 0, "deg", "between way and wheel, by the law only", between(0, 80)},
+      {"grouser", 0, "m", "height of bars on the rim, by the law only; 0 is smooth", at_least(0)},
+      {"slip-sinkage", 1, "", "coefficient of the law's sinkage by slip: 1 as [Lyasko 2010] has it, 0 none",
+       between(0, 3)},
+      yes_no("law", false, "the law alone, without particles", "particles, the law beside them")};
   rig.examples = {{"A wheel on a soil whose plate curve is known",
                    "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set janosi_k_m=0.021"}};
+  rig.examples.push_back({"Pull against slip by the law, a wheel with grousers that goes askew",
+                          "--law yes --slip 0,0.1,0.2,0.4,0.6 --grouser 0.005 --slip-angle-deg 5"});
   rig.default_soil = wheel_bed_sand();
   rig.default_cell = 0.01;
   rig.experiment = run;
