@@ -88,7 +88,8 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
   const Vec2 rolled = std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
-    const Vec2 center = (X * Vec3(0, side * tyre.twin_spacing, 0)).head<2>();
+    // Below the axle as the machine stands: on a slope that is not plumb.
+    const Vec2 center = (X * Vec3(0, side * tyre.twin_spacing, -tyre.radius)).head<2>();
     press_patch(press, center, along);
     // Where it comes before the next press: it must not meet what it would have pressed as a wall.
     if (!rolled.isZero(kSameHeight)) press_patch(press, center + rolled, along);

@@ -122,6 +122,22 @@ TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {
   EXPECT_LE(added[2], added[1] + 1e-6);  // heights are whole mass quanta
 }
 
+TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
+  heightfield::Ground ground =
+      bed(shipped_soil("loam"), 0.1, Vec2(16, 8), [](double x, double) { return (x - 3) * std::tan(radians(8)); });
+  Ride ride(shipped_machine("ew180"), ground, Vec2(3, kSide));
+  double most = 0;
+  ride.run(2, [&] {
+    for (int w = 0; w < 4; ++w) most = std::max(most, ride.wheel(w).force_W.norm());
+  });
+  EXPECT_LT(most, 0.6 * 18000 * kGravity);  // it settles on its tyres without a blow
+  ride.engine().set_drive(0, {0.8, 0, false});
+  ride.run(4);
+  EXPECT_GT(ride.place_of_base().x(), 5);
+  // Two driven wheels bear gravity, compaction and rolling: slip, but no wheel that digs itself in.
+  EXPECT_LT(ride.wheel(2).slip, 0.2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Soils, RideSoil, ::testing::Values("loam", "sand_dry"),
                          [](const auto& tested) { return std::string(tested.param); });
 

@@ -206,7 +206,7 @@ TEST(Ruts, TheirWallsSlideWhenTheTyreHasLeft) {
   EXPECT_GT(bed.slumped, before);
   // From column to column more than phi + 2 is left: over two of them it is less.
   print_value("steepest over two columns", steepest(bed.ground, 2), "at most tan(phi + 2 deg)",
-              "[docs/soil.md, slumping]");
+              "[docs/exchange.md, slump]");
   EXPECT_LT(steepest(bed.ground, 2), std::tan(radians(31 + 2)));
 }
 
