@@ -123,14 +123,14 @@ double Ruts::work(double x, double y) const {
 }
 
 void Ruts::Memory::visit(Archive& a) {
-  a("pressure", pressure);
+  a.ranged("pressure", pressure, 0.0, 1e12);
   a("height", height);
-  a("work", work);
+  a.ranged("work", work, 0.0, 1e12);
 }
 
 void Ruts::Bearing::visit(Archive& a) {
-  a("load", load);
-  a("slip", slip);
+  a.ranged("load", load, -1e9, 1e9);
+  a.ranged("slip", slip, -3.0, 3.0);
 }
 
 void Ruts::visit(Archive& a) {

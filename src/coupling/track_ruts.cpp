@@ -39,14 +39,16 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
   for (const terramechanics::BeltPatch& patch : patches) {
     const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
     const Vec2 middle = patch.p_W.head<2>();
-    const double reach = 0.5 * std::hypot(patch.length, patch.width);
+    // Wide enough for a column to either side of its middle, as those of tyres: the belt stands between both.
+    const double half_width = std::max(0.5 * patch.width, ground_.cell());
+    const double reach = std::hypot(0.5 * patch.length, half_width);
     const double pressure = patch.load / (patch.length * patch.width);
     const Vec2i low = ground_.column_at(middle.x() - reach, middle.y() - reach);
     const Vec2i high = ground_.column_at(middle.x() + reach, middle.y() + reach);
     for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
       for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix) {
         const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - middle;
-        if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > 0.5 * patch.width) continue;
+        if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > half_width) continue;
         auto& bears = under[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
         bears = std::max(bears, std::pair(pressure, patch.width));
       }
@@ -64,7 +66,7 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
 }
 
 void TrackRuts::Memory::visit(Archive& a) {
-  a("pressure", pressure);
+  a.ranged("pressure", pressure, 0.0, 1e12);
   a("height", height);
 }
 

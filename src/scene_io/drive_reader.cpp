@@ -205,9 +205,21 @@ void check_track(Element& element, const scene::Wheel& wheel, const Vec3& p_spro
       faults.error(*rollers, std::to_string(track.rollers[i].z()),
                    "the rollers of a belt stand in a row, within their radius of one height", "change its z");
   }
+  const auto aside = [&](const Vec3& p) { return std::abs(p.y() - p_sprocket.y()) > 0.5 * wheel.width; };
+  for (const Vec3& roller : track.rollers)
+    if (aside(roller))
+      faults.error(
+          *rollers, std::to_string(roller.y()) + " m", "a roller lies beside the belt of its sprocket",
+          "the sprocket stands at y " + std::to_string(p_sprocket.y()) + " m of the link that carries the belt");
+  if (aside(track.p_idler))
+    faults.error(*element.FirstChildElement("idler_m"), std::to_string(track.p_idler.y()) + " m",
+                 "the idler lies beside the belt of its sprocket",
+                 "the sprocket stands at y " + std::to_string(p_sprocket.y()) + " m of the link that carries the belt");
   const double front = std::max(track.p_idler.x(), p_sprocket.x()), rear = std::min(track.p_idler.x(), p_sprocket.x());
   if (track.rollers.front().x() >= front || track.rollers.back().x() <= rear)
-    faults.error(*rollers, "", "the rollers must lie between idler and sprocket",
+    faults.error(*rollers,
+                 std::to_string(track.rollers.front().x()) + " to " + std::to_string(track.rollers.back().x()) + " m",
+                 "the rollers must lie between idler and sprocket",
                  "the sprocket stands at x " + std::to_string(p_sprocket.x()) + " m of the link that carries the belt");
   const double run = track.lower_run()[0].z();
   const struct {

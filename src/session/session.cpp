@@ -219,7 +219,7 @@ void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInp
   state_->world.command(machine, input);
 }
 void Session::brake(const sim::JointHandle& joint, bool on) {
-  state_->world.require_valid(joint, vehicle::JointInput{});
+  state_->world.require_brake(joint);
   state_->take_over(joint.machine());
   state_->world.brake(joint, on);
 }

@@ -195,12 +195,15 @@ void World::command(const JointHandle& joint, const vehicle::JointInput& input) 
   const int m = joint.machine();
   parts_->coupling.engine(m).set_joint(parts_->coupling.index(m), joint.index(), input);
 }
-void World::brake(const JointHandle& joint, bool on) {
+void World::require_brake(const JointHandle& joint) const {
   require_valid(joint, vehicle::JointInput{});
   const scene::Machine& machine = parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine;
   if (!(machine.joints[static_cast<std::size_t>(joint.index())].brake > 0))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "brake", joint.name(), "this joint has no brake",
                            "give it <navvy:brake> in the machine's file"});
+}
+void World::brake(const JointHandle& joint, bool on) {
+  require_brake(joint);
   const int m = joint.machine();
   parts_->coupling.engine(m).set_brake(parts_->coupling.index(m), joint.index(), on);
 }

@@ -101,6 +101,7 @@ class World {
   void require_valid(const JointHandle& joint, const vehicle::JointInput& input) const;
   void require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const;
   void require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const;
+  void require_brake(const JointHandle& joint) const;
 
   /// The resting ground.
   const heightfield::Ground& ground() const;

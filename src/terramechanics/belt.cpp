@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "terramechanics/plate.h"
+#include "terramechanics/tyre_track.h"
 
 namespace navvy::terramechanics {
 namespace {
@@ -88,15 +89,23 @@ struct Step {
   Vec3 velocity(const Vec3& p_W) const { return motion.v_W + motion.w_W.cross(p_W - motion.X_WC.translation()); }
 };
 
-/// Shear force (ahead, left) [N] on the shoes of a contact that slip by `slip` [m/s] and are sheared by `shear` [m].
-Vec2 shear_force(const Step& step, double area, double load, const SoilState& soil, const Vec2& shear,
-                 const Vec2& slip) {
+/// What a contact's soil bears in shear, at most [N], and the displacement [m] at which 63 % of it are mobilised.
+struct Bearing {
+  double most = 0, K = 0;
+};
+
+Bearing bearing(const Step& step, double length, double load, const SoilState& soil) {
   const ShearStrength strength = belt_strength(step.wheel, soil);
-  const double most = area * strength.cohesion + load * strength.slope;
-  if (!(most > 0)) return Vec2::Zero();
+  const double most = step.wheel.width * length * strength.cohesion + load * strength.slope;
   // Not stiffer than what the step can bear with the mass of the belt alone.
-  const double K = std::max(soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear,
-                            most * step.dt * step.dt / (0.25 * step.rim_mass));
+  const double K = soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear;
+  return {most, std::max(K, most * step.dt * step.dt / (0.25 * step.rim_mass))};
+}
+
+/// Shear force (ahead, left) [N] on the shoes of a contact that slip by `slip` [m/s] and are sheared by `shear` [m].
+Vec2 shear_force(const Step& step, const Bearing& bears, const Vec2& shear, const Vec2& slip) {
+  const auto [most, K] = bears;
+  if (!(most > 0)) return Vec2::Zero();
   const double j = shear.norm(), share = mobilised_share(j, K);
   Vec2 force = j > 0 ? Vec2(-most * share / j * shear) : Vec2(Vec2::Zero());
   const double damping = std::min(0.8 * std::sqrt(most / K * step.rim_mass), 0.3 * step.rim_mass / step.dt);
@@ -144,7 +153,7 @@ std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& ge
     const double carried = std::abs(step.belt_speed) * step.dt / gear[i].length;
     contact.shear = (contact.shear + step.dt * slip[i] + carried * before) / (1 + carried);
     const SoilState soil = step.ground.soil(met[i].p_W.x(), met[i].p_W.y());
-    const double most = kMostShear * (soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear);
+    const double most = kMostShear * bearing(step, gear[i].length, contact.load, soil).K;
     if (contact.shear.norm() > most) contact.shear *= most / contact.shear.norm();
     // Over the segment it grows evenly. Where nothing comes in, all of it is sheared alike.
     const double rolls = 1 - std::exp(-std::abs(step.belt_speed) / kRest);
@@ -172,8 +181,9 @@ double rut_depth(const Step& step, const std::vector<Meeting>& met, const BeltSt
 }  // namespace
 
 void BeltContact::visit(Archive& a) {
-  a("load", load);
+  a.ranged("load", load, 0.0, 1e12);
   a("shear", shear);
+  a.require(shear.allFinite(), "shear", "soil under a belt is sheared by no number");
 }
 
 BeltState BeltState::of(const scene::Track& track) {
@@ -183,10 +193,7 @@ BeltState BeltState::of(const scene::Track& track) {
 }
 
 ShearStrength belt_strength(const scene::Wheel& wheel, const SoilState& ground) {
-  if (ground.soil == nullptr) return {0, wheel.friction};
-  const scene::Soil& soil = *ground.soil;
-  const double loose = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0;
-  return {soil.cohesion + loose * (soil.residual_cohesion - soil.cohesion), std::tan(soil.friction_angle)};
+  return ground.soil != nullptr ? surface_strength(ground) : ShearStrength{0, wheel.friction};
 }
 
 BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const GroundQuery& ground, double dt,
@@ -208,8 +215,7 @@ BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const 
     met.push_back(meet(gear[i], motion.X_WC, ground));
     const Meeting& at = met.back();
     const Vec3 v = step.velocity(at.p_W), ahead = left.cross(at.normal);
-    const double press = wheel.stiffness * at.depth - wheel.damping * at.normal.dot(v);
-    state.contacts[i].load = at.depth > 0 ? std::max(0.0, press / rollers) : 0;
+    state.contacts[i].load = at.depth > 0 ? radial_force(wheel, 1 / rollers, at.depth, -at.normal.dot(v)) : 0;
     slip.emplace_back(v.dot(ahead) - step.belt_speed, v.dot(left));
     load += state.contacts[i].load;
     ground_speed += state.contacts[i].load * v.dot(ahead);
@@ -223,7 +229,7 @@ BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const 
     const BeltContact& contact = state.contacts[i];
     if (!(contact.load > 0)) continue;
     const SoilState soil = ground.soil(met[i].p_W.x(), met[i].p_W.y());
-    const Vec2 f = shear_force(step, wheel.width * gear[i].length, contact.load, soil, shear[i], slip[i]);
+    const Vec2 f = shear_force(step, bearing(step, gear[i].length, contact.load, soil), shear[i], slip[i]);
     const Vec3 ahead = left.cross(met[i].normal);
     out.pushes.push_back({contact.load * met[i].normal + f.x() * ahead + f.y() * left, met[i].p_W});
     // Work of a force on the belt, which runs back under the machine as the sprocket turns.

@@ -34,7 +34,7 @@ struct TrackShear {
 ///   F = -k u - c v_s,  |F| <= limit (1 - exp(-j / K)),  dj/dt = yielding - |V| / l j
 ///
 /// with `sheared` j [m], kept in TyreState. Rolling steadily at a small slip s, j = s l: the mean displacement over a
-/// patch of length 2 l. Standing soil that has yielded holds what it bore. K = 0 is bristle_force.
+/// patch of length 2 l. Standing soil that has yielded holds what it bore. K is above 0; towards 0 it is bristle_force.
 Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, const TrackShear& soil,
                  double rim_mass, double dt, Vec2& bristle, double& sheared);
 

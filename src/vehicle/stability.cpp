@@ -211,9 +211,10 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
   out.tipping_load = weakest.load;
   const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
+  // What the ground does not bear, or what nothing moves, is as near to tipping as its centre of mass.
   Vec2 borne = centre;
-  if (centre_of_pressure(bearings(machine, engine, index), borne))
-    out.loaded_margin = support_margin(std::move(feet), borne);
+  centre_of_pressure(bearings(machine, engine, index), borne);
+  out.loaded_margin = support_margin(std::move(feet), borne);
   return out;
 }
 

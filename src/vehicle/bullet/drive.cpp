@@ -86,7 +86,7 @@ void MachineDrive::begin_step(double dt) {
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const MachineWheel& wheel = wheels_[w];
     turns_[w] = {about_[w].driven && joints_[wheel.spin_joint].driven, tree_.velocity(wheel.spin_joint),
-                 about_[w].radius - wheel.force.deflection, wheel.spin_inertia};
+                 about_[w].radius - wheel.force.deflection, wheel.spin_inertia, machine_.wheels[w].track.has_value()};
   }
   // Present speeds go in, torques come out; the governors' memory moves on by one step.
   const Pump& pump = joints_.pump();

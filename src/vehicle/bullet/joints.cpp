@@ -183,7 +183,8 @@ JointState MachineJoints::state(int joint) const {
     state.velocity_limit =
         std::min(about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
     state.cylinder_length = geometry.length;
-    state.cylinder_force = std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
+    // What a brake bears the cylinder does not.
+    state.cylinder_force = !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
   }
   state.stalled = a.servo.stalled();
   state.braked = a.braked;
@@ -197,6 +198,7 @@ void Actuator::visit(Archive& a) {
   if (has_brake) {
     a.unhashed("hashed by the place it holds, while it is on", [&] { a("braked", braked); });
     if (braked) a("held", held);
+    a.require(std::isfinite(held), "held", "a brake holds its joint at no place");
   }
   // The drive turns a wheel without its servo, which then goes by what it last had. Others get theirs in every step.
   if (!spins_wheel) return;

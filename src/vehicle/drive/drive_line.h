@@ -45,6 +45,7 @@ struct WheelTurn {
   double spin = 0;          ///< positive rolls forward [rad/s]
   double radius = 0;        ///< loaded [m]
   double spin_inertia = 0;  ///< [kg m2]
+  bool belt = false;        ///< a sprocket
 };
 
 /// How a wheel moves, for engines that move the machine by it.

@@ -8,13 +8,13 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kRamp = 1.5;          // [m/s2] travel pedal to speed (U)
-constexpr double kSpeedTime = 0.3;     // [s] tuned: BulletDrive.KeepsTheAskedSpeed
-constexpr double kIntegralTime = 1.0;  // [s] tuned: same
+constexpr double kSpeedTime = 0.3;     // [s], that of wheels. tuned: BulletDrive.KeepsTheAskedSpeed
+constexpr double kIntegralTime = 1.0;  // [s] with it, and in proportion to others. tuned: same
 
 /// [N] for each [m/s] of error: suits the whole machine but stays stable for wheels that spin freely.
 double gain_of(const DrivenWheels& wheels, double dt) {
   const double rim = wheels.spin_inertia / (wheels.radius * wheels.radius);
-  return std::min(wheels.mass / kSpeedTime, 0.3 * rim / dt);
+  return std::min(wheels.mass / wheels.response, 0.3 * rim / dt);
 }
 
 }  // namespace
@@ -44,7 +44,8 @@ double SpeedGovernor::give(double force, double low, double high, const DrivenWh
   const double limited = std::clamp(force, low, high);
   // Integrates only while it can act.
   if (force == limited || error * force < 0)
-    integral_ = std::clamp(integral_ + gain_of(wheels, dt) / kIntegralTime * error * dt, low, high);
+    integral_ = std::clamp(
+        integral_ + gain_of(wheels, dt) / (wheels.response / kSpeedTime * kIntegralTime) * error * dt, low, high);
   return limited;
 }
 

@@ -16,6 +16,7 @@ struct DrivenWheels {
   double radius = 0;        ///< mean, loaded [m]
   double spin_inertia = 0;  ///< of all together about their axes [kg m2]
   double mass = 0;          ///< that they have to move [kg]
+  double response = 0.3;    ///< of the governor to an error of speed [s]
 };
 
 /// Torque so that the driven wheels' mean speed follows the one asked for.

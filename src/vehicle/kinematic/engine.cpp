@@ -15,7 +15,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 struct Body {
   scene::Machine machine;
@@ -185,7 +185,11 @@ class KinematicEngine final : public Engine {
   static void visit_brake(Body& body, std::size_t j, Archive& a) {
     if (!(body.machine.joints[j].brake > 0)) return;
     a.unhashed("hashed while it is on", [&] { a.ranged("braked", body.braked[j], 0, 1); });
-    if (body.braked[j] != 0) a("on", body.braked[j]);
+    if (body.braked[j] == 0) return;
+    // Which one is on, for the hash: without a brake on, it is that of machines without brakes.
+    int which = static_cast<int>(j) + 1;
+    a("on", which);
+    a.require(which == static_cast<int>(j) + 1, "on", "another joint's brake");
   }
   /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where it stands, if it has
   /// one, and no more than the joint's own.
