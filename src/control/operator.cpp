@@ -219,8 +219,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came after the last step; 8: a
-  // scoop begins before its soil.
+  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came after the last step;
+  // 8: a scoop begins before its soil.
   a.section("operator", 8, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
