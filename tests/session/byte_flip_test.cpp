@@ -74,7 +74,10 @@ TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
 TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsSeen) {
   const auto session = make("trench.sdf", {}, 0.5), target = make("trench.sdf", {}, 0);
   EXPECT_EQ(test::flip_every_byte(*session, *target, kStride, kShortStride), "");
-  EXPECT_EQ(reasons(*session), kReasons);
+  // A brake that is off is no part of the hash: one that is on is, by the place it holds.
+  std::set<std::string> with_brakes = kReasons;
+  with_brakes.insert("hashed by the place it holds, while it is on");
+  EXPECT_EQ(reasons(*session), with_brakes);
 }
 
 }  // namespace
