@@ -122,24 +122,28 @@ void check_shared_power(const Element& element, const scene::Machine& machine, F
                  "give the pump no more power_w than the engine has");
 }
 
+/// How a tyre or a belt meets the ground.
+Fields& contact(Fields& fields, scene::Wheel& wheel) {
+  return fields.number("width_m", wheel.width, {0.005, 5})
+      .number("stiffness_n_per_m", wheel.stiffness, {100, 1e9})
+      .number("damping_n_s_per_m", wheel.damping, {0, 1e8})
+      .number("friction", wheel.friction, {0, 3})
+      .number("rolling_resistance", wheel.rolling_resistance, {0, 1});
+}
+
 }  // namespace
 
 scene::Wheel read_wheel(Element& element, const Names& names, Faults& faults) {
   scene::Wheel wheel;
-  Fields(element, faults)
-      .attribute("name")
+  Fields fields(element, faults);
+  fields.attribute("name")
       .text("joint", wheel.joint)
       .required("joint")
       .text("steer_joint", wheel.steer_joint)
       .flag("driven", wheel.driven)
       .number("radius_m", wheel.radius, {0.01, 5})
-      .number("width_m", wheel.width, {0.005, 5})
-      .number("twin_spacing_m", wheel.twin_spacing, {0, 5})
-      .number("stiffness_n_per_m", wheel.stiffness, {100, 1e9})
-      .number("damping_n_s_per_m", wheel.damping, {0, 1e8})
-      .number("friction", wheel.friction, {0, 3})
-      .number("rolling_resistance", wheel.rolling_resistance, {0, 1})
-      .finish();
+      .number("twin_spacing_m", wheel.twin_spacing, {0, 5});
+  contact(fields, wheel).finish();
   require_name(element, "joint", "joint", names.joints, faults);
   require_name(element, "steer_joint", "joint", names.joints, faults);
   return wheel;
@@ -154,8 +158,8 @@ scene::Wheel read_track(Element& element, const Names& names, Faults& faults) {
   wheel.stiffness = 1.2e7;
   wheel.damping = 1.2e5;
   wheel.radius = 0.35;
-  Fields(element, faults)
-      .attribute("name")
+  Fields fields(element, faults);
+  fields.attribute("name")
       .text("joint", wheel.joint)
       .required("joint")
       .number("sprocket_radius_m", wheel.radius, {0.01, 5})
@@ -172,13 +176,8 @@ scene::Wheel read_track(Element& element, const Names& names, Faults& faults) {
       .required("roller_m")
       .number("roller_radius_m", track.roller_radius, {0.005, 5})
       .required("roller_radius_m")
-      .number("thickness_m", track.thickness, {0, 1})
-      .number("width_m", wheel.width, {0.005, 5})
-      .number("stiffness_n_per_m", wheel.stiffness, {100, 1e9})
-      .number("damping_n_s_per_m", wheel.damping, {0, 1e8})
-      .number("friction", wheel.friction, {0, 3})
-      .number("rolling_resistance", wheel.rolling_resistance, {0, 1})
-      .finish();
+      .number("thickness_m", track.thickness, {0, 1});
+  contact(fields, wheel).finish();
   require_name(element, "joint", "joint", names.joints, faults);
   std::stable_sort(track.rollers.begin(), track.rollers.end(),
                    [](const Vec3& a, const Vec3& b) { return a.x() > b.x(); });

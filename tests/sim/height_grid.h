@@ -40,10 +40,11 @@ class HeightGrid final : public Sampler {
     const Pose X_WF = frame();
     double least = std::numeric_limits<double>::infinity();
     const std::span<float> values = out.fill<float>(grid_, X_WF);
+    const int middle = nodes_ / 2;
     std::size_t i = 0;
     for (int row = 0; row < nodes_; ++row)
       for (int column = 0; column < nodes_; ++column) {
-        const Vec3 p_W = X_WF * Vec3(spacing_ * (column - nodes_ / 2), spacing_ * (row - nodes_ / 2), 0);
+        const Vec3 p_W = X_WF * Vec3(spacing_ * (column - middle), spacing_ * (row - middle), 0);
         const double height = world.ground().sample(p_W.x(), p_W.y()) - X_WF.translation().z();
         least = std::min(least, height);
         values[i++] = static_cast<float>(height);

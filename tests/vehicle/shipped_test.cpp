@@ -44,7 +44,7 @@ class ShippedVehicles : public ::testing::TestWithParam<std::string> {
     const Vec3 ahead = engine->link(0, 0).X_WL.linear().col(0);
     return std::atan2(ahead.y(), ahead.x());
   }
-  /// To the left: as far as it steers, or half a radian a second.
+  /// To the left: half as far as it steers, or half a radian a second.
   double steering() const {
     if (const auto* steered = std::get_if<scene::AckermannDrive>(&machine.drive)) return 0.5 * steered->max_steer;
     if (const auto* linkage = std::get_if<scene::LinkageDrive>(&machine.drive))
