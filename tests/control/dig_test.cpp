@@ -154,7 +154,7 @@ TEST(Dig, CurlsAboutTheBucketsPinAndNotOnItsHeel) {
 TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
   Lines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
-  rig.thickest_slice = 0.12;
+  rig.thickest_slice = 0.09;
   ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
   const TrenchMeasure measured = measure(rig.ground, trench());
   report(rig, measured);

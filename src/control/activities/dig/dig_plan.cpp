@@ -103,6 +103,8 @@ void DigPlan::refuse(const SurfaceView& surface, double s) {
   }
 }
 
+int DigPlan::slices() const { return std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9))); }
+
 bool DigPlan::thin() {
   if (dig_.pass_depth <= kThinnest) return false;
   dig_.pass_depth = std::max(kThinnest, kThinner * dig_.pass_depth);
@@ -164,10 +166,9 @@ int DigPlan::run_up(const SurfaceView& surface, int i, double level) const {
 
 Scoop DigPlan::next(const SurfaceView& surface) const {
   // Slices of equal depth; the next one is opened only when the one above holds no worthwhile load.
-  const int slices = std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
-  for (int k = 1; k <= slices; ++k) {
-    const double level = dig_.depth * k / slices;
-    if (volume_above(surface, level) < (k < slices ? kWorth : kWorthLast) * scoop_volume_) continue;
+  for (int k = 1; k <= slices(); ++k) {
+    const double level = dig_.depth * k / slices();
+    if (volume_above(surface, level) < (k < slices() ? kWorth : kWorthLast) * scoop_volume_) continue;
     for (int i = samples() - 1; i >= 1; --i)
       // Two neighbours must agree, a single crumb is not worth a cycle.
       if (remaining(surface, i, level) > kTolerance && remaining(surface, i - 1, level) > kTolerance)

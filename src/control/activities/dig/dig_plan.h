@@ -51,8 +51,8 @@ class DigPlan {
   void refuse(const SurfaceView& surface, double s);
   /// Soil that holds the bucket is dug in thinner slices from now on. False: they are as thin as they get.
   bool thin();
-  /// Thickness of a slice at most [m].
-  double pass_depth() const { return dig_.pass_depth; }
+  /// Thickness of a slice: they are equal, and none is thicker than ordered [m].
+  double slice() const { return dig_.depth / slices(); }
   /// A pass along the whole floor.
   Scoop clean_up() const { return {length_, 0, length_, dig_.depth, true}; }
   /// Soil above depth `level` over the trench's width [m3].
@@ -82,6 +82,7 @@ class DigPlan {
   /// Soil above depth `level` between samples i - 1 and i [m3].
   double piece_above(const SurfaceView& surface, int i, double level) const;
   double at(int i) const { return length_ * i / (samples() - 1); }
+  int slices() const;
   int samples() const { return static_cast<int>(start_.size()); }
   void derive();
 

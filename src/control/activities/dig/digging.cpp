@@ -21,6 +21,8 @@ constexpr double kLiftClear = 0.6;    // lowest point over the ground before the
 constexpr double kHeldUp = 0.4;       // of a slice: raised by more on the whole drag's mean, the next slice is thinner
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
+// On the last floor a scoop that brings less is not made a second time: a high wall sheds as much again and again.
+constexpr double kCrumbs = 0.15;
 constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
 // so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
@@ -176,8 +178,8 @@ void Digging::start_dump(const Observation& seen) {
 
 void Digging::thin_slices() {
   // A boulder raises the path for a part of the drag, soil that is too strong for all of it.
-  if (m.cleaning != 0 || m.held_up <= kHeldUp * plan_.pass_depth() * (m.scoop_start - m.s)) return;
-  if (plan_.thin()) place_.warn("the soil holds the bucket: slices of " + metres(plan_.pass_depth()) + " from now on");
+  if (m.cleaning != 0 || m.held_up <= kHeldUp * plan_.slice() * (m.scoop_start - m.s)) return;
+  if (plan_.thin()) place_.warn("the soil holds the bucket: slices of " + metres(plan_.slice()) + " from now on");
 }
 
 bool Digging::dump(const Observation& seen) {
@@ -303,7 +305,7 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
       if (!move(seen)) break;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       // A pass along the whole floor may well bring little; a scoop that does shows soil that cannot be dug.
-      if (m.empty_scoops > 0 && m.cleaning == 0)
+      if (m.cleaning == 0 && seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kCrumbs) * m.full_mass)
         with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
       tell(CycleEvent::kDumpStart);
       start_dump(seen);
