@@ -129,6 +129,8 @@ TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
   EXPECT_THROW(session->command(machine, {nan, 0, false}), InputError);
   EXPECT_THROW(session->command(sim::MachineHandle(), {0, 0, true}), InputError);
   EXPECT_THROW(session->command(sim::JointHandle(), {vehicle::JointMode::kVelocity, 0}), InputError);
+  const int bucket = description.machines.at(0).machine.joint_index(description.machines.at(0).machine.arm.bucket);
+  EXPECT_THROW(session->brake(machine.joint(bucket), true), InputError) << "a joint without a brake";
   EXPECT_EQ(session->phase(0), phase);
 }
 
