@@ -52,8 +52,9 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
   if (forward.norm() < 0.1) return track;  // lying on its side: the body's contacts hold it
   const Vec3 ahead = forward.normalized(), down = -ahead.cross(spin_axis);
   Vec3 normal = Vec3::Zero();
+  constexpr int kMiddle = kArcSamples / 2;
   for (int i = 0; i < kArcSamples; ++i) {
-    const double angle = kArcStep * (i - kArcSamples / 2);
+    const double angle = kArcStep * (i - kMiddle);
     const Vec3 ray = std::cos(angle) * down + std::sin(angle) * ahead;
     const Vec3 p = center + radius * ray;
     const double height = ground.height(p.x(), p.y());

@@ -40,7 +40,6 @@ class Ride {
  public:
   Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at, bool firm = false)
       : machine_(machine),
-        ground_(ground),
         ruts_(ground),
         view_(ground, ground.setup().soils, &ruts_),
         firm_(firm),
@@ -81,7 +80,6 @@ class Ride {
   }
 
   scene::Machine machine_;
-  heightfield::Ground& ground_;
   Ruts ruts_;
   GroundView view_;
   bool firm_;

@@ -20,6 +20,7 @@ namespace {
 
 std::vector<std::string> names(const std::vector<Channel>& channels) {
   std::vector<std::string> out;
+  out.reserve(channels.size());
   for (const Channel& channel : channels) out.push_back(channel.name + " [" + channel.unit + "]");
   return out;
 }

@@ -23,7 +23,7 @@ constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as 
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
 // On the last floor a scoop that brings less is not made a second time: a high wall sheds as much again and again.
 constexpr double kCrumbs = 0.15;
-constexpr int kMostEmpty = 3;         // empty scoops in a row that end the dig
+constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
 // so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
 // usual rate].
