@@ -17,7 +17,7 @@ add_library(navvy_flags INTERFACE)
 target_compile_options(navvy_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
 if(NAVVY_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 forgets that precompiled text came from system headers, and warns of writes out of bounds in std::string, a
-  # false alarm known there. Builds without precompiled headers, a developer's own, keep these warnings.
+  # false alarm known there. Builds without precompiled headers (preset core) keep these warnings.
   target_compile_options(navvy_flags INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(NAVVY_WARNINGS_AS_ERRORS)
@@ -43,8 +43,8 @@ if(NAVVY_FUZZ)
   endif()
 endif()
 
-# Headers that nearly every file reads: with Eigen half of a small file's compile time. Only where nothing is cached
-# (CI): a compiler cache serves files better without.
+# Headers that nearly every file reads: with Eigen half of a small file's compile time. Not by clang: its precompiled
+# headers name the folder that they were made in, so that a compiler cache cannot hand them to another clone.
 set(NAVVY_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <cstdint> <functional> <map> <memory> <optional>
     <string> <utility> <vector>)
 
