@@ -122,6 +122,45 @@ TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {
   EXPECT_LE(added[2], added[1] + 1e-6);  // heights are whole mass quanta
 }
 
+/// How fast [m/s] it drives up a slope of soil after 6 s, its wheels in their ruts; 0.5 is commanded. `pull`: a share
+/// of the weight that holds it back besides, at every link's centre of mass.
+double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, double slope, double pull) {
+  heightfield::Ground ground =
+      bed(soil, 0.1, Vec2(16, 8), [slope](double x, double) { return (x - 4) * std::tan(slope); });
+  Ride ride(machine, ground, Vec2(4, kSide));
+  ride.engine().set_drive(0, {0.5, 0, false});
+  const auto hold_back = [&] {
+    if (pull == 0) return;
+    for (std::size_t l = 0; l < machine.links.size(); ++l) {
+      const int link = static_cast<int>(l);
+      const Vec3 center = ride.engine().link(0, link).X_WL * machine.links[l].p_LCom;
+      ride.engine().add_force(0, link, Vec3(-pull * kGravity * machine.links[l].mass, 0, 0), center);
+    }
+  };
+  ride.run(6, hold_back);
+  const double start = ride.place_of_base().x();
+  ride.run(2, hold_back);
+  return (ride.place_of_base().x() - start) / std::cos(slope) / 2;
+}
+
+TEST_P(RideSoil, SlopeOfTheFrictionThatItsWheelsMobiliseStopsIt) {
+  // What its wheels pull on the flat, compaction and rolling paid, as a share of the weight: the friction they
+  // mobilise.
+  double moves = 0, stops = 0.7;
+  while (stops - moves > 0.01) {
+    const double pull = 0.5 * (moves + stops);
+    (climbing_speed(machine_, soil_, 0, pull) > 0.05 ? moves : stops) = pull;
+  }
+  const double limit = std::atan(stops);
+  print_value("slope of the mobilised friction [deg]", degrees(limit), "", "[docs/machines.md, tyres]");
+  const double steeper = climbing_speed(machine_, soil_, limit + radians(1), 0);
+  const double gentler = climbing_speed(machine_, soil_, limit - radians(3), 0);
+  print_value("speed up one steeper by 1 deg [m/s]", steeper, "below 0.05", "[docs/machines.md, tyres]");
+  print_value("speed up one gentler by 3 deg [m/s]", gentler, "above 0.05", "[docs/machines.md, tyres]");
+  EXPECT_LT(steeper, 0.05);
+  EXPECT_GT(gentler, 0.05);
+}
+
 TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
   heightfield::Ground ground =
       bed(shipped_soil("loam"), 0.1, Vec2(16, 8), [](double x, double) { return (x - 3) * std::tan(radians(8)); });
