@@ -39,6 +39,7 @@ struct Observation {
 struct Command {
   std::vector<std::optional<vehicle::JointInput>> joints;  ///< as in scene::Machine::joints
   std::optional<vehicle::DriveInput> drive;                ///< without: as last commanded
+  std::optional<std::string> unhitch;                      ///< the hitch of this name is let go
 };
 
 /// Moments of a digging cycle and of a tip, told once each.

@@ -8,6 +8,7 @@
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
+#include "control/activities/unhitch.h"
 #include "control/activities/wait.h"
 #include "control/activities/wait_for.h"
 
@@ -19,6 +20,7 @@ const scene::StepKinds& step_kinds() {
       scene::step_kind<DriveTo>(), scene::step_kind<Dig>(),        scene::step_kind<Swing>(),
       scene::step_kind<Dump>(),    scene::step_kind<Wait>(),       scene::step_kind<Tip>(),
       scene::step_kind<WaitFor>(), scene::step_kind<Trajectory>(), scene::step_kind<GoTo>(),
+      scene::step_kind<Unhitch>(),
   };
   return kinds;
 }

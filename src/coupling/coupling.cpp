@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
+#include "coupling/hitching.h"
 #include "coupling/placing.h"
 
 namespace navvy::coupling {
@@ -42,6 +43,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
     }
   }
   engine.set_rock(ground.datum());
+  add_hitches(world, engine, [this](int machine) { return index(machine); });
 }
 
 double Coupling::payload(const ToolLoad& tool) const {

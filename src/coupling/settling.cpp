@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupling/ground_view.h"
+#include "coupling/hitching.h"
 #include "coupling/placing.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
@@ -25,6 +26,9 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   }
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
+  add_hitches(scene, *engine, [&of](int machine) {
+    return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) - of.begin());
+  });
   Ruts ruts(ground);
   TrackRuts track_ruts(ground);
   const GroundView view(ground, ground.setup().soils, &ruts);

@@ -390,12 +390,26 @@ void put(const Writer& w, const MachineInWorld& placed) {
   }
 }
 
+void put(const Writer& w, const Hitch& hitch) {
+  [[maybe_unused]] const auto& [name, parent, child, parent_link, child_link, hook, eye, cone, twist, closed, line] =
+      hitch;
+  w("parent", parent);
+  w("child", child);
+  w("parent_link", parent_link);
+  w("child_link", child_link);
+  w("hook", hook);
+  w("eye", eye);
+  w("cone", cone);
+  w("twist", twist);
+  w("closed", closed);
+}
+
 }  // namespace
 
 Parameters parameters(const Scene& scene) {
   Parameters out;
   const Writer w(out);
-  const auto& [name, file, gravity, seed, solver, soils, ground, design, materials, machines, cameras, lights,
+  const auto& [name, file, gravity, seed, solver, soils, ground, design, materials, machines, hitches, cameras, lights,
                recording, records] = scene;
   w("gravity", gravity);
   w("seed", seed);
@@ -410,6 +424,11 @@ Parameters parameters(const Scene& scene) {
   for (std::size_t i = 0; i < machines.size(); ++i) {
     w.at("machine", machines[i].name)("number", static_cast<std::uint64_t>(i));
     put(w.at("machine", machines[i].name), machines[i]);
+  }
+  // Channels and rows of the solver go by their numbers, too.
+  for (std::size_t i = 0; i < hitches.size(); ++i) {
+    w.at("hitch", hitches[i].name)("number", static_cast<std::uint64_t>(i));
+    put(w.at("hitch", hitches[i].name), hitches[i]);
   }
   return out;
 }

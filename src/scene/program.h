@@ -26,6 +26,8 @@ class Step {
   virtual const char* element() const = 0;
   /// For what it waits, if it does; programs that wait for each other in a circle are refused.
   virtual std::optional<Waiting> waits_for() const { return std::nullopt; }
+  /// The hitch of its machine that it opens, if it does.
+  virtual std::optional<std::string> opens() const { return std::nullopt; }
 
  protected:
   Step() = default;

@@ -8,6 +8,7 @@
 #include "core/math.h"
 #include "scene/design.h"
 #include "scene/ground.h"
+#include "scene/hitch.h"
 #include "scene/machine.h"
 #include "scene/material.h"
 #include "scene/program.h"
@@ -98,6 +99,7 @@ struct Scene {
   Design design;
   Materials materials;
   std::vector<MachineInWorld> machines;
+  std::vector<Hitch> hitches;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   Recording recording;

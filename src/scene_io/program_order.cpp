@@ -51,6 +51,19 @@ bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, con
   return false;
 }
 
+/// A program opens hitches of its own machine.
+void check_hitch(const Element& at, const std::string& hitch, std::size_t machine, const scene::Scene& world,
+                 Faults& faults) {
+  std::vector<std::string> names;
+  for (const scene::Hitch& one : world.hitches) {
+    if (one.parent != static_cast<int>(machine) && one.child != static_cast<int>(machine)) continue;
+    if (one.name == hitch) return;
+    names.push_back(one.name);
+  }
+  faults.error(at, hitch, "this machine has no hitch of this name",
+               names.empty() ? "add <navvy:hitch name=\"" + hitch + "\"> to the world" : faults.nearest(hitch, names));
+}
+
 /// Lets every program run as far as waiting allows; where each stands then.
 std::vector<int> run_dry(const scene::Scene& world) {
   // Order does not matter: a program only ever gets farther, so all orders end at the same place.
@@ -83,9 +96,12 @@ void check_program_order(Element& world_element, const scene::Scene& world, Faul
   bool sound = elements.size() == world.machines.size();
   for (std::size_t m = 0; m < world.machines.size() && sound; ++m) {
     const auto& steps = world.machines[m].program.steps;
-    for (std::size_t s = 0; s < steps.size(); ++s)
+    for (std::size_t s = 0; s < steps.size(); ++s) {
       if (const std::optional<Waiting> wait = steps[s]->waits_for())
         sound = !wait->machine.empty() && check_wait(*elements[m][s], *wait, m, world, faults) && sound;
+      if (const std::optional<std::string> hitch = steps[s]->opens(); hitch && !hitch->empty())
+        check_hitch(*elements[m][s], *hitch, m, world, faults);
+    }
   }
   // With a name or a number wrong there is nothing to run.
   if (!sound) return;

@@ -242,6 +242,7 @@ const Extension kExtensions[] = {
     {"world", "navvy:solver"},
     {"world", "navvy:recording"},
     {"world", "navvy:camera"},
+    {"world", "navvy:hitch"},
     {"world", "navvy:seed"},
     {"include", "navvy:program"},
     {"world", "navvy:resolved"},
@@ -355,9 +356,10 @@ bool may_repeat(const char* name) {
   // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
   // first and drop the others.
   for (const char* repeatable :
-       {"model",       "include",        "light",       "link",        "joint",       "frame",        "visual",
-        "collision",   "plugin",         "sensor",      "physics",     "navvy:soil",  "navvy:camera", "navvy:record",
-        "navvy:joint", "navvy:cylinder", "navvy:wheel", "navvy:track", "navvy:shell", "navvy:bucket", "navvy:encoder"})
+       {"model",        "include",      "light",        "link",         "joint",          "frame",
+        "visual",       "collision",    "plugin",       "sensor",       "physics",        "navvy:soil",
+        "navvy:camera", "navvy:record", "navvy:joint",  "navvy:hitch",  "navvy:cylinder", "navvy:wheel",
+        "navvy:track",  "navvy:shell",  "navvy:bucket", "navvy:encoder"})
     if (std::strcmp(name, repeatable) == 0) return true;
   return false;
 }

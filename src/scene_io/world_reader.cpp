@@ -14,6 +14,7 @@
 #include "scene_io/design_reader.h"
 #include "scene_io/fields.h"
 #include "scene_io/ground_reader.h"
+#include "scene_io/hitch_reader.h"
 #include "scene_io/machine_reader.h"
 #include "scene_io/materials_reader.h"
 #include "scene_io/mesh_path.h"
@@ -442,6 +443,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   const bool ground_known = ground && faults.error_count() == before_ground;
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
+  read_hitches(*element, world, faults);
   check_cell(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:materials")) world.materials = read_materials(*e, faults);
   check_materials(world, faults);

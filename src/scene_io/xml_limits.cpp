@@ -41,6 +41,7 @@ const Count kCounts[] = {
     {"world", "model", limits::kMachines},
     {"world", "navvy:soil", limits::kSoils},
     {"world", "navvy:camera", limits::kMachines},
+    {"world", "navvy:hitch", limits::kMachines},
     {"world", "navvy:record", limits::kMachines},
     {"world", "light", limits::kMachines},
     {"sdf", "navvy:soil", limits::kSoils},

@@ -78,6 +78,10 @@ void OperatedMachine::send(const control::Command& command) {
   for (std::size_t j = 0; j < command.joints.size(); ++j)
     if (command.joints[j]) world_.command(joints_[j], *command.joints[j]);
   if (command.drive) world_.command(machine_, *command.drive);
+  if (!command.unhitch) return;
+  const std::vector<scene::Hitch>& hitches = world_.description().hitches;
+  for (std::size_t h = 0; h < hitches.size(); ++h)
+    if (hitches[h].name == *command.unhitch) world_.couple(static_cast<int>(h), false);
 }
 
 /// Masses are taken at the moment of the event: what falls off on the way does not count as tipped.

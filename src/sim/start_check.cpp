@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/start_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -32,6 +33,13 @@ struct LinkBox {
 /// What moves as told goes through its like and through what stands.
 bool may_meet(const LinkBox& a, const LinkBox& b) {
   return !(a.as_told && (b.as_told || b.stands)) && !(b.as_told && a.stands);
+}
+
+/// Hook and eye reach into each other, and so do the bodies around them.
+bool are_hitched(const scene::Scene& scene, int a, int b) {
+  return std::any_of(scene.hitches.begin(), scene.hitches.end(), [&](const scene::Hitch& hitch) {
+    return hitch.closed && ((hitch.parent == a && hitch.child == b) || (hitch.parent == b && hitch.child == a));
+  });
 }
 
 std::string text(const char* format, double value) {
@@ -68,6 +76,7 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   std::vector<Fault> faults;
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (are_hitched(scene, static_cast<int>(a), static_cast<int>(b))) continue;
       // The deepest of a pair: mended, the others are as a rule.
       double deepest = kTouching;
       const scene::Link *of_a = nullptr, *of_b = nullptr;

@@ -207,6 +207,13 @@ void World::brake(const JointHandle& joint, bool on) {
   const int m = joint.machine();
   parts_->coupling.engine(m).set_brake(parts_->coupling.index(m), joint.index(), on);
 }
+void World::couple(int hitch, bool closed) {
+  if (hitch < 0 || hitch >= static_cast<int>(parts_->description.hitches.size()))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", std::to_string(hitch),
+                           "the scene has no such hitch", "add <navvy:hitch> to the scene"});
+  parts_->dynamic->set_hitch(hitch, closed);
+}
+vehicle::HitchState World::hitch(int hitch) const { return parts_->dynamic->hitch(hitch); }
 /// The drive of a machine without one takes no notice.
 void World::command(const MachineHandle& machine, const vehicle::DriveInput& input) {
   require_valid(machine, input);

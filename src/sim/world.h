@@ -95,6 +95,10 @@ class World {
   /// Puts a joint's brake on or off; what the joint is told meanwhile waits. @throws InputError for a joint without
   /// one.
   void brake(const JointHandle& joint, bool on);
+  /// Opens a hitch of the scene, by its index there, or closes it. @throws InputError for one that does not exist, and
+  /// for an eye that is out of the hook's reach.
+  void couple(int hitch, bool closed);
+  vehicle::HitchState hitch(int hitch) const;
   /// Of a kinematic machine: where its base goes. @throws InputError also for a machine that forces move.
   void command(const MachineHandle& machine, const vehicle::BaseInput& input);
   /// Only what `command` refuses. @throws InputError likewise.

@@ -350,6 +350,26 @@ void add_tool(const World& world, const ToolHandle& tool, Outputs& outputs) {
   }
 }
 
+/// Hook and eye, told at the machine that hangs.
+void add_hitches(World& world, Inputs& inputs, Outputs& outputs) {
+  const std::vector<scene::Hitch>& hitches = world.description().hitches;
+  for (std::size_t i = 0; i < hitches.size(); ++i) {
+    const int hitch = static_cast<int>(i);
+    const std::string base = world.machine(hitches[i].child).name() + "/" + hitches[i].name + "/";
+    // Who is let go keeps to its program.
+    inputs.add({base + "closed", "1", "0 lets go, 1 takes the eye up where it is within 0.1 m of the hook"},
+               [&world, hitch](double closed) { world.couple(hitch, closed != 0); });
+    outputs.add({base + "closed", "1", "1 while it hangs on the hook"},
+                [&world, hitch] { return world.hitch(hitch).closed ? 1.0 : 0.0; });
+    outputs.add({base + "apart", "m", "of the eye from the hook"},
+                [&world, hitch] { return world.hitch(hitch).apart; });
+    const char* axes[] = {"x", "y", "z"};
+    for (int a = 0; a < 3; ++a)
+      outputs.add({base + "force_" + axes[a], "N", "of what hangs on what draws it, world axes"},
+                  [&world, hitch, a] { return world.hitch(hitch).force[a]; });
+  }
+}
+
 }  // namespace
 
 /// Telemetry's columns and the lines of `navvy channels` are this order: adding goes at the end of a group.
@@ -380,6 +400,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
   }
   // All tools come after all machines: telemetry's columns keep the order that users' scripts know.
   for (const ToolHandle& tool : world.tools()) add_tool(world, tool, outputs);
+  add_hitches(world, inputs, outputs);
 }
 
 void add_link(const LinkHandle& link, const std::string& machine, Outputs& outputs) {

@@ -21,6 +21,30 @@ int Engine::add_mover(const scene::Machine& machine) {
 
 void Engine::move(int mover, const std::vector<LinkState>& links) { (void)mover, (void)links; }
 
+namespace {
+
+[[noreturn]] void refuse_hitch() {
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "", "a hitch joins machines that forces move",
+                         "set <navvy:engine>dynamic</navvy:engine>, or move it by its pose"});
+}
+
+}  // namespace
+
+int Engine::add_hitch(const scene::Hitch& hitch, int parent, int child) {
+  (void)hitch, (void)parent, (void)child;
+  refuse_hitch();
+}
+
+void Engine::set_hitch(int hitch, bool closed) {
+  (void)hitch, (void)closed;
+  refuse_hitch();
+}
+
+HitchState Engine::hitch(int hitch) const {
+  (void)hitch;
+  refuse_hitch();
+}
+
 BaseInput Engine::base(int machine) const {
   const Pose X = link(machine, 0).X_WL;
   BaseInput out;

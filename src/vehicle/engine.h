@@ -8,6 +8,7 @@
 
 #include "core/archive.h"
 #include "core/math.h"
+#include "scene/hitch.h"
 #include "scene/machine.h"
 #include "terramechanics/belt.h"
 #include "terramechanics/ground_query.h"
@@ -50,6 +51,13 @@ class Engine {
   virtual int add_mover(const scene::Machine& machine);
   /// Where its links are at the start of the next step and how they move, by link; told before every step.
   virtual void move(int mover, const std::vector<LinkState>& links);
+
+  /// Couples two of this engine's machines, given by their indices in it, where the hitch has those of a scene. What is
+  /// hitched does not collide with each other. @return its number. @throws InputError from an engine without forces.
+  virtual int add_hitch(const scene::Hitch& hitch, int parent, int child);
+  /// Lets go, or takes the eye up. @throws InputError for an eye beyond the hook's reach.
+  virtual void set_hitch(int hitch, bool closed);
+  virtual HitchState hitch(int hitch) const;
 
   /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
   /// articulated inertia. Counted in `external_impulse`.

@@ -83,6 +83,16 @@ struct Stability {
 /// The load point stands over the feet, so that no load tips the machine [kg].
 inline constexpr double kNoTippingLoad = 1e6;
 
+/// How far the eye of a hitch may be off the hook for it to be taken [m].
+inline constexpr double kHitchReach = 0.1;
+
+/// A hitch after the last step.
+struct HitchState {
+  bool closed = false;
+  double apart = 0;           ///< of the eye from the hook [m]
+  Vec3 force = Vec3::Zero();  ///< of the child on the parent [N], axes of W
+};
+
 /// A wheel after the last step, its tyre's force included. Engines without forces leave force, slip and sinkage 0.
 struct WheelState {
   Pose X_WWheel = Pose::Identity();  ///< y = spin axis, not spinning with the wheel; origin at the centre

@@ -64,6 +64,22 @@ TEST(StartCheck, LetsWhatStandsAndWhatIsMovedByItsScriptBeInTheGround) {
   EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:engine>kinematic</navvy:engine>")).empty());
 }
 
+TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {
+  const auto train = [](const std::string& x, const std::string& closed) {
+    return "<include><uri>model://robot</uri><name>robot</name></include><include><uri>model://robot_trailer</uri>"
+           "<name>trailer</name><pose>" +
+           x +
+           " 0 0 0 0 0</pose></include><navvy:hitch name=\"tow\"><parent>robot::chassis</parent>"
+           "<child>trailer::chassis</child><hook_m>-0.1 0 0.15</hook_m><eye_m>0.6 0 0.15</eye_m>" +
+           closed + "</navvy:hitch>";
+  };
+  // The drawbar reaches 0.3 m into the robot, where its hook is.
+  EXPECT_TRUE(faults_of(train("-0.7", "")).empty());
+  expect_one(faults_of(train("-1.2", "")),
+             {"w.sdf:", "navvy:hitch[tow]", "within 0.1 m of the hook", "0.500", "trailer"});
+  EXPECT_TRUE(faults_of(train("-1.2", "<closed>false</closed>")).empty());
+}
+
 TEST(StartCheck, FindsNothingInTheGroundInWhatIsShipped) {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios")) {

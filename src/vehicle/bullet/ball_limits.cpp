@@ -12,8 +12,26 @@ constexpr double kFree = kPi - 1e-6;  // [rad] 180 deg of a file, whatever they 
 
 }  // namespace
 
+std::array<std::optional<BallStop>, 3> ball_stops(const Mat3& R, double cone, double twist) {
+  std::array<std::optional<BallStop>, 3> out;
+  const Vec3 a = Vec3::UnitX(), b = R.col(0), side = a.cross(b);
+  const double lean = std::atan2(side.norm(), b.x());
+  // Upright it may lean to any side: no stop until it has begun to.
+  if (cone < kFree && side.norm() > 1e-9) out[0] = {cone - lean, -side.normalized()};
+  if (twist >= kFree || b.x() < -0.999) return out;
+  const Eigen::Quaterniond q(R);
+  double turn = 2 * std::atan2(q.x(), q.w());
+  if (turn > kPi) turn -= 2 * kPi;
+  if (turn < -kPi) turn += 2 * kPi;
+  // The twist grows by the turning about the middle between both axes.
+  const Vec3 middle = (a + b) / (1 + b.x());
+  out[1] = {turn + twist, middle};
+  out[2] = {twist - turn, -middle};
+  return out;
+}
+
 BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist)
-    : WorldConstraint(body, link, 3), R_CJ_(R_CJ), R_PJ_(R_PJ), cone_(cone), twist_(twist) {
+    : MultibodyRows(body, link, 3), R_CJ_(R_CJ), R_PJ_(R_PJ), cone_(cone), twist_(twist) {
   finalizeMultiDof();
 }
 
@@ -24,20 +42,10 @@ void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiB
   // From the joint's frame at the start to that of now; directions of the former, seen in the child's frame.
   const Mat3 R = R_PJ_.transpose() * R_PC * R_CJ_;
   const Mat3 to_child = R_CJ_ * R.transpose();
-  const Vec3 a = Vec3::UnitX(), b = R.col(0), side = a.cross(b);
-  const double lean = std::atan2(side.norm(), b.x());
-  // Upright it may lean to any side: no row until it has begun to.
-  if (cone_ < kFree && side.norm() > 1e-9)
-    keep_open(0, cone_ - lean, to_child * Vec3(-side.normalized()), rows, data, info);
-  if (twist_ >= kFree || b.x() < -0.999) return;
-  const Eigen::Quaterniond q(R);
-  double turn = 2 * std::atan2(q.x(), q.w());
-  if (turn > kPi) turn -= 2 * kPi;
-  if (turn < -kPi) turn += 2 * kPi;
-  // The twist grows by the turning about the middle between both axes.
-  const Vec3 middle = to_child * Vec3((a + b) / (1 + b.x()));
-  keep_open(1, turn + twist_, middle, rows, data, info);
-  keep_open(2, twist_ - turn, -middle, rows, data, info);
+  const auto stops = ball_stops(R, cone_, twist_);
+  for (int row = 0; row < 3; ++row)
+    if (const auto& stop = stops[static_cast<std::size_t>(row)])
+      keep_open(row, stop->gap, to_child * stop->axis, rows, data, info);
 }
 
 void BallLimits::keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows,

@@ -4,7 +4,7 @@
 namespace navvy::vehicle {
 
 DifferentialRow::DifferentialRow(btMultiBody* body, const std::vector<std::pair<int, double>>& weights)
-    : WorldConstraint(body, weights.front().first, 1) {
+    : MultibodyRows(body, weights.front().first, 1) {
   finalizeMultiDof();
   for (const auto& [link, weight] : weights) jacobianA(0)[6 + m_bodyA->getLink(link).m_dofOffset] = weight;
 }

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "vehicle/bullet/world_constraint.h"
+#include "vehicle/bullet/multibody_rows.h"
 
 namespace navvy::vehicle {
 
 /// Keeps a weighted sum of joint speeds at a value, zero unless told, with so much torque at most: 1 and -1 hold two
 /// wheels together, halves of either sign two axles; what it gives one side it takes from the other. Halves of one sign
 /// are a cage between two wheels.
-class DifferentialRow final : public WorldConstraint {
+class DifferentialRow final : public MultibodyRows {
  public:
   /// @param weights Bullet's links of the joints and the weight of each [-], at least one.
   DifferentialRow(btMultiBody* body, const std::vector<std::pair<int, double>>& weights);

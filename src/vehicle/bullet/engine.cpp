@@ -16,6 +16,7 @@
 #include "vehicle/bullet/contact_materials.h"
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/ground_shape.h"
+#include "vehicle/bullet/hitch.h"
 #include "vehicle/bullet/machine.h"
 #include "vehicle/bullet/mover.h"
 #include "vehicle/bullet/refuse.h"
@@ -32,6 +33,41 @@ constexpr int kMostShapes = 16384;  // links with shapes of all machines togethe
 // A machine this far below the surface has fallen through it: no ground is as thick as that over a body [m].
 constexpr double kLost = 10;
 constexpr std::uint32_t kVersion = 6;
+
+/// A hitch with its two machines.
+struct Coupled {
+  BulletMachine* parent;
+  BulletMachine* child;
+  std::unique_ptr<HitchRows> rows;
+
+  /// What hangs on another does not sleep: it would be held by nothing.
+  void keep_awake() const {
+    if (!rows->closed()) return;
+    parent->disturb();
+    child->disturb();
+  }
+};
+
+/// Who may meet whom: as their groups say, but for what is hitched, whose drawbars lie in each other.
+class OverlapFilter final : public btOverlapFilterCallback {
+ public:
+  explicit OverlapFilter(const std::vector<Coupled>& hitches) : hitches_(hitches) {}
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+    if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
+        (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
+      return false;
+    const void* one = static_cast<const btCollisionObject*>(a->m_clientObject)->getUserPointer();
+    const void* other = static_cast<const btCollisionObject*>(b->m_clientObject)->getUserPointer();
+    for (const Coupled& hitch : hitches_)
+      if (hitch.rows->closed() &&
+          ((one == hitch.parent && other == hitch.child) || (one == hitch.child && other == hitch.parent)))
+        return false;
+    return true;
+  }
+
+ private:
+  const std::vector<Coupled>& hitches_;
+};
 
 class BulletEngine final : public Engine {
  public:
@@ -102,6 +138,16 @@ class BulletEngine final : public Engine {
       for (btMultiBodyLinkCollider* collider : body->all_colliders()) world_.updateSingleAabb(collider);
   }
 
+  int add_hitch(const scene::Hitch& hitch, int parent, int child) override {
+    hitches_.push_back(
+        {&at(parent), &at(child), std::make_unique<HitchRows>(hitch, at(parent).tree(), at(child).tree())});
+    constraints_.push_back(hitches_.back().rows.get());
+    world_.getPairCache()->setOverlapFilterCallback(&filter_);
+    return static_cast<int>(hitches_.size()) - 1;
+  }
+  void set_hitch(int hitch, bool closed) override { hitches_.at(static_cast<std::size_t>(hitch)).rows->set(closed); }
+  HitchState hitch(int hitch) const override { return hitches_.at(static_cast<std::size_t>(hitch)).rows->state(); }
+
   void set_joint(int machine, int joint, const JointInput& input) override { at(machine).set_joint(joint, input); }
   void set_drive(int machine, const DriveInput& input) override { at(machine).set_drive(input); }
   void set_brake(int machine, int joint, bool on) override { at(machine).set_brake(joint, on); }
@@ -115,6 +161,7 @@ class BulletEngine final : public Engine {
 
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    for (const Coupled& hitch : hitches_) hitch.keep_awake();
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all, then positions.
     for (auto& machine : machines_) machine->begin_step(ground, dt);
     tyre_bodies_.push(machines_, movers_, world_, dt);
@@ -126,6 +173,7 @@ class BulletEngine final : public Engine {
     materials_.apply(dispatcher_, ground_, gravity_);
     for (auto& machine : machines_) machine->accelerate(gravity_, dt);
     solve(dt);
+    for (const Coupled& hitch : hitches_) hitch.rows->end_step(dt);
     for (auto& machine : machines_) {
       if (machine->asleep()) continue;
       machine->end_step(ground, contact_impulse(*machine), dt);
@@ -167,6 +215,7 @@ class BulletEngine final : public Engine {
       a.constant("machines", machines_.size(), "the snapshot holds another number of machines than the scene");
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
       tyre_bodies_.visit(a, machines_, movers_);
+      for (std::size_t h = 0; h < hitches_.size(); ++h) a.item(h, [&] { hitches_[h].rows->visit(a); });
     });
     // What does not stir is not looked at in a step.
     if (a.loading())
@@ -302,6 +351,8 @@ class BulletEngine final : public Engine {
   TyreBodies tyre_bodies_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
   std::vector<Mover> movers_;
+  std::vector<Coupled> hitches_;
+  OverlapFilter filter_{hitches_};
   std::vector<btMultiBodyConstraint*> constraints_;
   double rock_height_ = -1e6;  // far below, until told
 };

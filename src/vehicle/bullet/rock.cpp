@@ -15,7 +15,7 @@ constexpr int kRows = 3;           // a corner: up, along its sliding, across it
 }  // namespace
 
 RockContact::RockContact(TreeBody& tree, int link, std::vector<Vec3> corners)
-    : WorldConstraint(&tree.multibody(), tree.bullet_of_link(link), kRows * static_cast<int>(corners.size())),
+    : MultibodyRows(&tree.multibody(), tree.bullet_of_link(link), kRows * static_cast<int>(corners.size())),
       tree_(tree),
       link_(link),
       corners_(std::move(corners)),

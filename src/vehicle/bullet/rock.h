@@ -6,7 +6,7 @@
 
 #include "core/archive.h"
 #include "vehicle/bullet/body.h"
-#include "vehicle/bullet/world_constraint.h"
+#include "vehicle/bullet/multibody_rows.h"
 
 namespace navvy::vehicle {
 
@@ -15,7 +15,7 @@ namespace navvy::vehicle {
 /// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls and the machine
 /// lifts. Each corner's friction is bounded by its normal impulse of the step before: none in the first step of a
 /// touch, and after a blow too much for one.
-class RockContact final : public WorldConstraint {
+class RockContact final : public MultibodyRows {
  public:
   /// @param corners in the link's frame [m]
   RockContact(TreeBody& tree, int link, std::vector<Vec3> corners);

@@ -3,12 +3,12 @@
 
 namespace navvy::vehicle {
 ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper)
-    : WorldConstraint(body, link, 3), has_limits_(has_limits), lower_(lower), upper_(upper) {
+    : MultibodyRows(body, link, 3), has_limits_(has_limits), lower_(lower), upper_(upper) {
   finalizeMultiDof();
 }
 
 void ServoConstraint::finalizeMultiDof() {
-  WorldConstraint::finalizeMultiDof();
+  MultibodyRows::finalizeMultiDof();
   const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
   // Rows: the motor, the lower limit, the upper limit (its impulse pushes back).
   jacobianA(0)[offset] = 1;

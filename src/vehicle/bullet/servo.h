@@ -2,13 +2,13 @@
 // Constraint rows on one joint of a multibody: a motor with unequal bounds, and the joint's limits.
 #pragma once
 
-#include "vehicle/bullet/world_constraint.h"
+#include "vehicle/bullet/multibody_rows.h"
 
 namespace navvy::vehicle {
 
 /// Motor of one revolute or prismatic joint. Reaches `velocity` within [low, high] impulse, and keeps the joint between
 /// its limits at any cost; the impulses are read back after the solver ran.
-class ServoConstraint final : public WorldConstraint {
+class ServoConstraint final : public MultibodyRows {
  public:
   /// @param link Bullet's link of the joint; lower, upper: its stops [rad|m], looked at when `has_limits`.
   ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper);

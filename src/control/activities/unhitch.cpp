@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/unhitch.h"
+
+#include "control/activity.h"
+
+namespace navvy::control {
+namespace {
+
+class LettingGo final : public Activity {
+ public:
+  LettingGo(Workplace& place, const Unhitch& step) : Activity(place), step_(step) {}
+  const char* phase() const override { return "unhitch"; }
+  void begin(const Observation&) override {}
+
+ private:
+  bool update(const Observation&, double, Command& out) override {
+    out.unhitch = step_.hitch;
+    return true;
+  }
+
+  const Unhitch& step_;
+};
+
+}  // namespace
+
+Unhitch Unhitch::read(const scene::StepSource& source) {
+  // Whether the machine has such a hitch is asked when all machines have been read.
+  Unhitch step;
+  source.fields.text("hitch", step.hitch).required("hitch").finish();
+  return step;
+}
+
+std::unique_ptr<Activity> Unhitch::activity(Workplace& place) const {
+  return std::make_unique<LettingGo>(place, *this);
+}
+
+}  // namespace navvy::control

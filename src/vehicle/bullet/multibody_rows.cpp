@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/multibody_rows.h"
+
+#include <cmath>
+
+namespace navvy::vehicle {
+namespace {
+
+constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks for
+
+}  // namespace
+
+MultibodyRows::MultibodyRows(btMultiBody* body, int link, int rows) : MultibodyRows(body, link, nullptr, -1, rows) {}
+
+MultibodyRows::MultibodyRows(btMultiBody* body, int link, btMultiBody* other, int link_of_other, int rows)
+    : btMultiBodyConstraint(body, other, link, link_of_other, rows, true, kConstraintType) {}
+
+void MultibodyRows::finalizeMultiDof() {
+  allocateJacobiansMultiDof();
+  m_numDofsFinalized = m_jacSizeBoth;
+}
+
+void MultibodyRows::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
+                            btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  btMultiBodySolverConstraint& c = rows.expandNonInitializing();
+  // By these the solver writes the row's impulse back to us.
+  c.m_orgConstraint = this;
+  c.m_orgDofIndex = row;
+  c.m_multiBodyA = m_bodyA;
+  // Where the other side is the world, the second half would be all zeros.
+  c.m_multiBodyB = m_bodyB;
+  c.m_solverBodyIdB = m_bodyB == nullptr ? data.m_fixedBodyId : -1;
+  c.m_linkA = m_linkA;
+  c.m_linkB = m_linkB;
+  // Fields of rigid bodies, which this row has none of.
+  const btVector3 zero(0, 0, 0);
+  c.m_contactNormal1 = c.m_contactNormal2 = zero;
+  c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
+  c.m_angularComponentA = c.m_angularComponentB = zero;
+  // The Jacobian is given, so normals are zero; no error term: `velocity` already holds what a gap allows.
+  fillMultiBodyConstraint(c, data, jacobianA(row), m_bodyB == nullptr ? nullptr : jacobianB(row), zero, zero, zero,
+                          zero, 0, info, low, high, true, 1, false, velocity);
+  c.m_solverBodyIdB = -1;  // nothing to push there
+}
+
+void MultibodyRows::add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows,
+                             btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+  const double dt = info.m_timeStep;
+  if (gap >= 2 * dt * std::abs(rate) + 1e-3) return;
+  add_row(row, gap > 0 ? -gap / dt : -0.1 * gap / dt, 0, 1e12, rows, data, info);
+}
+
+}  // namespace navvy::vehicle
