@@ -92,6 +92,8 @@ def cases(folder):
     yield "scene: spaces", lambda: [filled(at("s.sdf"), head, " " * 4096, XML, tail)]
     yield "scene: nesting", lambda: [filled(at("s.sdf"), head, "<a>", XML)]
     yield "scene: an attribute", lambda: [filled(at("s.sdf"), head + "<a b='", "x" * 4096, XML, "'/>" + tail)]
+    yield "scene: attributes", lambda: [
+        filled(at("s.sdf"), head + "<a", lambda i: " a%d=''" % i, XML, "/>" + tail)]
     yield "scene: steps", lambda: [
         filled(at("s.sdf"), head + "<include><uri>model://ew180</uri><navvy:program>",
                "<wait><duration_s>1</duration_s></wait>\n", XML, "</navvy:program></include>" + tail)]

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts, beside 200 bodies, and
-// four of them: vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time; `particles`
-// counts machines and bodies.
+// four of them; the crawler; a light truck on 50 x 50 m of fine loam: vehicle_bench [NAME], rows whose name holds NAME.
+// A row is a second of simulated time; `particles` counts machines and bodies.
+#include <malloc.h>
+
 #include <cstdio>
 #include <exception>
-#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bench.h"
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
+#include "coupling/track_ruts.h"
 #include "heightfield/site.h"
 #include "scene_io/loader.h"
 #include "vehicle/engine.h"
@@ -43,43 +46,101 @@ scene::Machine box() {
 
 /// Who is there, and what is under them.
 struct Case {
-  std::string name;
-  int excavators = 1, boxes = 0;
+  std::string name, machine;
+  int machines = 1, boxes = 0;
   bool loam = false;
+  double cell = 0.1;  // of the columns [m]
+  Vec2 site = Vec2(80, 60);
+  double speed = 1;  // [m/s]
 };
 
-void measure_case(const Case& what, const scene::Machine& excavator) {
-  const auto engine = vehicle::make_bullet_engine(Vec3(0, 0, -kGravity));
-  for (int i = 0; i < what.excavators; ++i) engine->add_machine(excavator, make_pose(0, 6.0 * i, 0));
-  for (int i = 0; i < what.boxes; ++i) engine->add_machine(box(), make_pose(4 + 2 * (i % 20), -4 - 2 * (i / 20), 0.5));
-  for (int i = 0; i < what.excavators; ++i) engine->set_drive(i, {1, 0, false});
-  scene::Scene site;
-  site.soils.emplace_back();
-  site.ground.size = Vec2(80, 60);
-  site.ground.layers.push_back({site.soils[0].name, 1});
-  heightfield::Ground ground = heightfield::make_ground(site);
-  coupling::Ruts ruts(ground);
-  const coupling::GroundView columns(ground, ground.setup().soils, &ruts);
-  const FirmGround firm;
-  const terramechanics::GroundQuery* under = &firm;
-  if (what.loam) under = &columns;
-  const auto second = [&] {
-    for (int step = 0; step < kSteps; ++step) {
-      engine->step(kStep, *under);
-      if (!what.loam || step % coupling::kRutInterval != 0) continue;
-      std::vector<coupling::LoadedTyre> tyres;
-      for (int m = 0; m < what.excavators; ++m)
-        for (std::size_t w = 0; w < excavator.wheels.size(); ++w)
-          tyres.push_back({excavator.wheels[w], engine->wheel(m, static_cast<int>(w))});
-      ruts.press(tyres, coupling::kRutInterval * kStep);
+const std::vector<Case> kCases = {{"firm", "ew180"},
+                                  {"loam", "ew180", 1, 0, true},
+                                  {"200_bodies", "ew180", 1, 200},
+                                  {"four", "ew180", 4},
+                                  {"tracks_firm", "ex180_tracked"},
+                                  {"tracks_loam", "ex180_tracked", 1, 0, true},
+                                  {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};
+
+/// Machines on columns or on firm ground, as a world steps them without particles.
+class Stage {
+ public:
+  Stage(const Case& what, const scene::Machine& machine)
+      : machine_(machine),
+        loam_(what.loam),
+        ground_(heightfield::make_ground(site_of(what))),
+        ruts_(ground_),
+        track_ruts_(ground_),
+        columns_(ground_, ground_.setup().soils, &ruts_),
+        engine_(vehicle::make_bullet_engine(Vec3(0, 0, -kGravity))) {
+    for (int i = 0; i < what.machines; ++i) engine_->add_machine(machine, make_pose(0, 6.0 * i, 0));
+    for (int i = 0; i < what.boxes; ++i) {
+      const int row = i / 20;
+      engine_->add_machine(box(), make_pose(4 + 2 * (i % 20), -4 - 2 * row, 0.5));
     }
-  };
-  second();
+    for (int i = 0; i < what.machines; ++i) engine_->set_drive(i, {what.speed, 0, false});
+  }
+
+  void second() {
+    for (int step = 0; step < kSteps; ++step) {
+      engine_->step(kStep, loam_ ? static_cast<const terramechanics::GroundQuery&>(columns_) : firm_);
+      if (loam_ && step % coupling::kRutInterval == 0) press();
+    }
+  }
+  const heightfield::Ground& ground() const { return ground_; }
+
+ private:
+  static scene::Scene site_of(const Case& what) {
+    scene::Scene site;
+    site.soils.emplace_back();
+    site.solver.cell = what.cell;
+    site.ground.size = what.site;
+    site.ground.origin = Vec2(-10, -10);
+    site.ground.layers.push_back({site.soils[0].name, 1});
+    return site;
+  }
+  void press() {
+    std::vector<coupling::LoadedTyre> tyres;
+    std::vector<terramechanics::BeltPatch> belts;
+    for (int m = 0; m < engine_->machine_count(); ++m)
+      for (std::size_t w = 0; w < machine_.wheels.size(); ++w) {
+        const int wheel = static_cast<int>(w);
+        if (!machine_.wheels[w].track) {
+          tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
+          continue;
+        }
+        for (const terramechanics::BeltPatch& patch : engine_->belt_patches(m, wheel)) belts.push_back(patch);
+      }
+    const double interval = coupling::kRutInterval * kStep;
+    ruts_.press(tyres, interval);
+    if (!belts.empty()) track_ruts_.press(belts, coupling::kSinkSpeed * interval, tyres.empty());
+  }
+
+  const scene::Machine& machine_;
+  bool loam_;
+  heightfield::Ground ground_;
+  coupling::Ruts ruts_;
+  coupling::TrackRuts track_ruts_;
+  coupling::GroundView columns_;
+  FirmGround firm_;
+  std::unique_ptr<vehicle::Engine> engine_;
+};
+
+void measure_case(const Case& what) {
+  const scene::Machine machine = scene_io::load_machine(scene_io::find_data("vehicles/" + what.machine + "/model.sdf"));
+  Stage stage(what, machine);
+  stage.second();
   bench::Row row;
+  // Of the ground and its ruts: what else allocates in a step gives it back.
+  const std::size_t before = mallinfo2().uordblks, tiles = stage.ground().touched_tiles();
   row.timing = bench::measure(
-      kRuns, [] {}, second);
+      kRuns, [] {}, [&] { stage.second(); });
+  const std::size_t touched = (stage.ground().touched_tiles() - tiles) * 32 * 32;
+  if (touched > 0)
+    std::fprintf(stderr, "vehicle_step:%s: %.0f bytes a touched column, %zu columns\n", what.name.c_str(),
+                 static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(touched), touched);
   row.bench = "vehicle_step:" + what.name;
-  row.particles = static_cast<std::uint64_t>(what.excavators + what.boxes);
+  row.particles = static_cast<std::uint64_t>(what.machines + what.boxes);
   row.steps = kSteps;
   row.simulated = kSteps * kStep;
   bench::print_host(row);
@@ -94,9 +155,8 @@ int main(int argc, char** argv) {
   }
   const std::string wanted = argc > 1 ? argv[1] : "";
   try {
-    const scene::Machine excavator = scene_io::load_machine(scene_io::find_data("vehicles/ew180/model.sdf"));
-    for (const Case& each : {Case{"firm"}, Case{"loam", 1, 0, true}, Case{"200_bodies", 1, 200}, Case{"four", 4}})
-      if (("vehicle_step:" + each.name).find(wanted) != std::string::npos) measure_case(each, excavator);
+    for (const Case& each : kCases)
+      if (("vehicle_step:" + each.name).find(wanted) != std::string::npos) measure_case(each);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -73,7 +73,13 @@ std::string base64(const std::vector<char>& bytes) {
 
 }  // namespace
 
-std::string shown(const std::string& text) { return text.size() <= 80 ? text : text.substr(0, 80) + "..."; }
+std::string shown(const std::string& text) {
+  std::string out = text.size() <= 80 ? text : text.substr(0, 80) + "...";
+  // A NUL would end the message that holds it.
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  return out;
+}
 
 std::string shown(const json& value) { return shown(value.dump(-1, ' ', false, json::error_handler_t::replace)); }
 

@@ -20,6 +20,7 @@
 #include "cli/validators.h"
 #include "core/file.h"
 #include "core/log.h"
+#include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "planner/formats/png_file.h"
@@ -130,6 +131,30 @@ void publish_end_of_failure(PublishedMap* published) {
   }
 }
 
+/// What ends the run before its time: a signal, a controller that has gone; empty: nothing.
+std::string interrupted_by(const ControlStdio* control) {
+  if (StopSignals::asked()) return StopSignals::name();
+  return control != nullptr ? control->gone() : "";
+}
+
+/// Writes what a run leaves that nothing failed in; its exit status. `by`: what interrupted it.
+int close_run(const RunOptions& options, const session::Session& session, record::Recorder& recorder,
+              PublishedMap* published, const std::string& by, bool told_to_end) {
+  publish_end(published, recorder);
+  const bool complete = session.complete();
+  recorder.finish(!by.empty() ? "interrupted" : complete ? "finished" : "incomplete", by);
+  if (!by.empty()) {
+    // Else its last line would be that of a run that came to its end.
+    std::fprintf(options.control.empty() ? stdout : stderr, "interrupted: %s, at %s s\n", by.c_str(),
+                 short_text(session.world().time()).c_str());
+    return kInterrupted;
+  }
+  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
+  // failure.
+  const bool cut_as_asked = (options.scene.duration > 0 || told_to_end) && !session.fell_short();
+  return complete || cut_as_asked ? kOk : kIncomplete;
+}
+
 /// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
 int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
                     StopSignals& signals, PublishedMap* published) {
@@ -177,17 +202,10 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
     log(LogLevel::kError, "no snapshot: the run ended at " + short_text(session.world().time()) +
                               " s, before --snapshot-at " + short_text(options.snapshot_at));
   // From here on nobody hurries: the files are closed in their order.
-  const bool interrupted = StopSignals::asked() || (control && !control->gone().empty());
+  const std::string by = interrupted_by(control.get());
   signals.obeyed();
-  publish_end(published, recorder);
-  const bool complete = session.complete();
-  recorder.finish(interrupted ? "interrupted" : complete ? "finished" : "incomplete", control ? control->gone() : "");
-  if (interrupted) return kInterrupted;
-  if (snapshot_due) return kFile;
-  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
-  // failure.
-  const bool cut_as_asked = (options.scene.duration > 0 || told_to_end) && !session.fell_short();
-  return complete || cut_as_asked ? kOk : kIncomplete;
+  const int code = close_run(options, session, recorder, published, by, told_to_end);
+  return snapshot_due && code != kInterrupted ? kFile : code;
 }
 
 /// The programs that did not come to their end, one a line: what a user must not miss.
@@ -195,7 +213,7 @@ void tell_programs(std::FILE* say, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
     if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
     const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
-    std::fprintf(say, "incomplete: %s\n", session::told(report, name).c_str());
+    std::fprintf(say, "incomplete: %s\n", session::told(report, name, "the controller ended the run").c_str());
   }
 }
 
@@ -212,6 +230,24 @@ void require_snapshot(const std::string& path) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, "no such snapshot, or it cannot be read",
                          "--snapshot FILE --snapshot-at T writes one; a run that stopped itself leaves failed.snapshot "
                          "among its results"});
+}
+
+/// Nobody's file is lost to a slip: what is there and holds something must be a snapshot, and what the run writes
+/// itself stays its own.
+void require_place_of_snapshot(const std::string& path, const std::string& out) {
+  if (path.empty()) return;
+  const auto refuse = [&](const char* rule, const char* remedy) {
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--snapshot", path, rule, remedy});
+  };
+  std::error_code code;
+  if (!is_sealed(path) && std::filesystem::is_regular_file(path, code) && std::filesystem::file_size(path, code) > 0)
+    refuse("is there and is no snapshot, so it stays", "name a new file, or remove this one");
+  const auto place = [&code](const std::filesystem::path& one) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(one, code), code);
+  };
+  const std::filesystem::path in = place(path);
+  if (in.parent_path() == place(out) && record::RunFolder::writes(in.filename().string()))
+    refuse("is a name that the run gives to a file of its own", "choose another name, or another folder");
 }
 
 /// A snapshot that the run does not come to, or one with nothing behind it, is a slip: told before the first step.
@@ -250,6 +286,7 @@ int run(const RunOptions& options) {
   if (std::vector<Fault> faults = record::check_records(description); !faults.empty())
     throw InputError(std::move(faults));
   record_options.directory = options.out.empty() ? default_out(description) : options.out;
+  require_place_of_snapshot(options.snapshot, record_options.directory);
   // Taken before minutes are spent, emptied when the run begins.
   auto folder = std::make_unique<record::RunFolder>(
       record_options.directory,

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include "cli/exit_code.h"
 #include "device/kernel_cache.h"
@@ -19,15 +20,22 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<int> signals{0};
+// The first and the second are told apart from one that came twice: `timeout` and other wrappers signal a process and
+// then its group.
+constexpr int kTwice = 500;  // [ms]
+
+std::atomic<int> signals{0}, last{0};
 int wake[2] = {-1, -1};
 sigset_t before;
 
-[[noreturn]] void leave() {
+[[noreturn]] void leave(bool again) {
   record::leave_last_words("interrupted",
-                           "stopped from outside while the OpenCL driver was busy: it compiles kernels or does not "
-                           "answer; results are those of the last checkpoint");
-  std::fputs("interrupted: the OpenCL driver is busy and is not waited for\n", stderr);
+                           again ? "stopped from outside a second time: what was not written by then is missing"
+                                 : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
+                                   "not answer; results are those of the last checkpoint");
+  std::fputs(again ? "interrupted: by a second signal, nothing more is waited for\n"
+                   : "interrupted: the OpenCL driver is busy and is not waited for\n",
+             stderr);
   device::abandon_kernel_cache();
   _exit(kInterrupted);
 }
@@ -38,7 +46,7 @@ sigset_t before;
 // are writing before they pass the signal on, and the build then fails as if the kernels were wrong. Blocked here,
 // before any other thread is there to inherit it, the signals wait for the one thread that asks for them.
 StopSignals::StopSignals() {
-  signals = 0;
+  signals = last = 0;
   if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
   sigset_t wanted;
   sigemptyset(&wanted);
@@ -59,11 +67,18 @@ StopSignals::~StopSignals() {
   const char byte = 0;
   if (::write(wake[1], &byte, 1) < 0) over_ = true;  // the thread looks up by itself
   watcher_.join();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  // The second of two at once may still be on its way, and would end the process by itself before its status is told.
+  if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
 }
 
 bool StopSignals::asked() { return signals > 0; }
+
+std::string StopSignals::name() {
+  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}})
+    if (last == signal) return name;
+  return "";
+}
 
 void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
@@ -73,10 +88,17 @@ void StopSignals::watch() {
     // Asleep until a signal comes; from then on it looks often.
     poll(in, 2, signals > 0 ? 50 : 1000);
     signalfd_siginfo what{};
-    while (::read(signals_, &what, sizeof what) == sizeof what) ++signals;
+    bool came = false;
+    while (::read(signals_, &what, sizeof what) == sizeof what) {
+      came = true;
+      last = static_cast<int>(what.ssi_signo);
+      ++signals;
+    }
     if (over_ || signals == 0) continue;
     if (first == Clock::time_point{}) first = Clock::now();
-    if (signals > 1 || (!obeyed_ && Clock::now() - first > std::chrono::milliseconds(kPatience))) leave();
+    const auto since = Clock::now() - first;
+    if (came && since > std::chrono::milliseconds(kTwice)) leave(true);
+    if (!obeyed_ && since > std::chrono::milliseconds(kPatience)) leave(false);
   }
 }
 

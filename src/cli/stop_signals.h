@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 #include <thread>
 
 namespace navvy::cli {
@@ -11,19 +12,22 @@ namespace navvy::cli {
 ///
 /// A run looks at `asked()` between two steps and says `obeyed()` before it closes its files. A driver that compiles or
 /// does not answer keeps it from looking: then, kPatience after the signal, a thread of this class leaves a summary
-/// that says "interrupted" and ends the process with status 130. So does a second signal, at once.
+/// that says "interrupted" and ends the process with status 130. So does a second signal, at once; one that comes twice
+/// within half a second is one.
 class StopSignals {
  public:
   /// To be made before any other thread, which inherits that these signals are not for it. SIGHUP stays ignored where
   /// it was (nohup).
   StopSignals();
-  /// From here on the process does at these signals what it did before.
+  /// From here on the process does at these signals what it did before; nothing after one has come, as it is ending.
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
   /// True after a signal.
   static bool asked();
+  /// The last one: "SIGTERM"; empty before any.
+  static std::string name();
   /// The run has seen it.
   void obeyed() { obeyed_ = true; }
 

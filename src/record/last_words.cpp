@@ -19,6 +19,14 @@ constexpr std::size_t kLeastRoom = std::size_t{64} << 10;
 
 std::atomic<LastWords*> speaking{nullptr};
 
+/// A part of a summary in which no program goes on: the run is over when it is read.
+std::string ended(std::string text) {
+  const std::string running = "\"state\": \"running\"", over = "\"state\": \"interrupted\"";
+  for (std::size_t at = text.find(running); at != std::string::npos; at = text.find(running, at + over.size()))
+    text.replace(at, running.size(), over);
+  return text;
+}
+
 // What follows is called in handlers of signals: no memory is taken, no lock, no errno of anybody changed for good.
 bool put(int file, const char* text, std::size_t size) {
   while (size > 0) {
@@ -82,7 +90,7 @@ void LastWords::keep(const std::string& summary) {
   // Twice the present text: it grows between two checkpoints, and a message comes to it.
   if (summary.size() * 2 > room_ && !take_room(summary.size() * 4)) return;
   const int next = ready_ == 0 ? 1 : 0;
-  texts_[next] = {summary.substr(0, at), summary.substr(at + mark.size())};
+  texts_[next] = {ended(summary.substr(0, at)), ended(summary.substr(at + mark.size()))};
   ready_ = next;
 }
 

@@ -65,6 +65,10 @@ void write_all(int file, const std::string& text, const std::string& path) {
 
 }  // namespace
 
+bool RunFolder::writes(const std::string& name) {
+  return name == kMarker || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 /// An open list: its lock, what it names, and whether its folder was being filled when it was written.
 struct RunFolder::Marker {
   int file = -1;

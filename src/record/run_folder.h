@@ -34,6 +34,9 @@ class RunFolder {
   /// Without a slash at its end.
   const std::string& directory() const { return directory_; }
 
+  /// Whether every run has a file of this name in its folder, or may have.
+  static bool writes(const std::string& name);
+
   static constexpr const char* kMarker = "navvy.run";
 
  private:

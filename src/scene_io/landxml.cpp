@@ -11,6 +11,7 @@
 
 #include "core/file.h"
 #include "core/limits.h"
+#include "scene_io/xml_limits.h"
 
 namespace navvy::scene_io {
 namespace {
@@ -162,6 +163,14 @@ std::vector<char> read_text(const Reading& reading) {
     return {};
   }
   const auto elements = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
+  const std::size_t tag = overloaded_tag({text.data(), text.size()});
+  if (tag != std::string_view::npos) {
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n');
+    reading.error(1 + static_cast<int>(line), "LandXML", "",
+                  "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element",
+                  "export it again");
+    return {};
+  }
   if (elements <= 2 * limits::kLandXmlElements) return text;
   reading.error(0, "LandXML", std::to_string(elements) + " tags",
                 "more than " + std::to_string(2 * limits::kLandXmlElements),

@@ -110,10 +110,8 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   if (std::strlen(element.Name()) > limits::kNameBytes)
     return most("bytes in the name of an element", limits::kNameBytes);
   if (depth > limits::kXmlNesting) return most("elements inside each other", limits::kXmlNesting);
-  std::size_t attributes = 0;
   bool good = check_counts(element, faults);
   for (const auto* at = element.FirstAttribute(); at; at = at->Next()) {
-    if (++attributes > limits::kXmlAttributes) return most("attributes", limits::kXmlAttributes);
     if (std::strlen(at->Name()) > limits::kNameBytes)
       return most("bytes in the name of an attribute", limits::kNameBytes);
     // A value that a name is made of has one fault, not two.
@@ -134,6 +132,29 @@ std::size_t count_elements(const std::string& text) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
     count += at + 1 < text.size() && starts_name(text[at + 1]) ? 1 : 0;
   return count;
+}
+
+std::size_t overloaded_tag(std::string_view text) {
+  // Comments and the like hold no tags, whatever stands in them.
+  constexpr std::string_view kLeftOut[][2] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+    const std::size_t tag = at++;
+    for (const auto& [open, close] : kLeftOut)
+      if (text.substr(tag, open.size()) == open) at = text.find(close, tag + open.size());
+    if (at != tag + 1) continue;
+    std::size_t attributes = 0;
+    char quote = 0;
+    for (; at < text.size() && (quote != 0 || text[at] != '>'); ++at) {
+      const char c = text[at];
+      if (quote != 0)
+        quote = c == quote ? 0 : quote;
+      else if (c == '"' || c == '\'')
+        quote = c;
+      else if (c == '=' && ++attributes > limits::kXmlAttributes)
+        return tag;
+    }
+  }
+  return std::string_view::npos;
 }
 
 Fault too_large(const std::string& file, std::size_t bytes) {
@@ -158,6 +179,10 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
     fault.value = std::to_string(elements) + " elements";
     fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) + ", those in comments too";
     fault.remedy = "split it, or put meshes into OBJ files";
+  } else if (const std::size_t tag = overloaded_tag(text); tag != std::string_view::npos) {
+    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
+    fault.rule = "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element";
+    fault.remedy = "scenarios/README.md lists the limits of files";
   } else {
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "scene_io/xml.h"
 
@@ -11,6 +12,10 @@ namespace navvy::scene_io {
 
 /// Elements that begin in `text`, those in comments too.
 std::size_t count_elements(const std::string& text);
+
+/// Where the first tag with more attributes than core/limits.h allows begins; npos: nowhere. Asked before a text is
+/// parsed: the parser holds each attribute against all others of its element.
+std::size_t overloaded_tag(std::string_view text);
 
 /// What is wrong with a file of more bytes than core/limits.h allows, and what to do.
 Fault too_large(const std::string& file, std::size_t bytes);

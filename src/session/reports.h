@@ -67,7 +67,7 @@ struct ProgramReport {
 };
 
 /// "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s, at 3.20, 4.50)": one line for people. `name` is the
-/// machine's in the scene.
-std::string told(const ProgramReport& report, const std::string& name);
+/// machine's in the scene. `cut`: why a step that still ran has ended, where the run is over.
+std::string told(const ProgramReport& report, const std::string& name, const std::string& cut = "");
 
 }  // namespace navvy::session

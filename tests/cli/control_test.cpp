@@ -62,6 +62,7 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
       {"drive!", "one JSON object"},
       {"\"\xff\xfe\"", "one JSON object"},
       {"null", "one JSON object"},
+      {std::string(3, '\0'), "one JSON object"},
   };
   std::string input;
   for (const auto& [line, message] : bad) input += line + "\n";

@@ -103,6 +103,17 @@ TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
   EXPECT_EQ(summary().at("status"), "interrupted");
   EXPECT_EQ(summary().at("programs").at(0).at("state"), "done");
   EXPECT_EQ(summary().at("programs").at(1).at("state"), "interrupted");
+  EXPECT_EQ(summary().at("message"), "SIGINT");
+  EXPECT_NE(said().find("interrupted: SIGINT, at "), std::string::npos) << said();
+}
+
+TEST_F(Ending, OfARunThatItsControllerEndsCallsNoProgramRunning) {
+  const std::string scene = two_buckets(kWait, kWait, "100");
+  EXPECT_EQ(
+      ProgramRun::run({"run", scene, "--no-render", "--out", out(), "--control", "stdio"}, "{}\n{\"end\": true}\n"), 0)
+      << complained();
+  EXPECT_NE(complained().find("interrupted: the controller ended the run"), std::string::npos) << complained();
+  EXPECT_EQ(complained().find("running"), std::string::npos) << complained();
 }
 
 }  // namespace

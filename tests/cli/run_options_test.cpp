@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/program_run.h"
+#include "text_of.h"
 
 namespace navvy {
 namespace {
@@ -40,6 +41,21 @@ TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   // There is nothing behind it.
   EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
   expect_told("nothing left to run");
+}
+
+TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
+  const std::string notes = (directory_ / "notes.txt").string();
+  std::ofstream(notes) << "mine";
+  EXPECT_EQ(short_run({"--snapshot", notes, "--snapshot-at", "0"}), 2);
+  expect_told("is there and is no snapshot, so it stays");
+  EXPECT_EQ(test::text_of(notes), "mine");
+  EXPECT_EQ(short_run({"--snapshot", out() + "/telemetry.csv", "--snapshot-at", "0"}), 2);
+  expect_told("a name that the run gives to a file of its own");
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  // A snapshot takes the place of an older one, also beside the results.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0"}), 0) << complained();
+  }
 }
 
 TEST_F(RunOptions, ARunThatEndsBeforeTheSnapshotAskedForHasAStatusOfItsOwn) {

@@ -116,7 +116,28 @@ TEST_F(Stop, WhileTheDeviceDoesNotAnswer) {
   EXPECT_LT(ended.seconds, kLongBefore);
   EXPECT_LT(ended.processor, kSoon);
   EXPECT_EQ(summary().at("status"), "interrupted");
+  // In a run that is over no program goes on.
+  EXPECT_EQ(summary().at("programs").at(0).at("state"), "interrupted");
   EXPECT_EQ(broken_files(out()), "");
+}
+
+// `timeout` and others signal the process, then its group: it gets each signal twice.
+TEST_F(Stop, TwoSignalsAtOnceAreOne) {
+  for (const int pause : {0, 20}) {  // [ms]
+    fs::remove_all(out());
+    const pid_t child = start("");
+    wait_for_file(out() + "/terrain_start.tif");
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(pause));
+    const Ended ended = send(child, SIGTERM);
+    EXPECT_EQ(ended.status, 130) << complained();
+    EXPECT_EQ(summary().at("status"), "interrupted");
+    EXPECT_EQ(summary().at("message"), "SIGTERM");
+    EXPECT_TRUE(summary().at("state_hash").is_string()) << summary();
+    EXPECT_TRUE(fs::exists(out() + "/terrain_end.tif"));
+    EXPECT_EQ(complained().find("interrupted"), std::string::npos) << complained();
+  }
 }
 
 TEST_F(Stop, AClosedTerminalAsCtrlCDoes) {
