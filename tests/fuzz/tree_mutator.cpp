@@ -103,8 +103,9 @@ void change_attribute(navvy::Random& random, XMLElement& element, const std::vec
   const XMLElement& other = *any_of(random, all);
   const tinyxml2::XMLAttribute* from = other.FirstAttribute();
   const tinyxml2::XMLAttribute* own = element.FirstAttribute();
+  // Copied, as it may be the attribute's own value.
   if (from != nullptr && below(random, 2) == 0)
-    element.SetAttribute(own != nullptr ? own->Name() : from->Name(), from->Value());
+    element.SetAttribute(own != nullptr ? own->Name() : from->Name(), std::string(from->Value()).c_str());
   else if (own != nullptr && below(random, 2) == 0)
     element.DeleteAttribute(own->Name());
   else if (own != nullptr)
