@@ -18,6 +18,7 @@
 #include "control/activities/swing.h"
 #include "control/activities/tip.h"
 #include "control/activities/trajectory.h"
+#include "control/activities/unhitch.h"
 #include "control/activities/wait.h"
 #include "control/activities/wait_for.h"
 #include "control/arm_move.h"
@@ -139,7 +140,8 @@ GoTo there() {
 }
 
 std::vector<scene::ProgramStep> one_of_each() {
-  return {ahead(), Swing(0.8), Dump(0.5), Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2), path(), there()};
+  return {ahead(), Swing(0.8), Dump(0.5),     Wait(1), Tip(-1, 0.5), WaitFor("other", 0, 2),
+          path(),  there(),    Unhitch("tow")};
 }
 
 TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
