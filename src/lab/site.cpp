@@ -26,6 +26,11 @@ scene::Scene make_world(std::vector<scene::Soil> soils, double cell, const SiteO
   return world;
 }
 
+SiteOptions with_step(SiteOptions options, double courant) {
+  options.courant = courant;
+  return options;
+}
+
 /// One layer of the first soil from the surface down to bedrock.
 heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOptions& options) {
   heightfield::Ground::Setup out;
@@ -79,7 +84,10 @@ Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, 
 }
 
 /// The usual way: what the setup holds, and nobody told of progress unless it wants to be.
-Site::Site(const Setup& setup, const SiteOptions& options) : Site(*setup.device, {setup.soil}, setup.cell, options) {
+Site::Site(const Setup& setup, const SiteOptions& options) : Site(setup, {setup.soil}, options) {}
+
+Site::Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions& options)
+    : Site(*setup.device, std::move(soils), setup.cell, with_step(options, setup["courant"])) {
   progress_ = setup.progress;
   energy_ = energy_ || setup.energy;
   solver_->keep_energy(energy_);

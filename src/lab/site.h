@@ -66,8 +66,10 @@ struct Tool {
 class Site {
  public:
   Site(device::Device& device, std::vector<scene::Soil> soils, double cell, const SiteOptions& options = {});
-  /// With the setup's device, soil, cell and progress.
+  /// With the setup's device, soil, cell, step (`courant`) and progress.
   explicit Site(const Setup& setup, const SiteOptions& options = {});
+  /// The same with soils of its own.
+  Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions& options);
 
   // What it is made of; the solver is replaced by set_gravity, so keep no reference to it.
   soil::Solver& solver() { return *solver_; }

@@ -24,14 +24,15 @@ TEST(FastPour, SpreadsByItsMomentum) {
 }
 
 // The soils of `swell` and `throw` are the rigs' defaults, loam of swell 1.23 and sand of none, unless said.
+const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
 const SoilChange kDrySand = {.phi_degrees = 33, .cohesion = 0, .swell = 1.13, .bank_density = 1600};
 
 INSTANTIATE_TEST_SUITE_P(
     Rigs, GranularLab,
     testing::Values(
         Case{"Rest", "rest", {}}, Case{"RestHalf", "rest", {}, 0.05}, Case{"PlaneColumn", "column", {}},
-        Case{"PlaneColumnHalf", "column", {}, 0.025}, Case{"TallPlaneColumn", "column", {{"a", 5}, {"l0", 0.6}}, 0.02},
-        Case{"RoundColumn", "column", {{"shape", 1}}},
+        Case{"PlaneColumnHalf", "column", {}, 0.025}, Case{"PlaneColumnHalfStep", "column", kHalfStep},
+        Case{"TallPlaneColumn", "column", {{"a", 5}, {"l0", 0.6}}, 0.02}, Case{"RoundColumn", "column", {{"shape", 1}}},
         Case{"TallRoundColumn", "column", {{"shape", 1}, {"a", 3}, {"l0", 0.6}}, 0.02}, Case{"Pour", "pour", {}},
         Case{"PourHalf", "pour", {}, 0.05}, Case{"PourCone", "pour", {{"shape", 1}}}, Case{"Heap", "cone", {}},
         Case{"HeapHalf", "cone", {}, 0.05}, Case{"Cone", "cone", {{"shape", 1}}},
@@ -39,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Slope30", "slope", {}, lab::kNone, {.phi_degrees = 30}}, Case{"Slope", "slope", {}},
         Case{"Slope40", "slope", {}, lab::kNone, {.phi_degrees = 40}}, Case{"Slide", "slide", {}},
         Case{"SlideHalf", "slide", {}, 0.05}, Case{"Throw", "throw", {}}, Case{"ThrowHalf", "throw", {}, 0.05},
-        Case{"Swell", "swell", {}}, Case{"SwellHalf", "swell", {}, 0.05},
+        Case{"ThrowHalfStep", "throw", kHalfStep}, Case{"Swell", "swell", {}},
+        Case{"SwellHalfStep", "swell", kHalfStep}, Case{"SwellHalf", "swell", {}, 0.05},
         Case{"SwellDrySand", "swell", {}, lab::kNone, kDrySand}, Case{"SwellDrySandHalf", "swell", {}, 0.05, kDrySand}),
     case_name);
 

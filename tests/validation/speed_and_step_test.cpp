@@ -2,10 +2,12 @@
 // Forces at several speeds and two steps each: one that depends on either has no value. A miss fails unless it is in
 // gates/known_misses.md.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "validation/rig_case.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
@@ -55,6 +57,116 @@ TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
   const double inertia = 1600 * 0.6 * 0.6 * 0.3 / 2606.4;
   expect_between("smooth blade, cells of 0.1 m, 0.6 m/s: force less rho v^2 d w / Rankine",
                  blade(0.1, 0.6, 0.5) - inertia, 0.95, 1.05, kSource);
+}
+
+/// A force over its formula, and the bounds of what it may be where tool friction leaves two.
+struct Judged {
+  double force = 0, expected = 0, low = 0, high = 0;
+};
+
+Judged judged(const lab::Report& report, const std::string& name) {
+  EXPECT_EQ(report.ledger_error, 0);
+  const lab::Quantity* q = report.find(name);
+  EXPECT_NE(q, nullptr);
+  return {q->measured, q->expected, q->low, q->high};
+}
+
+/// A wall of 1 m that goes in by a fifth of its height [N/m].
+Judged wall(double cell, double speed, double delta_degrees) {
+  return judged(lab::run_rig("wall", {{"speed", speed}},
+                             [&](lab::Setup& s) {
+                               s.cell = cell;
+                               s.soil.tool_friction_angle = radians(delta_degrees);
+                             }),
+                "passive force");
+}
+
+/// A rough blade, stiff enough for its wedge to come up within 0.08 m of travel [N].
+Judged rough_blade(double cell, double speed) {
+  return judged(lab::run_rig("blade", {{"speed", speed}, {"from", 0.08}, {"travel", 0.12}},
+                             [&](lab::Setup& s) {
+                               s.cell = cell;
+                               s.soil.young_modulus = 4e6;
+                               s.soil.tool_friction_angle = radians(20);
+                             }),
+                "horizontal force");
+}
+
+/// Speeds against each other, and their mean against what it may be.
+void expect_one_force(const std::string& name, const std::vector<Judged>& runs, double most_spread, double low,
+                      double high) {
+  std::vector<double> forces;
+  double mean = 0;
+  for (const Judged& run : runs) forces.push_back(run.force), mean += run.force / static_cast<double>(runs.size());
+  expect_between(name + ": spread over speeds / mean", spread(forces), 0, most_spread, kSource);
+  expect_between(name + ": mean force / expected", mean / runs[0].expected, low / runs[0].expected,
+                 high / runs[0].expected, kSource, 1);
+}
+
+TEST(ToolSpread, OfASmoothWallOverSpeeds) {
+  for (const double cell : {0.1, 0.05}) {
+    const std::vector<Judged> runs = {wall(cell, 0.05, 0), wall(cell, 0.2, 0)};
+    expect_one_force("smooth wall, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s", runs, 0.04,
+                     0.93 * runs[0].expected, 1.07 * runs[0].expected);
+  }
+}
+
+TEST(ToolSpread, OfARoughWallOverSpeeds) {
+  for (const double cell : {0.1, 0.05}) {
+    const std::vector<Judged> runs = {wall(cell, 0.05, 20), wall(cell, 0.2, 20)};
+    expect_one_force("wall, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s", runs, 0.04,
+                     runs[0].low, runs[0].high);
+  }
+}
+
+TEST(ToolSpread, OfARoughBladeOverSpeeds) {
+  for (const double cell : {0.1, 0.05}) {
+    const std::vector<Judged> runs = {rough_blade(cell, 0.05), rough_blade(cell, 0.15), rough_blade(cell, 0.3)};
+    expect_one_force("blade, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 .. 0.3 m/s", runs,
+                     cell > 0.07 ? 0.13 : 0.05, runs[0].low, runs[0].high);
+  }
+}
+
+// Eight depths of the lip within a cell: what the grid decides about where a blade ends.
+TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
+  std::vector<double> forces;
+  double mean = 0, squares = 0;
+  for (int i = 0; i < 8; ++i) {
+    const lab::Report report =
+        lab::run_rig("blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"gate-percent", 0}},
+                     [](lab::Setup& s) { s.cell = 0.1; });
+    forces.push_back(lab::measured(report, "horizontal over expected"));
+    mean += forces.back() / 8;
+  }
+  for (const double force : forces) squares += (force - mean) * (force - mean) / 7;
+  expect_between("smooth blade, eight depths within a cell of 0.1 m: standard deviation / mean",
+                 std::sqrt(squares) / mean, 0, 0.04, kSource);
+}
+
+TEST(ToolSpread, OfARakedBladeOverSteps) {
+  const auto force = [](double courant) {
+    const lab::Report report = lab::run_rig("blade",
+                                            {{"width", 0.33},
+                                             {"rake-deg", 60},
+                                             {"depth", 0.10},
+                                             {"length", 0.20},
+                                             {"speed", 0.3},
+                                             {"from", 0.1},
+                                             {"travel", 0.3},
+                                             {"ahead", 4},
+                                             {"courant", courant},
+                                             {"gate-percent", 0}},
+                                            [](lab::Setup& s) {
+                                              s.cell = 0.033;
+                                              s.soil.bank_density = 1460;
+                                              s.soil.friction_angle = radians(38);
+                                              s.soil.tool_friction_angle = radians(26.6);
+                                            });
+    return lab::measured(report, "horizontal force");
+  };
+  const double whole = force(0.5);
+  expect_between("raked blade in sand, 60 deg: force at half the step / at the step", force(0.25) / whole, 0.97, 1.03,
+                 kStep);
 }
 
 TEST(ToolSpread, OfABucketsDragOverSteps) {

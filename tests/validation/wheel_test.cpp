@@ -4,6 +4,7 @@
 // rest is shown.
 #include "lab/run_rig.h"
 #include "validation/report.h"
+#include "values.h"
 
 namespace navvy::lab {
 namespace {
@@ -28,6 +29,26 @@ TEST(WheelLab, SmoothWheelInDrySand) {
     EXPECT_GT(pull, before) << "pull must grow with slip";
     before = pull;
   }
+}
+
+// What a wheel of particles feels of the step and of its speed; pull and sinkage themselves are not gated.
+TEST(WheelLab, SmoothWheelOverSpeedsAndSteps) {
+  const auto wheel = [](double speed, double courant) {
+    const Report report =
+        run_rig("wheel", {{"slip", 0.5}, {"load-n", 25.3}, {"travel", 0.1}, {"speed", speed}, {"courant", courant}});
+    EXPECT_EQ(measured(report, "particles through the wheel"), 0);
+    const std::string name = "wheel at slip 0.5, " + short_text(speed) + " m/s, Courant " + short_text(courant);
+    print_value(name + ": pull [N]", measured(report, "drawbar pull"), "1.0 measured, no gate",
+                "[docs/validation.md, Wheels]");
+    print_value(name + ": sinkage [mm]", measured(report, "sinkage"), "22.4 measured, no gate",
+                "[docs/validation.md, Wheels]");
+    return measured(report, "sinkage");
+  };
+  const double usual = wheel(0.2, 0.5);
+  validation::expect_between("wheel at slip 0.5: sinkage at half the step / at the step", wheel(0.2, 0.25) / usual,
+                             0.97, 1.03, "the step [docs/validation.md, speed and step]");
+  validation::expect_between("wheel at slip 0.5: sinkage at 0.07 m/s / at 0.2 m/s", wheel(0.07, 0.5) / usual, 0.95,
+                             1.05, "[docs/validation.md, speed and step]");
 }
 
 }  // namespace

@@ -172,9 +172,7 @@ Report run_plane(const Setup& setup) {
   const double below = whole_cells(depth * (1 + setup["below"]), cell);
   // Six cells behind the lip: what flows under it must have somewhere to lie.
   const ChuteBed bed{6 * cell, cell * std::ceil(reach / cell), below};
-  SiteOptions options = chute_site(setup, bed, gap);
-  options.courant = setup["courant"];
-  Site site(setup, options);
+  Site site(setup, chute_site(setup, bed, gap));
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = blade_height(setup),
   shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);  // over what piles up in front
@@ -209,7 +207,6 @@ Report run_open(const Setup& setup) {
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 8 * cell);
   options.depth = up + 8 * cell;
   options.surface = pit(bed);
-  options.courant = setup["courant"];
   Site site(setup, options);
   // The trench behind the blade is as wide as the blade and half a cell more.
   auto soil = site.fill(bed, [&](const Vec3& p) {
@@ -244,7 +241,6 @@ const std::vector<Parameter> kBlade = {
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
     {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
-    {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)},
     yes_no("plane", true, "plane strain between smooth plates", "a blade of its width in open ground"),
     {"ahead", 3, "depths", "of soil in front after the travel", at_least(0)},
     {"beside", 2, "depths", "of soil on either side (open ground)", at_least(0)},

@@ -338,8 +338,6 @@ Rig bucket_rig() {
       "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and load.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back(yes_no("refine", false, "also at half the cell", "one run"));
-  rig.parameters.push_back(
-      {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)});
   rig.headline = {"mean horizontal force of the drag", "load", "held force over the load's weight",
                   "drag over an upright wedge of the depth"};
   rig.examples = {

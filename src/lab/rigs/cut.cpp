@@ -51,7 +51,7 @@ double try_cut(const Setup& setup, double height, Report& report) {
   const double cell = setup.cell, gap = 4 * cell;
   const double below = whole_cells(height + setup["below"] * height, cell), foot = height;
   const ChuteBed bed{whole_cells(setup["front"] * height, cell), whole_cells(setup["back"] * height, cell), below};
-  Site site(*setup.device, chute_soils(setup.soil), cell, chute_site(setup, bed, gap));
+  Site site(setup, chute_soils(setup.soil), chute_site(setup, bed, gap));
   site.add_tool(plates(bed, gap, cell), make_pose(0, chute_offset(cell), 0));
   // Nothing stands ahead of the face: the soil is let go by laying it without support.
   const auto keep = [foot](const Vec3& p) { return p.x() > 0 || p.z() < -foot; };

@@ -117,7 +117,7 @@ Report run_footing(const Setup& setup) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "lab footing --surcharge-pa", "0",
                            "above 0 for soil without cohesion", "give --surcharge-pa or --cohesion-pa"});
   const Strip strip = strip_of(setup);
-  Site site(*setup.device, strip_soils(setup), cell, strip_site(setup, strip));
+  Site site(setup, strip_soils(setup), strip_site(setup, strip));
   lay_strip(site, strip, q);
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = strip.gap, shape.top = (kLayerCells + 6) * cell + strip.settlement;

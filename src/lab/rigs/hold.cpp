@@ -105,7 +105,7 @@ Report run_hold(const Setup& setup) {
   // Counted inside the shell at the end.
   const double held = site.solver().payload(driver.tool(), driver.pose());
   Report report;
-  report.add("mean vertical force over the load's weight", -force.z() / weight, "", 1, 0.99, 1.01, kSource);
+  report.add("mean vertical force over the load's weight", -force.z() / weight, "", 1, 0.998, 1.002, kSource);
   report.add("horizontal force over the weight", std::hypot(force.x(), force.y()) / weight, "", 0, kNone, 0.01,
              std::string("statics ") + kSource);
   report.add("largest step's deviation", 100 * most, "% of weight", 0, kNone, kNone, "after the first fifth");

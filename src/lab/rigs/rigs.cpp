@@ -2,10 +2,21 @@
 #include "lab/rigs/rig_list.h"
 
 namespace navvy::lab {
+namespace {
+
+/// What every rig has: a result that depends on the step has no value.
+std::vector<Rig> with_common_parameters(std::vector<Rig> list) {
+  for (Rig& rig : list)
+    rig.parameters.push_back(
+        {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)});
+  return list;
+}
+
+}  // namespace
 
 const std::vector<Rig>& rigs() {
   // Made on first use and never changed: setups keep pointers to its entries.
-  static const std::vector<Rig> list = {
+  static const std::vector<Rig> list = with_common_parameters({
       // Soil by itself, from what hardly moves to what flies.
       rest_rig(),
       column_rig(),
@@ -31,7 +42,7 @@ const std::vector<Rig>& rigs() {
       bucket_rig(),
       scrape_rig(),
       cycle_rig(),
-  };
+  });
   return list;
 }
 

@@ -81,12 +81,6 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
              "tan delta times the rough share");
 }
 
-SiteOptions wall_site(const Setup& setup, const ChuteBed& bed, double gap) {
-  SiteOptions out = chute_site(setup, bed, gap);
-  out.courant = setup["courant"];
-  return out;
-}
-
 /// Force per metre at three stages: before it moves, at its least (active) or over the last fifth (passive).
 Report run_wall(const Setup& setup) {
   const double cell = setup.cell, height = setup["height"], speed = speed_of(setup), travel = setup["travel"] * height;
@@ -97,7 +91,7 @@ Report run_wall(const Setup& setup) {
   // Older than the chute of blades and kept for its numbers: a rough wall is rough over the middle of the chute only,
   // with smooth soil against the plates.
   const ChuteBed bed{6 * cell, cell * std::ceil((std::abs(travel) + setup["ahead"] * height) / cell), below};
-  Site site(*setup.device, chute_soils(setup.soil), cell, wall_site(setup, bed, gap));
+  Site site(setup, chute_soils(setup.soil), chute_site(setup, bed, gap));
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.height = shape.top = height + 4 * cell;
   shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell + std::abs(travel),
@@ -145,7 +139,6 @@ Rig wall_rig() {
                     {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
                     {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
                     {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
-                    {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)},
                     {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
                     {"ahead", 3, "heights", "of soil in front", at_least(0)},
                     {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
