@@ -262,6 +262,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
 float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
+  const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, static_cast<double>(cell_)));
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
   const auto most =
       static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
@@ -306,7 +307,8 @@ float NativeSoil::gather(const Home& home, float dt) {
       lean[axis] = m[3] - w.f[axis] * u[3];
     }
     for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
-    const Lanes share = crowding(c, load(pack.j), load(pack.j0), u[3], full, spread);
+    const Lanes j = load(pack.j), j0 = load(pack.j0), share = crowding(c, j, j0, u[3], full, spread);
+    store(seen_opening(j, j0, u[3], filled), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
       const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);

@@ -4,7 +4,8 @@
 // Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain [docs/soil.md, yield], with
 //   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states are near it;
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
-//   - cohesion in shear only; it fades as soil opens (opening_strain) and as it is remoulded (plastic shear);
+//   - cohesion in shear only; it fades as soil opens (opening_strain), as it is remoulded (plastic shear) and as it gets
+//     looser (density state);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
 //   - a static share of its strength, which soil that hardly shears has on top;
 //   - viscosity on soil that does not yield, so that intact ground does not ring, and on the volume of closed soil;
@@ -96,13 +97,15 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real open = j / j0 - 1.0f;
   const real p = soil->bulk * fmax(-open, 0.0f);
 
-  // Yield stress, its cohesion faded [docs/soil.md, cohesion]; return [Klar 2016] [docs/soil.md, return mapping].
+  // Yield stress: cohesion of the density state and of the bonds that are left, faded [docs/soil.md, cohesion]; return
+  // [Klar 2016] [docs/soil.md, return mapping].
+  const real dense = fmin(fmax(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
   const real soft = 1.0f + state->shear * soil->inv_remould;
+  const real k = soil->k_loose + soil->k_dense * dense + soil->k_bond / (soft * soft);
   const real fade = fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
   const real rate =
       sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
 #ifdef LAW_EXTENDED
-  const real dense = fmin(fmax((soil->swell - j0) * soil->inv_range, 0.0f), 1.0f);
   // mu(I) [Jop 2006] on sin phi [docs/soil.md, flow rate].
   const real flow = soil->grain * rate;
   const real fast = flow / (flow + soil->inertial * sqrt(p) + (scalar)(1e-9));
@@ -118,7 +121,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   strength = strength * (1.0f + soil->matched * dense);
 #endif
   const real alpha = strength * sin_phi;
-  const real q_yield = alpha * p + strength * (soil->k_residual + soil->k_bond / (soft * soft)) * fade;
+  const real q_yield = alpha * p + strength * k * fade;
   const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
   // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up

@@ -6,7 +6,10 @@
 
 // bulk, shear: elastic moduli K, G [Pa]
 // alpha: sin(friction angle)
-// k_residual, k_bond: residual, and intact less residual cohesion, x cos(friction angle) [Pa]
+// k_loose, k_dense, k_bond: cohesion at the loose density, residual less loose, intact less residual cohesion, x
+// cos(friction angle) [Pa]
+// dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, within 0 .. 1: swell / (swell - 1) and
+// 1 / (swell - 1); 1 and 0 without swell
 // inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
 // static_share: growth of the yield stress at rest [docs/soil.md, static friction]
 // viscosity: of the deviator, where it does not yield [Pa s] [docs/soil.md, viscosity]
@@ -16,8 +19,11 @@
   X(bulk)                      \
   X(shear)                     \
   X(alpha)                     \
-  X(k_residual)                \
+  X(k_loose)                   \
+  X(k_dense)                   \
   X(k_bond)                    \
+  X(dense_offset)              \
+  X(inv_range)                 \
   X(inv_remould)               \
   X(inv_opening)               \
   X(static_share)              \
@@ -27,7 +33,6 @@
 
 // Only where LAW_EXTENDED is defined.
 // dilatancy: b, plastic volume strain per plastic shear in bank state
-// inv_range: 1 / (swell - 1), 0 without swell
 // matched: yield stress that plane strain needs at b / that without dilatancy - 1
 // alpha_fast: growth of alpha from slow to fast flow
 // grain: diameter x sqrt(density) of the grains; inertial: inertial number at half that growth
@@ -35,7 +40,6 @@
 // strain
 #define EXTENDED_LAW_CONSTANTS(X) \
   X(dilatancy)                    \
-  X(inv_range)                    \
   X(matched)                      \
   X(alpha_fast)                   \
   X(grain)                        \

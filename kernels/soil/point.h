@@ -81,6 +81,15 @@ INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar ful
   return fmin(j, j0) > packed ? fmin(spread * rate, 1.0f) : 0.0f;
 }
 
+// J of a particle that is no further open than the nodes around it show: what the flow's noise adds to J would open soil
+// that lies closed, and take its cohesion [docs/soil.md, opening]. Down to the density state, where soil bears no
+// pressure yet, so that it costs and gives no energy. filled: mass of a node below which soil counts as open at J = 1
+// [kg].
+INLINED real seen_opening(real j, real j0, real node_mass, scalar filled) {
+  const real seen = fmax(j0, filled / fmax(node_mass, MASS_QUANTUM));
+  return j > seen ? seen : j;
+}
+
 // Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,
 // seen from the particle [kg cells]; most: farthest way [cells].
 INLINED real way_apart(real share, real lean, real node_mass, scalar most) {

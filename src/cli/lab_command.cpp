@@ -163,7 +163,7 @@ double given(const LabOptions& options, const std::string& name) {
 scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   if (!options.soil.empty()) soil = shipped_soil(options.soil);
   // An angle of repose first: a phi given beside it wins.
-  const double cohesion_before = soil.cohesion;
+  const double cohesion_before = soil.cohesion, residual_before = soil.residual_cohesion;
   const double repose = given(options, "--repose-deg"), cohesion = given(options, "--cohesion-pa");
   if (!std::isnan(repose)) soil.friction_angle = lab::friction_from_repose(repose);
   if (!std::isnan(cohesion)) {
@@ -175,9 +175,13 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   for (const SoilOption& option : options.soil_values)
     if (option.value != nullptr && !option.given.empty()) soil.*option.value = option.given.front() * option.factor;
   for (const std::string& setting : options.settings) set_value(soil, setting);
-  const bool stiff = std::any_of(options.settings.begin(), options.settings.end(),
-                                 [](const std::string& setting) { return setting.rfind("young_modulus_pa", 0) == 0; });
-  if (!stiff && std::isnan(given(options, "--young-pa"))) scene::follow_cohesion(soil, cohesion_before);
+  const auto is_set = [&](const std::string& name) {
+    return std::any_of(options.settings.begin(), options.settings.end(),
+                       [&](const std::string& setting) { return setting.rfind(name, 0) == 0; });
+  };
+  if (!is_set("loose_cohesion_pa")) scene::follow_residual_cohesion(soil, residual_before);
+  if (!is_set("young_modulus_pa") && std::isnan(given(options, "--young-pa")))
+    scene::follow_cohesion(soil, cohesion_before);
   return soil;
 }
 

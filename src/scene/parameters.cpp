@@ -54,15 +54,17 @@ class Writer {
 
 void put(const Writer& w, const Soil& soil) {
   const auto& [name, source, bank_density, swell, friction_angle, static_friction_share, cohesion, residual_cohesion,
-               remoulding_strain, loosening_strain, opening_strain, young_modulus, poisson, dilatancy_angle,
-               fast_friction_angle, grain_diameter, inertial_number, compaction_pressure, compaction_strain,
-               tool_friction_angle, adhesion, bekker_kc, bekker_kphi, bekker_n, janosi_k, color] = soil;
+               loose_cohesion, remoulding_strain, loosening_strain, opening_strain, young_modulus, poisson,
+               dilatancy_angle, fast_friction_angle, grain_diameter, inertial_number, compaction_pressure,
+               compaction_strain, tool_friction_angle, adhesion, bekker_kc, bekker_kphi, bekker_n, janosi_k, color] =
+      soil;
   w("bank_density", bank_density);
   w("swell", swell);
   w("friction_angle", friction_angle);
   w("static_friction_share", static_friction_share);
   w("cohesion", cohesion);
   w("residual_cohesion", residual_cohesion);
+  w("loose_cohesion", loose_cohesion);
   w("remoulding_strain", remoulding_strain);
   w("loosening_strain", loosening_strain);
   w("opening_strain", opening_strain);

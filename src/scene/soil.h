@@ -17,6 +17,7 @@ struct Soil {
   double static_friction_share = 0.1;  ///< by which soil that hardly shears is stronger than soil that flows [-]
   double cohesion = 5000;              ///< c of intact soil [Pa]
   double residual_cohesion = 1000;     ///< c_r after remoulding [Pa]
+  double loose_cohesion = 200;         ///< c_l of remoulded soil at its loose density, at most c_r [Pa]
   double remoulding_strain = 0.5;      ///< gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-]
   double loosening_strain = 0.3;       ///< plastic shear over which the swell develops [-]
   double opening_strain = 0.05;        ///< eps: volume ratio above closed at which cohesion is gone [-]

@@ -42,6 +42,14 @@ double default_stiffness(double cohesion);
 /// default follows the cohesion, a stiffness of its own stays.
 void follow_cohesion(Soil& soil, double before);
 
+/// Cohesion of remoulded soil at its loose density, where none is given [Pa]: a fifth of the residual one. Loam of 1.5
+/// kPa then lies in heaps of 33 to 45 deg, as spoil does; with the whole of it they stand at 50 to 70 [docs/soil.md,
+/// cohesion].
+double default_loose_cohesion(double residual);
+
+/// Whoever changes the residual cohesion of a soil from `before` [Pa] calls this where no loose one is given beside it.
+void follow_residual_cohesion(Soil& soil, double before);
+
 /// A warning for soil softer than 100 x its cohesion: what share of its strength a blade feels, after how much travel,
 /// and what the default would cost. It runs all the same.
 std::optional<Fault> too_soft(const Soil& soil);

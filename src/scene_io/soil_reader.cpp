@@ -101,6 +101,11 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one line only.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
     soil.residual_cohesion = std::min(residual, soil.cohesion);
+  const Element* loose = element.FirstChildElement("loose_cohesion_pa");
+  if (loose == nullptr)
+    scene::follow_residual_cohesion(soil, residual);
+  else if (soil.loose_cohesion > soil.residual_cohesion)
+    faults.error(*loose, text_of(*loose), "must not exceed the residual cohesion", "loosening only weakens soil");
   const Element* stiffness = element.FirstChildElement("young_modulus_pa");
   if (stiffness == nullptr) scene::follow_cohesion(soil, cohesion);
   check_values(element, soil, faults);

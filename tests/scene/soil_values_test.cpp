@@ -59,6 +59,18 @@ TEST(SoilValues, StiffnessFollowsTheCohesionWhereNoneIsGiven) {
   EXPECT_EQ(soil.young_modulus, 3e6) << "its own";
 }
 
+TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
+  EXPECT_EQ(Soil{}.loose_cohesion, default_loose_cohesion(Soil{}.residual_cohesion));
+  Soil soil;
+  soil.residual_cohesion = 1500;
+  follow_residual_cohesion(soil, Soil{}.residual_cohesion);
+  EXPECT_DOUBLE_EQ(soil.loose_cohesion, 300);
+  soil.loose_cohesion = 700;
+  soil.residual_cohesion = 2000;
+  follow_residual_cohesion(soil, 1500);
+  EXPECT_EQ(soil.loose_cohesion, 700) << "its own";
+}
+
 TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) {
   Soil clay;
   clay.name = "clay";
@@ -68,11 +80,11 @@ TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) 
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->severity, Fault::Severity::kWarning);
   const std::string text = warning->text();
-  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 77 %", "0.25 of its depth",
+  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 87 %", "0.30 of its depth",
                            "1e+07", "2.0 times as many steps"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   clay.young_modulus = 0.5e6;
-  EXPECT_NE(too_soft(clay)->text().find("less than 48 %"), std::string::npos) << too_soft(clay)->text();
+  EXPECT_NE(too_soft(clay)->text().find("less than 71 %"), std::string::npos) << too_soft(clay)->text();
   clay.young_modulus = 5e6;
   EXPECT_FALSE(too_soft(clay));
   clay.cohesion = 0;

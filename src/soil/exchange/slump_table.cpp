@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soil/exchange/log_spiral.h"
+#include "soil/particles/soil_table.h"
+
 namespace navvy::soil {
 namespace {
 
@@ -12,8 +15,9 @@ constexpr double kStartAbove = radians(2.0), kStopBelow = radians(1.0);
 /// A heap booked back from particles is this rough without being steep [cells].
 /// tuned: ExchangeDeposit.AHeapComesBackWithItsMassVolumeAndShape.
 constexpr double kRoughness = 0.2;
-/// Cohesion between intact and remoulded is tabulated in this many levels, rounded down.
-constexpr int kLevels = 8;
+/// Cohesion times specific volume, from loose and remoulded to intact, is tabulated in this many levels, the lower ones
+/// closer together, and rounded down.
+constexpr int kLevels = 16;
 /// Higher faces than this are not asked for [m].
 constexpr double kHighest = 100;
 
@@ -25,55 +29,62 @@ std::size_t SlumpTable::place(std::size_t soil, int level, int steps, bool diago
          (diagonal ? 1 : 0);
 }
 
-double SlumpTable::critical_height(double cohesion, double friction_angle, double unit_weight, double setback) {
-  if (cohesion <= 0) return 0;
-  const auto stands = [&](double h) {
-    const double face = std::atan2(h, setback);
-    // A face that is no steeper than the friction angle stands without cohesion.
-    if (face <= friction_angle) return true;
-    return h * unit_weight * (1 - std::cos(face - friction_angle)) <=
-           4 * cohesion * std::sin(face) * std::cos(friction_angle);
-  };
-  // The allowed height falls as the face steepens, so there is one crossing.
-  // 60 halvings of 100 m leave less than a double can tell apart.
-  double low = 0, high = kHighest;
-  if (stands(high)) return high;
-  for (int i = 0; i < 60; ++i) (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  return low;
+// As in the law [docs/soil.md, cohesion].
+double SlumpTable::cohesion(const Strength& of, double shear, double specific_volume) {
+  const double dense = std::clamp(of.dense_offset - specific_volume * of.inv_range, 0.0, 1.0);
+  const double soft = 1 + std::max(0.0, shear) * of.inv_remould;
+  return of.loose + of.dense * dense + of.bond / (soft * soft);
 }
 
 SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, double gravity)
     : soils_(soils), cell_(cell) {
-  // Filled once for a scene: 256 entries a soil, each with a search.
+  // Filled once for a scene: 512 entries a soil, each with a search.
   start_.resize(soils.size() * kLevels * kReach * 2);
   weakest_.assign(kReach * 2, kHighest);
   for (std::size_t s = 0; s < soils.size(); ++s) {
     const scene::Soil& soil = soils[s];
     // Soil of less than a degree of friction stops on level ground.
     stop_.push_back(cell * std::tan(std::max(soil.friction_angle - kStopBelow, 0.0)));
-    for (int level = 0; level < kLevels; ++level)
+    const LawConstants law = law_constants(soil, cell);
+    const double root = 1 / std::cos(soil.friction_angle);
+    Strength of{law.k_loose * root,
+                law.k_dense * root,
+                law.k_bond * root,
+                law.dense_offset,
+                law.inv_range,
+                law.inv_remould,
+                0,
+                0};
+    of.low = std::min(of.loose * soil.swell, of.loose + of.dense);
+    of.range = soil.cohesion - of.low;
+    strengths_.push_back(of);
+    const FaceHeights faces(soil.friction_angle);
+    for (int level = 0; level < kLevels; ++level) {
+      const double share = static_cast<double>(level) / (kLevels - 1);
+      const double strength = (of.low + of.range * share * share) / (soil.bank_density * gravity);
       for (int steps = 1; steps <= kReach; ++steps)
         for (const bool diagonal : {false, true}) {
           const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
-          const double cohesion =
-              // From residual to intact, in equal steps; level 0 is soil that is fully remoulded.
-              soil.residual_cohesion + (soil.cohesion - soil.residual_cohesion) * level / (kLevels - 1);
           const double dry = distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
           // The face falls back by half a cell less than the columns' centres lie apart [docs/exchange.md, slump].
-          const double cohesive =
-              critical_height(cohesion, soil.friction_angle, soil.bank_density * gravity, distance - 0.5 * cell);
-          const double drop = std::max(dry, cohesive);
+          const double drop = std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest));
           start_[place(s, level, steps, diagonal)] = drop;
           double& least = weakest_[place(0, 0, steps, diagonal)];
           least = std::min(least, drop);
         }
+    }
   }
 }
 
-double SlumpTable::start(std::uint16_t soil, float shear, int steps, bool diagonal) const {
-  // Share of the bond that is left, as in the law [docs/soil.md, cohesion].
-  const double soft = 1 + std::max(0.0, static_cast<double>(shear)) / soils_[soil].remoulding_strain;
-  const int level = static_cast<int>(std::clamp(std::floor((kLevels - 1) / (soft * soft)), 0.0, kLevels - 1.0));
+double SlumpTable::start(std::uint16_t soil, float shear, float specific_volume, int steps, bool diagonal) const {
+  const Strength& of = strengths_[soil];
+  // Loose soil weighs less: what counts is cohesion over unit weight, and bank density x gravity / specific volume is
+  // the latter. Cohesion grows towards the bank state, so nothing is below the level of loose soil by more than
+  // rounding.
+  const double volume = std::max(0.0, static_cast<double>(specific_volume));
+  const double product = cohesion(of, static_cast<double>(shear), volume) * volume;
+  const double share = of.range > 0 ? std::clamp((product - of.low) / of.range, 0.0, 1.0) : 0.0;
+  const int level = std::min(static_cast<int>(std::sqrt(share) * (kLevels - 1) + 1e-9), kLevels - 1);
   return start_[place(soil, level, steps, diagonal)];
 }
 
@@ -85,7 +96,8 @@ double SlumpTable::start(std::span<const heightfield::Layer> layers, double low,
     const double top = bottom + kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                                     (soils_[layer.soil].bank_density * cell_ * cell_);
     // Only layers that the drop lays bare: what lies below the low column is held from the sides.
-    if (top > low && bottom < high) least = std::min(least, start(layer.soil, layer.plastic_shear, steps, diagonal));
+    if (top > low && bottom < high)
+      least = std::min(least, start(layer.soil, layer.plastic_shear, layer.specific_volume, steps, diagonal));
     bottom = top;
   }
   return least;

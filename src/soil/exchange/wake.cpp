@@ -97,9 +97,11 @@ void Waker::slice(std::size_t first, std::size_t last, double bottom) {
 void Waker::stress(const Slice& slice, double weight, Particle& particle) const {
   const LawConstants& law = law_[slice.soil];
   const double nu = ground_.setup().soils[slice.soil].poisson;
-  // Bonds that are left after remoulding, as in the law [docs/soil.md, cohesion].
+  // What is left in this density state and after remoulding, as in the law [docs/soil.md, cohesion].
+  const double dense =
+      std::clamp(law.dense_offset - static_cast<double>(slice.specific_volume) * law.inv_range, 0.0, 1.0);
   const double soft = 1 + static_cast<double>(slice.shear) * law.inv_remould;
-  const double strength = law.k_residual + law.k_bond / (soft * soft);
+  const double strength = law.k_loose + law.k_dense * dense + law.k_bond / (soft * soft);
   // K0 of an elastic half space, or what the yield surface allows: (1 - K0) w / sqrt 3 <= alpha p + k.
   const double root = 1 / std::sqrt(3.0);
   const double bound =

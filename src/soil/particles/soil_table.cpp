@@ -38,6 +38,7 @@ double radius_of_dilating(double sin_phi, double b) {
 
 double mixing_time() { return kMixingTime; }
 double packed_mass(double densest, double cell) { return kPacked * densest * cell * cell * cell; }
+double filled_mass(double densest, double cell) { return densest * cell * cell * cell / kPacked; }
 double crowding_shear() { return kCrowdingShear; }
 double farthest_apart() { return kFarthestApart; }
 
@@ -46,8 +47,14 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
   k.shear = soil.young_modulus / (2 * (1 + soil.poisson));
   k.alpha = std::sin(soil.friction_angle);
-  k.k_residual = soil.residual_cohesion * std::cos(soil.friction_angle);
+  // Without swell soil has no loose density.
+  const bool swells = soil.swell > 1;
+  const double loose = swells ? std::min(soil.loose_cohesion, soil.residual_cohesion) : soil.residual_cohesion;
+  k.k_loose = loose * std::cos(soil.friction_angle);
+  k.k_dense = (soil.residual_cohesion - loose) * std::cos(soil.friction_angle);
   k.k_bond = (soil.cohesion - soil.residual_cohesion) * std::cos(soil.friction_angle);
+  k.dense_offset = swells ? soil.swell / (soil.swell - 1) : 1;
+  k.inv_range = swells ? 1 / (soil.swell - 1) : 0;
   k.inv_remould = 1 / soil.remoulding_strain;
   k.inv_opening = 1 / soil.opening_strain;
   k.static_share = soil.static_friction_share;
@@ -58,7 +65,6 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   // for phi [docs/soil.md, dilatancy].
   const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
   k.dilatancy = soil.swell > 1 ? b : 0;
-  k.inv_range = soil.swell > 1 ? 1 / (soil.swell - 1) : 0;
   const double cone = 1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
   k.matched = cone / radius_of_dilating(k.alpha, k.dilatancy) - 1;
   k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);

@@ -220,7 +220,8 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
 }
 
 void PlaneStrain::gather(double dt, bool last) {
-  const double full = packed_mass(soil_.bank_density, cell_), closing = std::min(1.0, dt / kClosingTime);
+  const double full = packed_mass(soil_.bank_density, cell_), filled = filled_mass(soil_.bank_density, cell_);
+  const double closing = std::min(1.0, dt / kClosingTime);
   double on_grid = 0, moving = 0, fastest = 0;
   if (last)
     for (const Node& node : nodes_) on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
@@ -247,6 +248,7 @@ void PlaneStrain::gather(double dt, bool last) {
       const double packed = full / std::max(room, kEmpty);
       p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
     }
+    if (method_.opening == PlaneMethod::Opening::kSeen) p.j = seen_opening(p.j, p.j0, room, filled);
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

@@ -25,8 +25,13 @@ struct PlaneMethod {
   /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
+  /// Where soil is open: kIntegrated goes by J alone, which noise opens; kSeen no further than the nodes around it show
+  /// [docs/soil.md, opening].
+  enum class Opening { kIntegrated, kSeen };
+
   Contact contact = Contact::kKinematic;
   Crowding crowding = Crowding::kClosing;
+  Opening opening = Opening::kIntegrated;
   bool mixing = true;
   /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.
   int hold = 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "soil/exchange/exchange_site.h"
+#include "soil/exchange/log_spiral.h"
 #include "soil/exchange/slump_table.h"
 #include "values.h"
 
@@ -95,12 +96,13 @@ TEST(ExchangeSlump, AConeStandsTwoDegreesBelowFrictionAndSlidesThreeAbove) {
   }
 }
 
-TEST(ExchangeSlump, AVerticalCutStandsToCulmannsHeight) {
+TEST(ExchangeSlump, AVerticalCutStandsToTheLogSpiralsHeight) {
   const scene::Soil soil = loam();
-  const double critical = SlumpTable::critical_height(soil.cohesion, soil.friction_angle, unit_weight(soil), kCell / 2);
-  // Vertical face, closed form: 4 c / gamma tan(45 + phi/2); the half cell of setback gives it a little more.
-  const double vertical = 4 * soil.cohesion / unit_weight(soil) * std::tan(radians(60));
-  std::printf("[ VALUE    ] vertical cut: table %.3f m, Culmann %.3f m\n", critical, vertical);
+  const FaceHeights faces(soil.friction_angle);
+  const double critical = faces.height(soil.cohesion / unit_weight(soil), kCell / 2, 100);
+  // Vertical face: 3.83 c / gamma tan(45 + phi/2) [Chen 1975]; the half cell of setback gives it a little more.
+  const double vertical = 3.83 * soil.cohesion / unit_weight(soil) * std::tan(radians(60));
+  print_value("vertical cut [m]", critical, std::to_string(vertical), "[Chen 1975]");
   EXPECT_GT(critical, vertical);
   EXPECT_NEAR(critical, vertical, 0.05 * vertical);  // 5 cm of setback on 2.3 m
   for (const double share : {0.95, 1.05}) {
@@ -113,6 +115,38 @@ TEST(ExchangeSlump, AVerticalCutStandsToCulmannsHeight) {
       EXPECT_GT(result.slumped_columns, 20);
     }
     EXPECT_TRUE(site.particles.empty());
+  }
+}
+
+// [Taylor 1948] has the friction circle, whose numbers are those of the spiral to a hundredth.
+TEST(ExchangeSlump, TheLogSpiralHasTheKnownNumbers) {
+  EXPECT_NEAR(stability_number(0, radians(90)), 3.83, 0.02);
+  for (const double phi : {10.0, 20.0, 30.0, 40.0})
+    EXPECT_NEAR(stability_number(radians(phi), radians(90)), 3.83 * std::tan(radians(45 + phi / 2)),
+                0.01 * 3.83 * std::tan(radians(45 + phi / 2)));
+  EXPECT_NEAR(stability_number(radians(20), radians(60)), 1 / 0.097, 0.1);
+  EXPECT_NEAR(stability_number(radians(15), radians(45)), 1 / 0.083, 0.15);
+  EXPECT_TRUE(std::isinf(stability_number(radians(30), radians(29))));
+  // Read from the table between its entries.
+  const FaceHeights faces(radians(30));
+  for (const double face : {37.0, 48.0, 61.0, 77.0}) {
+    const double height = faces.height(0.1, 2 / std::tan(radians(face)), 100);
+    EXPECT_NEAR(stability_number(radians(30), std::atan2(height, 2 / std::tan(radians(face)))), height / 0.1,
+                0.01 * height / 0.1);
+  }
+  EXPECT_EQ(faces.height(0, 1, 100), 0);
+  EXPECT_EQ(faces.height(1e6, 1, 100), 100);
+}
+
+TEST(ExchangeSlump, LooseSoilSlidesSoonerThanDenseAndIntactLast) {
+  const SlumpTable table({loam()}, kCell, kGravity);
+  const float remoulded = 100, loose = static_cast<float>(loam().swell);
+  for (const int steps : {1, 4, 16}) {
+    const double spoil = table.start(0, remoulded, loose, steps, false);
+    const double dense = table.start(0, remoulded, 1.0f, steps, false);
+    EXPECT_LT(spoil, dense);
+    EXPECT_LT(dense, table.start(0, 0, 1.0f, steps, false));
+    EXPECT_EQ(spoil, table.weakest(steps, false));
   }
 }
 

@@ -60,7 +60,7 @@ TEST(ExchangeWake, PutsFlatGroundUnderTheStressOfItsWeight) {
       const LawConstants law = law_constants(soil, kCell);
       const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]));
       const double pressure = p.s[2] - stress_zz(site, p);
-      EXPECT_LE(q, law.alpha * pressure + law.k_residual + law.k_bond + 5);
+      EXPECT_LE(q, law.alpha * pressure + law.k_loose + law.k_dense + law.k_bond + 5);
     }
     std::printf("[ VALUE    ] %s: sum sigma_z %.1f Pa, expected %.1f +-0.1 %%\n", soil.name.c_str(), sum, expected_sum);
     EXPECT_NEAR(sum, expected_sum, 1e-3 * std::abs(expected_sum));

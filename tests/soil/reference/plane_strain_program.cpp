@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "scene/soil_values.h"
 #include "soil/reference/plane_rigs.h"
 
 namespace {
@@ -19,11 +20,11 @@ const char* const kHelp =
     "  shear   shear cell: speed (0.3 m/s), stress (3000 Pa), strain (0.5)\n"
     "  rest    bed at rest: height (1 m), time (3 s)\n"
     "  wave    share of a shear wave that one transfer keeps: cells (8)\n"
-    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), swell (1.25),\n"
-    "static (0.1). cell (0.1 m), courant (0.5).\n"
-    "Method, the kernels' own unless said: contact=kinematic|fraction, crowding=closing|shear|none, mixing=1|0, "
-    "hold=1\n"
-    "(steps a transfer), motion=0.2 (cells at most).\n";
+    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), loose (a fifth of it),\n"
+    "swell (1.25), static (0.1). cell (0.1 m), courant (0.5).\n"
+    "Method: contact=kinematic|fraction, crowding=closing|shear|none,\n"
+    "opening=integrated|seen, mixing=1|0, hold=1 (steps a transfer), motion=0.2 (cells at most).\n"
+    "The kernels' own: crowding=shear opening=seen hold=4.\n";
 
 std::map<std::string, std::string> keys;
 
@@ -50,6 +51,7 @@ PlaneMethod method() {
   const std::string crowding = text("crowding", "closing");
   if (crowding == "shear") out.crowding = PlaneMethod::Crowding::kShear;
   if (crowding == "none") out.crowding = PlaneMethod::Crowding::kNone;
+  if (text("opening", "integrated") == "seen") out.opening = PlaneMethod::Opening::kSeen;
   out.mixing = number("mixing", 1) != 0;
   out.hold = static_cast<int>(number("hold", 1));
   out.most_motion = number("motion", 0.2);
@@ -64,6 +66,7 @@ scene::Soil soil_of_keys() {
   out.friction_angle = radians(number("phi", 35));
   out.cohesion = number("c", 0);
   out.residual_cohesion = number("residual", out.cohesion);
+  out.loose_cohesion = number("loose", scene::default_loose_cohesion(out.residual_cohesion));
   out.swell = number("swell", 1.25);
   out.static_friction_share = number("static", 0.1);
   return out;
