@@ -23,6 +23,22 @@ TEST(FastPour, SpreadsByItsMomentum) {
   EXPECT_EQ(report.ledger_error, 0);
 }
 
+// What is dug and poured is loose and remoulded: loam of 6 kPa that kept more than its loose cohesion would stand in
+// heaps of 50 to 70 deg.
+TEST(PouredLoam, LiesAsSpoilDoes) {
+  const lab::Report report = lab::run_rig("pour", {}, [](lab::Setup& s) {
+    s.soil.name = "loam";
+    s.soil.bank_density = 1540, s.soil.swell = 1.23, s.soil.friction_angle = radians(30);
+    s.soil.cohesion = 6000, s.soil.residual_cohesion = 1500, s.soil.loose_cohesion = 300;
+    s.soil.young_modulus = 1.2e6;
+  });
+  expect_between("poured loam, slope after rest [deg]", lab::measured(report, "repose after rest"), 35, 42,
+                 "spoil heaps lie at 34 .. 45 deg [docs/validation.md, Swell, pouring and heaps]");
+  expect_between("poured loam, lost at rest [deg]", lab::measured(report, "angle lost at rest"), -kNoLimit, 1,
+                 "no creep [docs/validation.md, Swell, pouring and heaps]");
+  EXPECT_EQ(report.ledger_error, 0);
+}
+
 // The soils of `swell` and `throw` are the rigs' defaults, loam of swell 1.23 and sand of none, unless said.
 const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
 const SoilChange kDrySand = {.phi_degrees = 33, .cohesion = 0, .swell = 1.13, .bank_density = 1600};

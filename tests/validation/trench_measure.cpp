@@ -120,6 +120,30 @@ double spoil_radius(double loose_volume, double repose, double width) {
   return std::cbrt(3 * loose_volume / (kPi * std::tan(repose))) + 0.5 * width;
 }
 
+std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius) {
+  constexpr double kOver = 0.6, kRisen = 0.35;
+  const int straight = static_cast<int>(std::lround(kOver / ground.cell()));
+  const int across = static_cast<int>(std::lround(kOver / std::sqrt(2.0) / ground.cell()));
+  std::vector<double> out;
+  for (int iy = straight; iy < ground.ny() - straight; ++iy)
+    for (int ix = straight; ix < ground.nx() - straight; ++ix) {
+      const double height = ground.height(ix, iy);
+      if ((middle_of(ground, ix, iy) - dig.dump_at).norm() > spoil_radius) continue;
+      if (height - ground.start_height(ix, iy) < kRisen) continue;
+      double steepest = 0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (dx == 0 && dy == 0) continue;
+          const int steps = dx != 0 && dy != 0 ? across : straight;
+          const double distance = ground.cell() * steps * std::hypot(dx, dy);
+          steepest = std::max(steepest, (height - ground.height(ix + steps * dx, iy + steps * dy)) / distance);
+        }
+      out.push_back(degrees(std::atan(steepest)));
+    }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
                         const WheelTracks& tracks) {
   const Line line(dig);

@@ -42,6 +42,10 @@ class WheelTracks {
 /// `repose` [rad], and half the cut's width, over which the bucket empties.
 double spoil_radius(double loose_volume, double repose, double width);
 
+/// Slopes of the spoil [deg], least first: steepest fall over 0.6 m in eight directions from each column within
+/// `spoil_radius` [m] of the dump that has risen by 0.35 m at least; lower ones would see the ground beside the heap.
+std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius);
+
 /// Largest |change of height| [m] away from the trench (and half a metre around it), the spoil and the tracks.
 double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
                         const WheelTracks& tracks);

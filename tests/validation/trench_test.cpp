@@ -52,6 +52,11 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   const double spoil = spoil_radius(earth.loose_volume, description.soils[0].friction_angle, dig.width);
   expect_between("change off trench, spoil and tracks [m]", change_elsewhere(ground, dig, spoil, tracks), 0,
                  ground.cell(), source);
+  const std::vector<double> slopes = heap_slopes(ground, dig, spoil);
+  ASSERT_FALSE(slopes.empty());
+  const char* const heap = "spoil lies at 34 .. 45 deg [docs/validation.md, Whole digs]";
+  expect_between("slope of the heap over 0.6 m, median [deg]", slopes[slopes.size() / 2], 33, 45, heap);
+  expect_between("slope of the heap over 0.6 m, steepest [deg]", slopes.back(), -kNoLimit, 50, heap);
   expect_between("real-time factor without pictures", real_time_factor, 0.2, kNoLimit, source);
   expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, source);
   expect_between("shell crossings", static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);

@@ -24,6 +24,16 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
+/// What is poured has been dug: soil that swells or softens comes loose and remoulded, down to a hundredth of its
+/// bonds.
+void loosen(const scene::Soil& soil, soil::Particle& p) {
+  if (soil.swell > 1) {
+    p.j = p.j0 = static_cast<float>(soil.swell);
+    p.mass = static_cast<std::int32_t>(std::lround(p.mass / soil.swell));
+  }
+  if (softens(soil)) p.shear = static_cast<float>(9 * soil.remoulding_strain);
+}
+
 /// A stream of loose grains, `speed` fast at its mouth, that follows the heap's top at a height of `drop`.
 struct Stream {
   bool axisymmetric;
@@ -38,6 +48,7 @@ struct Stream {
     for (soil::Particle& p : layer) {
       for (float& x : p.x) x += static_cast<float>(random.uniform(-0.1, 0.1));
       p.v[2] = static_cast<float>(-speed);
+      loosen(site.soil(), p);
     }
     site.solver().insert(layer);
   }
