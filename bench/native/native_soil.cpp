@@ -263,6 +263,8 @@ float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
   const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, static_cast<double>(cell_)));
+  const auto closing =
+      static_cast<float>(soil::closing_share() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
   const auto most =
       static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
@@ -308,7 +310,7 @@ float NativeSoil::gather(const Home& home, float dt) {
     }
     for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
     const Lanes j = load(pack.j), j0 = load(pack.j0), share = crowding(c, j, j0, u[3], full, spread);
-    store(seen_opening(j, j0, u[3], filled), pack.j);
+    store(seen_opening(j, j0, u[3], filled, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
       const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);

@@ -81,13 +81,15 @@ INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar ful
   return fmin(j, j0) > packed ? fmin(spread * rate, 1.0f) : 0.0f;
 }
 
-// J of a particle that is no further open than the nodes around it show: what the flow's noise adds to J would open soil
-// that lies closed, and take its cohesion [docs/soil.md, opening]. Down to the density state, where soil bears no
-// pressure yet, so that it costs and gives no energy. filled: mass of a node below which soil counts as open at J = 1
+#define NOISE_OPENS 1.1f  // J / J0 up to which noise opens soil; what is thrown apart opens further
+
+// J of a particle that is open while its nodes hold a closed soil's mass: the flow's noise opens soil that lies closed,
+// and would take its cohesion. It closes by a share of the way to the density state, where soil bears no pressure yet,
+// so that it costs and gives no energy [docs/soil.md, opening]. filled: mass of a node that counts as closed at J = 1
 // [kg].
-INLINED real seen_opening(real j, real j0, real node_mass, scalar filled) {
-  const real seen = fmax(j0, filled / fmax(node_mass, MASS_QUANTUM));
-  return j > seen ? seen : j;
+INLINED real seen_opening(real j, real j0, real node_mass, scalar filled, scalar share) {
+  const real closing = j + share * (j0 - j);
+  return j > j0 && j < NOISE_OPENS * j0 && node_mass * j0 >= filled ? closing : j;
 }
 
 // Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,

@@ -40,7 +40,7 @@ struct Scoops {
 Scoops dig(const std::vector<std::string>& settings, int scoops) {
   session::Session session(load_scene("trench.sdf", settings), shared_device());
   const sim::MachineHandle machine = session.world().machine(0);
-  const std::vector<sim::JointHandle> arm = {machine.joint("boom_joint"), machine.joint("stick_joint"),
+  const std::vector<sim::JointHandle> arm = {machine.joint("boom_joint"), machine.joint("arm_joint"),
                                              machine.joint("bucket_joint")};
   Scoops out;
   double last = 0;

@@ -44,7 +44,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     global const int* restrict neighbours, global const float4* restrict velocity0,
     global const float4* restrict velocity1, global const int* restrict near_slot,
     global const int* restrict node_split, global const int* restrict used, global Report* restrict report,
-    const float dt, const float dx, const float full, const float filled, const float spread,
+    const float dt, const float dx, const float full, const float filled, const float closing, const float spread,
     const float most) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
@@ -94,7 +94,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     UNROLL
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     const float j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, sum.w, filled));
+    STORE(FIELD_J, seen_opening(j, j0, sum.w, filled, closing));
     const float share = crowding(c, j, j0, sum.w, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {

@@ -2,8 +2,8 @@
 // Gathers node velocities to particles and books their way; particles take it at the transfer's end.
 //
 // In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
-//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; spread [s] and most
-//      [cells]: crowding(), seen_opening() and way_apart() of point.h;
+//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing, spread [s]
+//      and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
 // Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
@@ -84,7 +84,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
-    const float filled, const float spread, const float most) {
+    const float filled, const float closing, const float spread, const float most) {
   const int block = get_global_id(0);
   const Home home = homes[block];
   float tile[3 * TILE_NODES * 4];
@@ -161,7 +161,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
     const real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, node_mass, filled));
+    STORE(FIELD_J, seen_opening(j, j0, node_mass, filled, closing));
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {

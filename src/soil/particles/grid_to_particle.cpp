@@ -25,7 +25,8 @@ void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& veloci
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
             near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),
             static_cast<float>(packed_mass(store.densest(), cell)),
-            static_cast<float>(filled_mass(store.densest(), cell)), static_cast<float>(dt / crowding_shear()),
+            static_cast<float>(filled_mass(store.densest(), cell)),
+            static_cast<float>(closing_share() * std::min(1.0, part)), static_cast<float>(dt / crowding_shear()),
             static_cast<float>(farthest_apart() * std::min(1.0, part)))
       .enqueue_groups(store.homes().size());
 }

@@ -22,6 +22,11 @@ constexpr double kMixingTime = 0.02;
 /// tuned: the plane-strain laboratory. A shear of 0.02 stirs heaps at rest, 0.2 leaves their core at 1.23 of its state.
 constexpr double kPacked = 1.05, kCrowdingShear = 0.1;
 constexpr double kFarthestApart = 0.05;  ///< a tenth of the particles' spacing [cells a transfer]
+/// Soil that noise has opened closes by this share a transfer, over some twelve cells' way of a wave.
+/// tuned: CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown sand at 1.065 of its
+/// volume in cells of 0.05 m, the whole of it at 1.092 (1.5 if what is far open closes too); clay of 150 kPa is felt by
+/// 0.87 of its strength with a third, 0.86 with a sixth, 0.66 with none.
+constexpr double kClosingShare = 1.0 / 6;
 constexpr double kNeverCompacts = 1e30;  ///< [Pa]
 constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
 
@@ -39,6 +44,7 @@ double radius_of_dilating(double sin_phi, double b) {
 double mixing_time() { return kMixingTime; }
 double packed_mass(double densest, double cell) { return kPacked * densest * cell * cell * cell; }
 double filled_mass(double densest, double cell) { return densest * cell * cell * cell / kPacked; }
+double closing_share() { return kClosingShare; }
 double crowding_shear() { return kCrowdingShear; }
 double farthest_apart() { return kFarthestApart; }
 

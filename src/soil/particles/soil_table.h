@@ -20,8 +20,10 @@ double mixing_time();
 /// of the way over a shear strain of `crowding_shear`, at most `farthest_apart` [cells] a transfer. Lighter soil beside
 /// the densest is corrected too little, never too much.
 double packed_mass(double densest, double cell);
-/// Such a mass [kg] below which the nodes show soil open at J = 1; where they hold more, J is opened by noise.
+/// Such a mass [kg] from which on the nodes show soil closed at J = 1; where J says that it is open a little, noise has
+/// opened it, and by `closing_share` a transfer it closes again.
 double filled_mass(double densest, double cell);
+double closing_share();
 double crowding_shear();
 double farthest_apart();
 

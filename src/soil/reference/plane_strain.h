@@ -25,8 +25,8 @@ struct PlaneMethod {
   /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
-  /// Where soil is open: kIntegrated goes by J alone, which noise opens; kSeen no further than the nodes around it show
-  /// [docs/soil.md, opening].
+  /// Where soil is open: kIntegrated goes by J alone, which noise opens; kSeen closes what noise opens where the nodes
+  /// around it hold a closed soil's mass [docs/soil.md, opening].
   enum class Opening { kIntegrated, kSeen };
 
   Contact contact = Contact::kKinematic;

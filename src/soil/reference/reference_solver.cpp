@@ -141,6 +141,7 @@ void ReferenceSolver::gather(double dt) {
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
   const double full = packed_mass(densest, cell_), filled = filled_mass(densest, cell_), spread = dt / crowding_shear();
+  const double closing = closing_share() * std::min(1.0, dt / transfer_length_);
   const double most = farthest_apart() * std::min(1.0, dt / transfer_length_);
   fastest_ = 0;
   for (Point& p : points) {
@@ -161,7 +162,7 @@ void ReferenceSolver::gather(double dt) {
     p.v = v;
     Vec3 way = (dt / cell_) * v;
     const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
-    p.j = seen_opening(p.j, p.j0, mass, filled);
+    p.j = seen_opening(p.j, p.j0, mass, filled, closing);
     for (int axis = 0; axis < 3; ++axis) way[axis] += way_apart(share, lean[axis], mass, most);
     p.x += way;
     p.moved += way;
