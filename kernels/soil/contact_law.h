@@ -35,9 +35,16 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
   return contact_near(clearance, r) * along * along;
 }
 
-// Speed at which a node at this clearance settles towards a plate that does not advance [m/s].
-INLINED scalar contact_settling(scalar clearance, const Reach* r) {
-  return (1.0f - contact_near(clearance, r)) * r->settling;
+// Speed at which a node settles towards a plate that does not advance [m/s]. `down`: part of the plate's normal towards
+// the node along gravity; fill: see contact_touch. A node over the soil's surface has the last of the soil's mass: it
+// must not carry a plate that lies on it, or light ones stand on nothing [docs/tools.md, stand-off]. Soil beside or
+// above a plate is held whatever the node has, as nodes at its own surface are half empty, too. The square lets a plate
+// fall through what hardly bears and settle onto what almost does.
+// tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node.
+INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
+  const scalar under = fmax(down, 0.0f);
+  const scalar gives = 1.0f - contact_near(clearance, r) * (1.0f - under * (1.0f - contact_unit(1.5f * fill)));
+  return gives * (r->settling + under * gives * r->falling);
 }
 
 // Along a plate: how much of its area a node stands for. What is cut off at a free edge is given to the nodes just
@@ -90,7 +97,8 @@ INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 s
   const scalar rn = leaves + fmax(behind, node->settling);
   branch->held = behind > node->settling ? node->share : 1.0f;
   branch->pushing = rn < 0.0f;
-  branch->acts = branch->pushing || (node->stick > 0.0f && rn < opening);
+  // What may settle towards the plate has not let go.
+  branch->acts = branch->pushing || (node->stick > 0.0f && leaves + fmax(behind, 0.0f) < opening);
   branch->sticking = false;
   if (!branch->acts) return (scalar)(0.0) * node->n;
   const scalar jn = branch->pushing ? -node->m * rn : 0.0f;

@@ -25,16 +25,17 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   const float clearance = sign * shell[i].distance - tool->half_thickness, inset = shell[i].inset;
   node->share = contact_share(clearance, inset, &reach);
   if (!(node->share > 0.0f)) return false;
-  node->settling = contact_settling(clearance, &reach);
   node->v = v.xyz;
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
+  const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
+  const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
+  const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
+  node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
   node->stick = 0.0f;
   if (surface[i].adhesion > 0.0f) {
-    const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
-    const float touch = contact_touch(v.w * surface[i].inv_density / (dx * dx * dx * room));
-    const float adhesion = surface[i].adhesion * tool->adhesion * touch;
+    const float adhesion = surface[i].adhesion * tool->adhesion * contact_touch(fill);
     node->stick = contact_stick(adhesion, contact_area(clearance, inset, &reach), &reach);
   }
   node->r = dx * (convert_float3(place - 4 * vload3(0, tool->window)) - vload3(0, tool->origin));

@@ -10,7 +10,9 @@
 // Reach of a contact. h: nodes closer than this to the plate's face act; ramp: over which their share falls to zero;
 // edge: nodes closer than this to a free edge do not act; edge_ramp: over which their share falls along the plate [all
 // cells]; patch: face of a cell x dt [m2 s]; opening: soil that leaves the plate faster has let go
-// [m/s]; settling: speed at the end of the reach at which soil comes nearer to a plate that does not advance [m/s].
+// [m/s]; settling: speed at the end of the reach at which soil comes nearer to a plate that does not advance [m/s];
+// falling: speed at which a plate falls onto soil through nodes that hardly bear [m/s];
+// down_x, down_y, down_z: unit vector of gravity, or none.
 #define REACH_FIELDS(X) \
   X(h)                  \
   X(ramp)               \
@@ -18,7 +20,11 @@
   X(edge_ramp)          \
   X(patch)              \
   X(opening)            \
-  X(settling)
+  X(settling)           \
+  X(falling)            \
+  X(down_x)             \
+  X(down_y)             \
+  X(down_z)
 
 #ifdef __cplusplus
 #include <cstddef>
@@ -95,7 +101,7 @@ typedef struct ContactSums {
 } ContactSums;
 
 #ifdef __cplusplus
-static_assert(sizeof(ContactReach) == 28);
+static_assert(sizeof(ContactReach) == 44);
 static_assert(sizeof(Tool) == 232 && offsetof(Tool, origin) == 16 && offsetof(Tool, twist) == 32 &&
               offsetof(Tool, inverse_mass) == 80 && offsetof(Tool, adhesion) == 228);
 static_assert(sizeof(ShellFeature) == 16 && sizeof(ShellTriangle) == 160 && offsetof(ShellTriangle, feature) == 48);

@@ -78,7 +78,7 @@ Solver::State::State(device::Device& device_in, const scene::Scene& world_in, he
       store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
             soil_table(world_in.soils, ground_in.cell())),
       transfer(device_in, needs_extended_law(world_in.soils)),
-      contact(device_in, cell, origin),
+      contact(device_in, cell, origin, world_in.gravity),
       floor(ground_in, grid),
       exchange(world_in, ground_in),
       mass_count(device_in, world_in.soils.size()),

@@ -182,11 +182,12 @@ TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
 }
 
 TEST_F(Program, LabEndsWithAStatusOfItsOwnWhenItMissesAGate) {
-  // Dropped from 0.2 m the plate stands off by more than a cell [docs/validation.md, buckets and carried loads].
+  // Seen while it still settles, the plate neither rests nor lies on the soil.
   const std::string json = (directory_ / "light.json").string();
-  ASSERT_EQ(run({"lab", "light-tool", "--height", "0.2", "--quiet", "--json", json}), 7) << complained();
+  ASSERT_EQ(run({"lab", "light-tool", "--height", "0.2", "--time", "0.4", "--quiet", "--json", json}), 7)
+      << complained();
   EXPECT_NE(said().find("MISS"), std::string::npos) << said();
-  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 1u);
+  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 2u);
 }
 
 TEST_F(Program, LabJudgesNothingByAGateThatHoldsForOtherSetups) {

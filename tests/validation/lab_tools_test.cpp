@@ -183,7 +183,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"HoldHeavy", "hold", kHeavy}, Case{"HoldHeavyHalfStep", "hold", kHeavyHalfStep},
                     Case{"LightTool", "light-tool", {}}, Case{"LightToolHalf", "light-tool", {}, 0.05},
                     Case{"LightToolFromAbove", "light-tool", {{"height", 0.2}}},
-                    Case{"LightToolFromAboveHalf", "light-tool", {{"height", 0.2}}, 0.05},
+                    Case{"LightToolFromAboveHalf", "light-tool", {{"height", 0.2}}, 0.05}, Case{"Stand", "stand", {}},
+                    Case{"StandBetweenPlanes", "stand", {{"below-plane", 0.5}}},
                     Case{"Bucket", "bucket", {{"refine", 1}}}, Case{"Scrape", "scrape", {}},
                     Case{"Cycle", "cycle", {{"cycles", 5}}}),
     case_name);

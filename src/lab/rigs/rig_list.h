@@ -29,6 +29,7 @@ Rig cut_rig();
 Rig shear_box_rig();
 Rig hold_rig();
 Rig light_tool_rig();
+Rig stand_rig();
 Rig bucket_rig();
 Rig scrape_rig();
 Rig cycle_rig();

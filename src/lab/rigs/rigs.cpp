@@ -39,6 +39,7 @@ const std::vector<Rig>& rigs() {
       shear_box_rig(),
       hold_rig(),
       light_tool_rig(),
+      stand_rig(),
       bucket_rig(),
       scrape_rig(),
       cycle_rig(),

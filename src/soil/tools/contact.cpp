@@ -15,10 +15,11 @@ bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().ma
 
 }  // namespace
 
-Contact::Contact(device::Device& device, double cell, const Vec3& origin_W)
+Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity)
     : device_(device),
       cell_(cell),
       origin_(origin_W),
+      down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero())),
       shells_(device),
       contact_program_(device, kernel_path(device, "contact")),
       sums_kernel_(contact_program_, "contact_sums"),
@@ -52,7 +53,11 @@ void Contact::solve(Transfer& transfer, double dt) {
             static_cast<float>(settings_.edge_ramp),
             static_cast<float>(dt * cell_ * cell_),
             static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_)),
-            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_))};
+            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(settings_.falling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(down_.x()),
+            static_cast<float>(down_.y()),
+            static_cast<float>(down_.z())};
   // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;

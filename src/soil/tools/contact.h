@@ -35,6 +35,7 @@ struct ContactSettings {
   int sweeps = 3;             ///< of the two-way solve
   double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
   double settling = 0.05;     ///< speed at which soil comes nearer to a plate that does not advance, in the same units
+  double falling = 0.5;       ///< speed at which a plate falls onto soil through nodes that bear nothing, likewise
 };
 
 /// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
@@ -45,7 +46,8 @@ double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& s
 /// plate's speed [docs/tools.md, contact shares]. Any number of tools.
 class Contact {
  public:
-  Contact(device::Device& device, double cell, const Vec3& origin_W);
+  /// `gravity` [m/s2] tells which plates lie on soil.
+  Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity);
 
   int add_tool(const scene::Shell& shell);
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
@@ -125,6 +127,7 @@ class Contact {
   device::Device& device_;
   double cell_;
   Vec3 origin_;
+  Vec3 down_;  ///< of length 1, or 0 without gravity
   ContactSettings settings_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;

@@ -36,7 +36,7 @@ constexpr double kMostAreaFactor = 2;
 }  // namespace
 
 double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell) {
-  const reference::Reach r{settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0};
+  const reference::Reach r{settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0, 0, 0, 0, 0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())
     sample_triangle(triangle.corner, 0.25 * cell, [&](const Vec3& p, double area) {

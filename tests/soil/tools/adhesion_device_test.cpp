@@ -54,7 +54,11 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
                                s.edge_ramp,
                                kDt * cell * cell,
                                s.opening * std::sqrt(kGravity * cell),
-                               s.settling * std::sqrt(kGravity * cell)};
+                               s.settling * std::sqrt(kGravity * cell),
+                               s.falling * std::sqrt(kGravity * cell),
+                               0,
+                               0,
+                               -1};
   const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), s, cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
@@ -62,11 +66,10 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
     reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0};
     node.mu = std::tan(soil.tool_friction_angle);
     node.share = reference::contact_share(clearance, inset, &reach);
-    node.settling = reference::contact_settling(clearance, &reach);
     if (!(node.share > 0)) return Vec3(Vec3::Zero());
-    const double touch =
-        reference::contact_touch(mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance)));
-    const double area = factor * touch * reference::contact_area(clearance, inset, &reach);
+    const double fill = mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance));
+    node.settling = reference::contact_settling(clearance, fill, -node.n.z(), &reach);
+    const double area = factor * reference::contact_touch(fill) * reference::contact_area(clearance, inset, &reach);
     node.stick = reference::contact_stick(soil.adhesion, area, &reach);
     const Vec3 j = reference::impulse_on(node, reach.opening);
     on_soil += j;

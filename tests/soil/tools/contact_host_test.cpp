@@ -19,7 +19,7 @@ using reference::Reach;
 
 Reach shipped() {
   const ContactSettings s;
-  return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling};
+  return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling, s.falling, 0, 0, -1};
 }
 
 /// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide) with two free edges.
@@ -116,8 +116,21 @@ TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAPlateThatStandsAndBearsIts
   EXPECT_NEAR(impulse_on(node, 0).z(), 0, 1e-15);
   EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, 0.5)).z(), 2 * (0.2 + 0.02), 1e-12) << "a plate that advances: its share";
   const Reach r = shipped();
-  EXPECT_EQ(reference::contact_settling(r.h - 0.5 * r.ramp, &r), 0) << "soil at the plate stands";
-  EXPECT_EQ(reference::contact_settling(r.h + 0.5 * r.ramp, &r), r.settling);
+  for (const double down : {0.0, -1.0}) {
+    EXPECT_EQ(reference::contact_settling(r.h - 0.5 * r.ramp, 0.02, down, &r), 0) << "soil at the plate stands";
+    EXPECT_EQ(reference::contact_settling(r.h + 0.5 * r.ramp, 0.02, down, &r), r.settling);
+  }
+}
+
+TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotBearIt) {
+  // A load in a bucket and soil before a blade are held whatever the node has (above): they would leak at their
+  // surface.
+  const Reach r = shipped();
+  const double at = r.h - 0.5 * r.ramp, end = r.h + 0.5 * r.ramp, both = r.settling + r.falling;
+  EXPECT_EQ(reference::contact_settling(at, 2.0 / 3, 1, &r), 0) << "soil half as large again as in the bank";
+  EXPECT_NEAR(reference::contact_settling(at, 0, 1, &r), both, 1e-12);
+  EXPECT_NEAR(reference::contact_settling(end, 1, 1, &r), both, 1e-12);
+  EXPECT_LT(reference::contact_settling(at, 0.6, 1, &r), 0.02 * both) << "what almost bears is settled onto slowly";
 }
 
 TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {
