@@ -90,7 +90,10 @@ Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::G
     : state_(std::make_unique<State>(device, world, ground)) {}
 Solver::~Solver() = default;
 
-int Solver::add_tool(const scene::Shell& shell) { return state_->contact.add_tool(shell); }
+int Solver::add_tool(const scene::Shell& shell) {
+  state_->seats.emplace_back();
+  return state_->contact.add_tool(shell);
+}
 
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
@@ -191,9 +194,16 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     }
     StageClock clock(times, "books");
     contact.book(impulses);
+    hold_tools(dt, motions, impulses);
     contact.feel(dt, impulses);
     if (!hold) check_masses();
     if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
+  } else {
+    hold_tools(dt, motions, impulses);
+    for (ToolImpulse& impulse : impulses) {
+      impulse.force_W = impulse.J_W / dt;
+      impulse.moment_W = impulse.L_W / dt;
+    }
   }
   time += dt;
   ++stats.steps;
@@ -251,13 +261,17 @@ void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> m
     }
     const Vec3 centre = 0.5 * (region.min + region.max) - motion.X_WT.translation();
     region.velocity = motion.v_WT + motion.w_WT.cross(centre);
+    region.tool = motion.tool;
     regions.push_back(region);
   }
   std::vector<Particle> all = store.records();
   for (Particle& p : all) p = in_cell_block(p);
+  settle_tools(elapsed, motions, regions, all);
+  for (ToolRegion& region : regions) region.seated = seats[static_cast<std::size_t>(region.tool)].taken;
   Exchange::Result result = exchange.check(all, regions, time, elapsed);
   stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
+  unseat(regions, result.born);
   const bool removed = std::any_of(result.removed.begin(), result.removed.end(), [](std::uint8_t r) { return r != 0; });
   if (removed || !result.born.empty()) {
     std::vector<Particle> stay;

@@ -165,6 +165,7 @@ void Solver::State::visit(Archive& a) {
   a.unhashed("counts for people, no step reads them", [&] { a("stats", stats); });
   a("contact", contact);
   a("exchange", exchange);
+  a.fixed("seats", seats);
   a("interval", interval);
   if (interval.open) visit_nodes(a);
 }
@@ -203,7 +204,7 @@ void Solver::State::rebuild(Archive& a) {
 }
 
 void Solver::visit(Archive& a) {
-  a.section("soil", 3, [&] {
+  a.section("soil", 4, [&] {
     state_->visit(a);
     if (a.loading()) state_->rebuild(a);
     if (a.loading() && state_->energy) state_->open_energy();

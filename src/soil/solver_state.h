@@ -17,6 +17,7 @@
 #include "soil/particles/transfer.h"
 #include "soil/solver.h"
 #include "soil/tools/contact.h"
+#include "soil/tools/seat.h"
 
 namespace navvy::soil {
 
@@ -27,6 +28,14 @@ struct Solver::State {
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
   void check_exchange(double elapsed, std::span<const ToolMotion> motions);
+  /// Tools that stand take seats; `all`: every particle.
+  void settle_tools(double elapsed, std::span<const ToolMotion> motions, std::span<const ToolRegion> regions,
+                    std::span<const Particle> all);
+  /// Ground that wakes under a tool no longer bears it.
+  void unseat(std::span<const ToolRegion> regions, std::span<const Particle> born);
+  /// What seats give.
+  void hold_tools(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+  Vec3 place_of(const Particle& p) const;  ///< in W [m]
   void rebin_if_due();
   void lay_out(std::span<const ToolMotion> motions);
   void update_floor();
@@ -74,6 +83,7 @@ struct Solver::State {
   Exchange exchange;
   MassCount mass_count;
 
+  std::vector<Seat> seats;             ///< by tool
   std::vector<Particle> unplaced;      ///< all particles, once the device could not take them: the run is over
   TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way

@@ -75,7 +75,8 @@ Report run(const Setup& setup) {
   const Vec3 up = tool.motion.X_WT.linear().col(2);
   report.note("tilt at the end", degrees(std::acos(std::min(1.0, up.z()))), "deg");
   report.note("pressure", tool.mass * kGravity / (length * width), "Pa");
-  report.note("particles at the end", static_cast<double>(site.solver().stats().particles), "");
+  report.add("particles at the end", static_cast<double>(site.solver().stats().particles), "", 0, 0, 0,
+             std::string("its soil lies in columns ") + kSource);
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   report.series = {time, gap};
   site.finish(report);

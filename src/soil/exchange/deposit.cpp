@@ -60,14 +60,18 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
     return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
   };
   for (const ToolZone& tool : zones) {
-    if (top + kToolAbove < tool.low) continue;
+    if (tool.seated || top + kToolAbove < tool.low) continue;
     // What rule A would wake again at once is not booked back either.
     if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
   }
+  const auto stands = [&](int number) {
+    return std::any_of(zones.begin(), zones.end(),
+                       [&](const ToolZone& tool) { return tool.seated && tool.tool == number; });
+  };
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
     // A particle that is on a side of a shell is near enough to touch it [docs/tools.md, sides].
-    if (index[i].side != 0) return true;
+    if (index[i].side != 0 && !stands((index[i].side - 1) / 2)) return true;
   return false;
 }
 

@@ -93,7 +93,8 @@ Exchange::~Exchange() = default;
 bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const {
   const auto found = deposited.find(grid.block_of(ix, iy));
   if (found == deposited.end() || time - found->second >= kRestAfterDeposit) return false;
-  return std::none_of(zones.begin(), zones.end(), [&](const ToolZone& tool) { return tool.touches(ix, iy); });
+  return std::none_of(zones.begin(), zones.end(),
+                      [&](const ToolZone& tool) { return !tool.seated && tool.touches(ix, iy); });
 }
 
 // Tiles whose slopes may have changed: those with particles, and changed ones as far as one check can carry.
@@ -261,7 +262,7 @@ int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZon
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
     const double top = (ground.height(ix, iy) - ground.datum()) / ground.cell();
     return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && tool.low < top; });
+                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && (tool.seated || tool.low < top); });
   };
   return slump.run(elapsed, blocked);
 }

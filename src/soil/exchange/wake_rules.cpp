@@ -63,6 +63,12 @@ std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const Column
     out.high = (tool.max.z() - ground.datum()) / cell;
     out.speed = tool.velocity.norm();
     out.box = columns_of(ground, low, high, 0);
+    out.tool = tool.tool;
+    out.seated = tool.seated;
+    if (tool.seated) {
+      zones.push_back(out);
+      continue;
+    }
     out.near = columns_of(ground, low, high, kToolGuard);
 
     // Dig depth below the soil around; soil higher than the tool is not pushed by it.

@@ -23,6 +23,8 @@ struct ToolZone {
   double low = 0, high = 0;  ///< of the box [cells above datum]
   double scale = 1;          ///< the scene's awake zone
   double speed = 0;          ///< [m/s]
+  int tool = -1;             ///< from add_tool
+  bool seated = false;       ///< it stands: no soil wakes or stays awake because of it
   bool engaged = false;      ///< some column of the zone, with the soil on it, reaches up to it
 
   /// Under the box in plan; says nothing about heights.

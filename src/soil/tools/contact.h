@@ -84,6 +84,9 @@ class Contact {
 
   /// Adds what the tools felt in a step of dt [s] to the transfer under way, and tells their mean force.
   void feel(double dt, std::span<ToolImpulse> impulses);
+  /// Mean force [N] and moment about its origin [N m] that a tool was last told.
+  const Vec3& force(int tool) const { return tools_[static_cast<std::size_t>(tool)].force_W; }
+  const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
   /// A transfer has ended: what was felt over it is the force that is told from now on.
   void end_transfer();
 
