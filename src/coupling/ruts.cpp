@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupling/ground_view.h"
+#include "terramechanics/bearing.h"
 #include "terramechanics/plate.h"
 #include "terramechanics/tyre_patch.h"
 
@@ -19,7 +20,8 @@ constexpr double kBearingTime = 0.3;
 
 }  // namespace
 
-void Ruts::press_column(int ix, int iy, double pressure, const Press& press) {
+void Ruts::press_column(const PushedSoil::Place& place, double pressure, const Press& press) {
+  const int ix = place.ix, iy = place.iy;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
   Memory& memory = memory_[key];
@@ -39,7 +41,11 @@ void Ruts::press_column(int ix, int iy, double pressure, const Press& press) {
   memory.pressure = borne;
   memory.work +=
       (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
-  if (after > before) ground_.compact_to(ix, iy, height - (after - before));
+  if (after > before) {
+    const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
+    pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
+    ground_.compact_to(ix, iy, height - (after - before));
+  }
   memory.height = ground_.height(ix, iy);
 }
 
@@ -64,6 +70,10 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     bearing.follow(tyres[i].tyre, wheel, interval);
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
+  // Where a belt or another tyre stands nothing can be laid down.
+  pushed_.lay_down([this](int ix, int iy) {
+    return ground_.held(ix, iy) || under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
+  });
   ground_.hold(std::exchange(under_, {}));
 }
 
@@ -89,14 +99,15 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
     // Below the axle as the machine stands: on a slope that is not plumb.
-    const Vec2 center = (X * Vec3(0, side * tyre.twin_spacing, -tyre.radius)).head<2>();
-    press_patch(press, center, along);
+    const double aside = side * tyre.twin_spacing;
+    const Vec2 center = (X * Vec3(0, aside, -tyre.radius)).head<2>();
+    press_patch(press, center, along, aside);
     // Where it comes before the next press: it must not meet what it would have pressed as a wall.
-    if (!rolled.isZero(kSameHeight)) press_patch(press, center + rolled, along);
+    if (!rolled.isZero(kSameHeight)) press_patch(press, center + rolled, along, aside);
   }
 }
 
-void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along) {
+void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside) {
   const terramechanics::TyrePatch& patch = press.patch;
   const Vec2 across(-along.y(), along.x());
   // At least a cell to either side: what the tyre feels lies between the columns there.
@@ -111,7 +122,9 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
       // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
       const double tread = terramechanics::plate_pressure(press.soil, patch.tread_depth(x) / press.softer, patch.width);
-      press_column(ix, iy, std::min(patch.pressure, tread), press);
+      const double off = d.dot(across);
+      press_column({ix, iy, across, aside + off, patch.width, PushedSoil::covered(off, patch.width, ground_.cell())},
+                   std::min(patch.pressure, tread), press);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "coupling/pushed_soil.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "terramechanics/tyre_patch.h"
@@ -27,8 +28,9 @@ constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s 
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
 /// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
-/// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises. Columns that
-/// bear a tyre are held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, ruts].
+/// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises, and what the
+/// ground cannot bear (terramechanics::pushed_depth) flows aside onto the rut's edges. Columns that bear a tyre are
+/// held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, ruts].
 ///
 /// What a wheel presses with is its load of the last 0.3 s and its slip over the last radius of way: a tyre that
 /// bounces does not press its bounces into the ground, which it would feel as a washboard, the ground does not give way
@@ -36,7 +38,7 @@ constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s 
 class Ruts {
  public:
   /// The ground must outlive it.
-  explicit Ruts(heightfield::Ground& ground) : ground_(ground) {}
+  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground) {}
 
   /// Presses the contact patches of all wheels of the world, in the same order each time, as they are and where they
   /// roll within `interval` [s], the time until the next call. Each carries what of its `force_W` the ground gave;
@@ -70,12 +72,13 @@ class Ruts {
     double softer;  ///< by slip: sinkage over that without
   };
   void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing, double interval);
-  /// One tyre's patch, its middle at `center`, along the unit vector `along`.
-  void press_patch(const Press& press, const Vec2& center, const Vec2& along);
+  /// One tyre's patch, its middle at `center`, along the unit vector `along`, `aside` [m] left of the wheel's middle.
+  void press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside);
   /// One column under `pressure` [Pa], by its own soil.
-  void press_column(int ix, int iy, double pressure, const Press& press);
+  void press_column(const PushedSoil::Place& place, double pressure, const Press& press);
 
   heightfield::Ground& ground_;
+  PushedSoil pushed_;                      ///< empty between two calls
   std::set<std::int64_t> under_;           ///< columns under the tyres pressed so far in this call
   std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
   std::vector<Bearing> bearing_;           ///< by wheel of the world

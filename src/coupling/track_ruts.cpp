@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "terramechanics/bearing.h"
 #include "terramechanics/plate.h"
 
 namespace navvy::coupling {
@@ -14,7 +15,9 @@ constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since i
 
 }  // namespace
 
-void TrackRuts::press_column(int ix, int iy, double pressure, double width, double most) {
+void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, double most) {
+  const int ix = place.ix, iy = place.iy;
+  const double width = place.width;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   Memory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
   const double height = ground_.height(ix, iy);
@@ -29,13 +32,17 @@ void TrackRuts::press_column(int ix, int iy, double pressure, double width, doub
     pressure = terramechanics::plate_pressure(soil, before + most, width);
   }
   memory.pressure = pressure;
-  if (more > 0) ground_.compact_to(ix, iy, height - more);
+  if (more > 0) {
+    const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
+    pushed_.take(place, terramechanics::pushed_depth(state, width, before, before + more));
+    ground_.compact_to(ix, iy, height - more);
+  }
   memory.height = ground_.height(ix, iy);
 }
 
 void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone) {
   // A column between two segments bears the heavier one, once: each presses further only by what it bears more.
-  std::map<std::int64_t, std::pair<double, double>> under;  // pressure [Pa] and width [m]
+  std::map<std::int64_t, std::pair<double, PushedSoil::Place>> under;  // pressure [Pa]
   for (const terramechanics::BeltPatch& patch : patches) {
     const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
     const Vec2 middle = patch.p_W.head<2>();
@@ -50,15 +57,20 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
         const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - middle;
         if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > half_width) continue;
         auto& bears = under[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
-        bears = std::max(bears, std::pair(pressure, patch.width));
+        if (pressure > bears.first || (pressure == bears.first && patch.width > bears.second.width))
+          bears = {pressure,
+                   {ix, iy, across, d.dot(across), patch.width,
+                    PushedSoil::covered(d.dot(across), patch.width, ground_.cell())}};
       }
   }
   std::set<std::int64_t> columns;
   for (const auto& [key, bears] : under) {
-    press_column(static_cast<int>(key % ground_.nx()), static_cast<int>(key / ground_.nx()), bears.first, bears.second,
-                 most);
+    press_column(bears.second, bears.first, most);
     columns.insert(key);
   }
+  pushed_.lay_down([&](int ix, int iy) {
+    return ground_.held(ix, iy) || columns.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
+  });
   if (alone)
     ground_.hold(std::move(columns));
   else

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "coupling/pushed_soil.h"
 #include "heightfield/ground.h"
 #include "terramechanics/belt.h"
 
@@ -16,13 +17,14 @@ namespace navvy::coupling {
 constexpr double kSinkSpeed = 0.2;  ///< of a belt into soil that gives way, at most [m/s]
 
 /// Presses what belts stand on, each segment as a plate of the belt's width under p = N / (b l) (plate.h), and
-/// remembers by column what it has borne: standing still, or another segment under the same load, adds nothing.
+/// remembers by column what it has borne: standing still, or another segment under the same load, adds nothing. What
+/// the ground cannot bear flows aside.
 ///
 /// As Ruts does for tyres, with a memory of its own: where a tyre runs in a belt's rut it presses fresh ground.
 class TrackRuts {
  public:
   /// The ground must outlive it.
-  explicit TrackRuts(heightfield::Ground& ground) : ground_(ground) {}
+  explicit TrackRuts(heightfield::Ground& ground) : ground_(ground), pushed_(ground) {}
 
   /// Presses all patches of the world. No column sinks by more than `most` [m] at a time. Columns under belts are held
   /// until the next call, those of tyres besides unless the belts are `alone`.
@@ -36,10 +38,11 @@ class TrackRuts {
     double height = 0;    ///< surface it left behind [m]
     void visit(Archive& a);
   };
-  /// One column under `pressure` [Pa] of a plate of `width` [m], by its own soil.
-  void press_column(int ix, int iy, double pressure, double width, double most);
+  /// One column under `pressure` [Pa] of a plate as wide as the belt, by its own soil.
+  void press_column(const PushedSoil::Place& place, double pressure, double most);
 
   heightfield::Ground& ground_;
+  PushedSoil pushed_;                      // empty between two calls
   std::map<std::int64_t, Memory> memory_;  // by iy * nx + ix, ordered for repeatability
 };
 

@@ -16,10 +16,10 @@
 namespace navvy::coupling {
 namespace {
 
-heightfield::Ground flat(const scene::Soil& soil, int columns = 64) {
+heightfield::Ground flat(const scene::Soil& soil, int columns = 64, double cell = 0.1) {
   heightfield::Ground::Setup setup;
   setup.nx = setup.ny = columns;
-  setup.cell = 0.1;
+  setup.cell = cell;
   setup.datum = -2;
   setup.soils = {soil};
   setup.layers = {{soil.name, 10}};
@@ -208,6 +208,72 @@ TEST(Ruts, TheirWallsSlideWhenTheTyreHasLeft) {
   print_value("steepest over two columns", steepest(bed.ground, 2), "at most tan(phi + 2 deg)",
               "[docs/exchange.md, slump]");
   EXPECT_LT(steepest(bed.ground, 2), std::tan(radians(31 + 2)));
+}
+
+/// Bank volume [m3] of what columns have gained, and the highest of them over the start [m].
+struct Edges {
+  double volume = 0, height = 0;
+};
+
+Edges edges(const heightfield::Ground& ground) {
+  Edges out;
+  for (int iy = 0; iy < ground.ny(); ++iy)
+    for (int ix = 0; ix < ground.nx(); ++ix) {
+      std::int64_t mass = 0;
+      std::vector<heightfield::Layer> start;
+      for (const heightfield::Layer& layer : ground.layers(ix, iy)) mass += layer.mass;
+      ground.start_column(ix, iy, start);
+      for (const heightfield::Layer& layer : start) mass -= layer.mass;
+      out.volume += std::max(0.0, kilograms(mass)) / ground.setup().soils[0].bank_density;
+      out.height = std::max(out.height, ground.height(ix, iy) - ground.start_height(ix, iy));
+    }
+  return out;
+}
+
+TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
+  std::vector<double> volume;
+  for (const double cell : {0.2, 0.1, 0.05}) {
+    heightfield::Ground ground = flat(dry_sand(), static_cast<int>(std::lround(6.4 / cell)), cell);
+    Ruts ruts(ground);
+    for (int i = 0; i < 300; ++i) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}}, 0.0133);
+    const Edges once = edges(ground);
+    print_value("bank volume pushed aside by 44 kN on dry sand [m3]", once.volume, "equal within 20 % for each cell",
+                "[Terzaghi 1943]");
+    double raised = 0, lowered = 0;
+    ground.volume_change(raised, lowered);
+    print_value("volume of the rut [m3]", lowered, "", "[docs/machines.md, ruts]");
+    print_value("highest edge [m]", once.height, "", "[docs/machines.md, ruts]");
+    EXPECT_GT(once.height, 0.004);
+    EXPECT_LT(once.height, deepest(ground));
+    volume.push_back(once.volume);
+    for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
+    // To both sides alike: rows mirror each other to a few units of mass.
+    for (int iy = 0; iy < ground.ny(); ++iy)
+      for (int ix = 0; ix < ground.nx(); ++ix)
+        EXPECT_NEAR(ground.height(ix, iy), ground.height(ix, ground.ny() - 1 - iy), 1e-5) << ix << " " << iy;
+    // Standing on, nothing more goes aside.
+    ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}}, 0.0133);
+    EXPECT_NEAR(edges(ground).volume, once.volume, 1e-6);
+  }
+  for (const double one : volume) EXPECT_NEAR(one / volume[1], 1, 0.2);
+}
+
+TEST(Ruts, EdgesOfGroundThatBearsTheTyreStay) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
+  EXPECT_GT(deepest(ground), 0.02);
+  EXPECT_EQ(edges(ground).volume, 0);
+}
+
+TEST(Ruts, WhereNothingCanBeLaidDownItIsPressed) {
+  // A site no wider than the wheel.
+  heightfield::Ground ground = flat(dry_sand(), 6);
+  Ruts ruts(ground);
+  ruts.press({{twin_tyre(), loaded_at(0.3, 0.3, 44e3)}});
+  EXPECT_GT(deepest(ground), 0.05);
+  EXPECT_EQ(edges(ground).volume, 0);
+  for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
 }
 
 TEST(Ruts, OnlyColumnsUnderTheTyresChange) {

@@ -54,6 +54,23 @@ TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }
 
+TEST(TrackRuts, RaiseTheirEdgesByWhatTheGroundCannotBear) {
+  heightfield::Ground ground = flat_loam();
+  TrackRuts ruts(ground);
+  const Vec2i under = ground.column_at(3.2, 3.25), beside = ground.column_at(3.2, 3.55);
+  const double before = ground.height(beside.x(), beside.y());
+  // 50 kPa the loam bears as a foundation, 0.5 MPa it does not.
+  ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+  EXPECT_EQ(ground.height(beside.x(), beside.y()), before);
+  ruts.press({patch_at(3.2, 3.2, 120e3)}, kFar, true);
+  EXPECT_GT(ground.height(beside.x(), beside.y()), before + 0.01);
+  EXPECT_GT(ground.specific_volume(beside.x(), beside.y()), 1.2f);  // loose
+  // However much goes aside, it sinks as Bekker says.
+  EXPECT_NEAR(ground.height(under.x(), under.y()),
+              -terramechanics::plate_sinkage(ground.setup().soils[0], 120e3 / 0.24, 0.6), 1e-3);
+  for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
+}
+
 TEST(TrackRuts, HoldWhatTyresHoldBesides) {
   heightfield::Ground ground = flat_loam();
   TrackRuts ruts(ground);

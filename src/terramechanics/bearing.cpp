@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terramechanics/bearing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math.h"
+#include "terramechanics/plate.h"
+
+namespace navvy::terramechanics {
+namespace {
+
+constexpr double kLocal = 2.0 / 3;  // of c and tan phi in local shear [Terzaghi 1943]
+constexpr double kNoFriction = 1e-6;
+
+}  // namespace
+
+BearingFactors BearingFactors::of(double tan_phi) {
+  const double phi = std::atan(std::max(tan_phi, 0.0));
+  const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi), lean = std::cos(0.25 * kPi + 0.5 * phi);
+  BearingFactors out;
+  out.q = a * a / (2 * lean * lean);
+  out.c = tan_phi > kNoFriction ? (out.q - 1) / tan_phi : 1.5 * kPi + 1;
+  out.gamma = 2 * (out.q + 1) * tan_phi / (1 + 0.4 * std::sin(4 * phi));
+  return out;
+}
+
+double bearing_capacity(const SoilState& ground, double width, double depth) {
+  if (ground.soil == nullptr) return 0;
+  const double swell = ground.soil->swell;
+  const double loose = swell > 1 ? std::clamp((ground.volume_ratio - 1) / (swell - 1), 0.0, 1.0) : 0.0;
+  const double share = 1 - loose * (1 - kLocal);
+  const ShearStrength strength = surface_strength(ground);
+  const BearingFactors n = BearingFactors::of(share * strength.slope);
+  const double weight = ground.density() * kGravity;
+  return share * strength.cohesion * n.c + weight * std::max(depth, 0.0) * n.q + 0.5 * weight * width * n.gamma;
+}
+
+double pushed_depth(const SoilState& ground, double width, double from, double to) {
+  if (ground.soil == nullptr || !(to > from)) return 0;
+  const auto flown = [&](double z) {
+    return std::max(0.0, z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
+  };
+  // Where n < 1 the ground may bear the plate again farther down: what has flown stays there.
+  return std::clamp(flown(to) - flown(from), 0.0, to - from);
+}
+
+}  // namespace navvy::terramechanics

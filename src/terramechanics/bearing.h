@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Soil that gives way as a mass instead of being compacted: what the ground bears before it flows out from under a
+// load, after Terzaghi's theory of bearing capacity [Terzaghi 1943].
+//
+//   q = c Nc + gamma z Nq + gamma b Ngamma / 2
+//   Nq = a^2 / (2 cos^2(45 deg + phi/2)),  a = exp((3 pi/4 - phi/2) tan phi),  Nc = (Nq - 1) cot phi
+//   Ngamma = 2 (Nq + 1) tan phi / (1 + 0.4 sin 4 phi)      [Coduto 2001], within a fifth of his table
+//
+// Soil that lies loose fails locally: with two thirds of c and of tan phi.
+#pragma once
+
+#include "terramechanics/ground_query.h"
+#include "terramechanics/shear.h"
+
+namespace navvy::terramechanics {
+
+/// Nc, Nq, Ngamma [-].
+struct BearingFactors {
+  double c = 0, q = 0, gamma = 0;
+
+  /// For tan phi >= 0; without friction 5.71, 1 and 0.
+  static BearingFactors of(double tan_phi);
+};
+
+/// What the ground bears [Pa] under a long plate of `width` [m] that stands `depth` [m] deep. General shear in bank
+/// state and denser, local shear in fully swollen soil, in proportion between.
+double bearing_capacity(const SoilState& ground, double width, double depth);
+
+/// How much of a sinkage from `from` to `to` [m] flows aside [m] and is not compaction. A plate stands as a foundation
+/// does as long as the ground bears its pressure, and only compaction lets it sink. Deeper, the ground passes on no
+/// more than it bears: q(z) compacts it by the z_c of the plate's own law, k z_c^n = q(z), and z - z_c flows at
+/// constant volume.
+double pushed_depth(const SoilState& ground, double width, double from, double to);
+
+}  // namespace navvy::terramechanics
