@@ -38,7 +38,7 @@ inline Lanes floor(const Lanes& a) {
   return out;
 }
 inline Lanes step(float edge, const Lanes& x) { return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f; }
-inline ints isfinite(const Lanes& a) { return a - a == Lanes{}; }
+inline ints isfinite(const Lanes& a) { return a - a == Lanes{}; }  // NOLINT: not 0 for what is not finite
 inline float fmax(float a, float b) { return a > b ? a : b; }
 inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
 inline float mean_of(columns t) { return t; }

@@ -17,6 +17,12 @@ constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their dr
 constexpr std::size_t kCells = 216;
 constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
 
+float largest(const Lanes& of) {
+  float out = of[0];
+  for (std::size_t l = 1; l < kLanes; ++l) out = std::max(out, of[l]);
+  return out;
+}
+
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
   LawSoil out;
@@ -261,13 +267,13 @@ void NativeSoil::update_grid(float dt, bool hold) {
 
 float NativeSoil::gather(const Home& home, float dt) {
   const float dx = cell_;
-  const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, static_cast<double>(cell_)));
-  const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, static_cast<double>(cell_)));
-  const auto closing =
-      static_cast<float>(soil::closing_share() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
+  const auto cell = static_cast<double>(cell_);
+  const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
+  const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, cell));
+  const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, cell));
+  const auto closing = static_cast<float>(soil::closing_share() * part);
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
-  const auto most =
-      static_cast<float>(soil::farthest_apart() * std::min(1.0, static_cast<double>(dt) / transfer_length_));
+  const auto most = static_cast<float>(soil::farthest_apart() * part);
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {
@@ -319,9 +325,7 @@ float NativeSoil::gather(const Home& home, float dt) {
     }
     fastest = fmax(fastest, fastest_component(m));
   }
-  float out = 0;
-  for (std::size_t l = 0; l < kLanes; ++l) out = std::max(out, fastest[l]);
-  return out;
+  return largest(fastest);
 }
 
 void NativeSoil::step(double dt) {
