@@ -300,10 +300,7 @@ float NativeSoil::gather(const Home& home, float dt) {
         sum_y += w.w[2][k][l] * plane_y;
         sum_z += (static_cast<float>(k) * w.w[2][k][l]) * plane;
       }
-      v[l] = sum;
-      mx[l] = sum_x;
-      my[l] = sum_y;
-      mz[l] = sum_z;
+      v[l] = sum, mx[l] = sum_x, my[l] = sum_y, mz[l] = sum_z;
     }
     // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and apart where soil is crowded.
     Lanes u[4], m[4], c[9], lean[3];
