@@ -36,6 +36,8 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
   double left = from.width;  // of the strip
   const int most = static_cast<int>(std::ceil(kFarthest * from.width / cell)) + 4;
   for (int i = 1; i <= most && left > 0; ++i) {
+    // Not between the tyres of a pair.
+    if (sign * from.left + i * cell < from.reach) continue;
     const Vec2 p = start + i * step;
     const Vec2i column = ground_.column_at(p.x(), p.y());
     if (!ground_.contains(column.x(), column.y())) break;

@@ -13,7 +13,7 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
+constexpr double kStays = 1e-3;  // [m] a way too short to matter
 // [s] several of a tyre's bounces, 3 to 4 Hz; a machine sinks within a second.
 // tuned: RideSoil.LoadsStayEvenInTheOwnRutWhateverTheCell
 constexpr double kBearingTime = 0.3;
@@ -28,25 +28,19 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   // A tyre that comes, not one that stays.
   if (under_.insert(key).second && !ground_.held(ix, iy)) memory.work = 0;
   const double height = ground_.height(ix, iy);
-  // Dug, filled or slumped since: fresh ground.
-  if (std::abs(height - memory.height) > kSameHeight) memory.pressure = 0;
+  memory.borne.find(height);
   // Slip sinks the soil as so much more pressure would.
   const double softer = std::pow(press.softer, soil.bekker_n);
-  const double borne = pressure * softer;
-  if (borne <= memory.pressure) return;
-  // Only what the plate sinks beyond the largest pressure borne so far.
   const double width = press.patch.width;
-  const double before = terramechanics::plate_sinkage(soil, memory.pressure, width);
-  const double after = terramechanics::plate_sinkage(soil, borne, width);
-  memory.pressure = borne;
+  const auto [before, drop] = memory.borne.press(soil, width, height, pressure * softer);
+  if (!(drop > 0)) return;
+  const double after = before + drop;
   memory.work +=
       (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
-  if (after > before) {
-    const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
-    pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
-    ground_.compact_to(ix, iy, height - (after - before));
-  }
-  memory.height = ground_.height(ix, iy);
+  const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
+  pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
+  ground_.compact_to(ix, iy, height - drop);
+  memory.borne.height = ground_.height(ix, iy);
 }
 
 void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval) {
@@ -103,7 +97,7 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
     const Vec2 center = (X * Vec3(0, aside, -tyre.radius)).head<2>();
     press_patch(press, center, along, aside);
     // Where it comes before the next press: it must not meet what it would have pressed as a wall.
-    if (!rolled.isZero(kSameHeight)) press_patch(press, center + rolled, along, aside);
+    if (!rolled.isZero(kStays)) press_patch(press, center + rolled, along, aside);
   }
 }
 
@@ -122,9 +116,10 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
       // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
       const double tread = terramechanics::plate_pressure(press.soil, patch.tread_depth(x) / press.softer, patch.width);
-      const double off = d.dot(across);
-      press_column({ix, iy, across, aside + off, patch.width, PushedSoil::covered(off, patch.width, ground_.cell())},
-                   std::min(patch.pressure, tread), press);
+      const double off = d.dot(across), outside = std::abs(aside) + 0.5 * patch.width;
+      press_column(
+          {ix, iy, across, aside + off, outside, patch.width, PushedSoil::covered(off, patch.width, ground_.cell())},
+          std::min(patch.pressure, tread), press);
     }
 }
 
@@ -136,8 +131,7 @@ double Ruts::work(double x, double y) const {
 }
 
 void Ruts::Memory::visit(Archive& a) {
-  a.ranged("pressure", pressure, 0.0, 1e12);
-  a("height", height);
+  a("borne", borne);
   a.ranged("work", work, 0.0, 1e12);
 }
 
@@ -147,7 +141,7 @@ void Ruts::Bearing::visit(Archive& a) {
 }
 
 void Ruts::visit(Archive& a) {
-  a.section("ruts", 3, [&] {
+  a.section("ruts", 4, [&] {
     a("memory", memory_);
     a("bearing", bearing_);
     // Keys ascend, so the first and the last tell of all.

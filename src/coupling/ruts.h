@@ -10,6 +10,7 @@
 
 #include "core/archive.h"
 #include "coupling/pushed_soil.h"
+#include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
 #include "terramechanics/tyre_patch.h"
@@ -27,8 +28,8 @@ constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s 
 
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not know: the memory.
 ///
-/// Each column remembers the largest pressure it has borne since its surface last changed by other means, so standing
-/// still or a second pass at the same load adds nothing. Mass is kept: the column's density state rises, and what the
+/// Each column remembers the largest pressure it has borne (RutMemory), so standing still or a second pass at the same
+/// load adds nothing. Mass is kept: the column's density state rises, and what the
 /// ground cannot bear (terramechanics::pushed_depth) flows aside onto the rut's edges. Columns that bear a tyre are
 /// held (Ground::hold): the rut's walls do not slump under it [docs/machines.md, ruts].
 ///
@@ -53,9 +54,8 @@ class Ruts {
 
  private:
   struct Memory {
-    double pressure = 0;  ///< largest borne [Pa]
-    double height = 0;    ///< surface it left behind [m]
-    double work = 0;      ///< of pressing it since the tyre that stands on it came [J/m2]
+    RutMemory borne;
+    double work = 0;  ///< of pressing it since the tyre that stands on it came [J/m2]
     void visit(Archive& a);
   };
   /// How a wheel loads the ground, low-passed.

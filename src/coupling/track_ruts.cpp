@@ -9,34 +9,19 @@
 #include "terramechanics/plate.h"
 
 namespace navvy::coupling {
-namespace {
-
-constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
-
-}  // namespace
 
 void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, double most) {
   const int ix = place.ix, iy = place.iy;
   const double width = place.width;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
-  Memory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
+  RutMemory& memory = memory_[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
   const double height = ground_.height(ix, iy);
-  // Dug, filled or slumped since: fresh ground.
-  if (std::abs(height - memory.height) > kSameHeight) memory.pressure = 0;
-  if (pressure <= memory.pressure) return;
-  const double before = terramechanics::plate_sinkage(soil, memory.pressure, width);
-  double more = terramechanics::plate_sinkage(soil, pressure, width) - before;
-  // Cut short, it has borne no more than what its depth by now bears.
-  if (more > most) {
-    more = most;
-    pressure = terramechanics::plate_pressure(soil, before + most, width);
-  }
-  memory.pressure = pressure;
-  if (more > 0) {
-    const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
-    pushed_.take(place, terramechanics::pushed_depth(state, width, before, before + more));
-    ground_.compact_to(ix, iy, height - more);
-  }
+  memory.find(height);
+  const auto [before, drop] = memory.press(soil, width, height, pressure, most);
+  if (!(drop > 0)) return;
+  const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
+  pushed_.take(place, terramechanics::pushed_depth(state, width, before, before + drop));
+  ground_.compact_to(ix, iy, height - drop);
   memory.height = ground_.height(ix, iy);
 }
 
@@ -59,7 +44,7 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
         auto& bears = under[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
         if (pressure > bears.first || (pressure == bears.first && patch.width > bears.second.width))
           bears = {pressure,
-                   {ix, iy, across, d.dot(across), patch.width,
+                   {ix, iy, across, d.dot(across), 0.5 * patch.width, patch.width,
                     PushedSoil::covered(d.dot(across), patch.width, ground_.cell())}};
       }
   }
@@ -77,13 +62,8 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
     ground_.hold_more(columns);
 }
 
-void TrackRuts::Memory::visit(Archive& a) {
-  a.ranged("pressure", pressure, 0.0, 1e12);
-  a("height", height);
-}
-
 void TrackRuts::visit(Archive& a) {
-  a.section("track_ruts", 1, [&] {
+  a.section("track_ruts", 2, [&] {
     a("memory", memory_);
     // Keys ascend, so the first and the last tell of all.
     const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();

@@ -9,6 +9,7 @@
 
 #include "core/archive.h"
 #include "coupling/pushed_soil.h"
+#include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
 #include "terramechanics/belt.h"
 
@@ -33,17 +34,12 @@ class TrackRuts {
   void visit(Archive& a);
 
  private:
-  struct Memory {
-    double pressure = 0;  ///< largest borne [Pa]
-    double height = 0;    ///< surface it left behind [m]
-    void visit(Archive& a);
-  };
   /// One column under `pressure` [Pa] of a plate as wide as the belt, by its own soil.
   void press_column(const PushedSoil::Place& place, double pressure, double most);
 
   heightfield::Ground& ground_;
-  PushedSoil pushed_;                      // empty between two calls
-  std::map<std::int64_t, Memory> memory_;  // by iy * nx + ix, ordered for repeatability
+  PushedSoil pushed_;                         // empty between two calls
+  std::map<std::int64_t, RutMemory> memory_;  // by iy * nx + ix, ordered for repeatability
 };
 
 }  // namespace navvy::coupling

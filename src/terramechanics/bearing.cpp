@@ -11,6 +11,7 @@ namespace navvy::terramechanics {
 namespace {
 
 constexpr double kLocal = 2.0 / 3;  // of c and tan phi in local shear [Terzaghi 1943]
+constexpr int kSlices = 8;          // of the depth before a rim: within 1 % of the integral
 constexpr double kNoFriction = 1e-6;
 
 }  // namespace
@@ -43,6 +44,46 @@ double pushed_depth(const SoilState& ground, double width, double from, double t
   };
   // Where n < 1 the ground may bear the plate again farther down: what has flown stays there.
   return std::clamp(flown(to) - flown(from), 0.0, to - from);
+}
+
+namespace {
+
+/// Passive pressure [Pa]: cohesion's, and by depth [Pa/m] that of weight.
+struct PassivePressure {
+  double cohesive = 0, by_depth = 0;
+};
+
+PassivePressure passive_pressure(const SoilState& ground) {
+  const ShearStrength strength = surface_strength(ground);
+  const double tan_phi = kLocal * strength.slope, cos2 = 1 / (1 + tan_phi * tan_phi);
+  const BearingFactors n = BearingFactors::of(tan_phi);
+  const double k_c = (n.c - tan_phi) * cos2;
+  // Without friction 2 N / tan phi -> 4 (Nq + 1).
+  const double k_gamma = ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
+  return {kLocal * strength.cohesion * k_c, ground.density() * kGravity * k_gamma};
+}
+
+}  // namespace
+
+double passive_resistance(const SoilState& ground, double width, double depth) {
+  if (ground.soil == nullptr || !(depth > 0)) return 0;
+  const PassivePressure p = passive_pressure(ground);
+  return width * depth * (p.cohesive + 0.5 * depth * p.by_depth);
+}
+
+double bulldozing(const SoilState& ground, double width, double radius, double depth, double advance) {
+  if (ground.soil == nullptr || !(depth > 0)) return 0;
+  if (!(advance >= 0 && std::isfinite(advance))) return passive_resistance(ground, width, depth);
+  const PassivePressure p = passive_pressure(ground);
+  const double slice = depth / kSlices;
+  double sum = 0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double below = (i + 0.5) * slice;
+    const double entry = std::acos(std::clamp(1 - (depth - below) / radius, 0.0, 1.0));
+    const double pushed = radius * (advance * entry - std::sin(entry));
+    if (pushed > 0) sum += (p.cohesive + below * p.by_depth) * mobilised_share(pushed, ground.soil->janosi_k);
+  }
+  return width * slice * sum;
 }
 
 }  // namespace navvy::terramechanics

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terramechanics/bearing.h"
 #include "terramechanics/plate.h"
 #include "terramechanics/tyre_track.h"
 
@@ -113,9 +114,10 @@ Vec2 shear_force(const Step& step, const Bearing& bears, const Vec2& shear, cons
   return force.norm() > most ? Vec2(most * force.normalized()) : force;
 }
 
-/// How deep the belt's leading end stands in ground that it has not pressed yet, and what pressing costs [N].
-double compaction(const Step& step, const std::vector<RunningWheel>& gear, const std::vector<Meeting>& met,
-                  const BeltState& state) {
+/// How deep the belt's leading end stands in ground that it has not pressed yet, what pressing costs [N], and what its
+/// foremost wheel pushes ahead.
+double soil_resistance(const Step& step, const std::vector<RunningWheel>& gear, const std::vector<Meeting>& met,
+                       const BeltState& state) {
   const bool forward = step.belt_speed >= 0;
   const std::size_t n = gear.size();
   const std::size_t lead = forward ? 1 : n - 2;
@@ -131,7 +133,9 @@ double compaction(const Step& step, const std::vector<RunningWheel>& gear, const
   const double b = step.wheel.width;
   const double deepest = plate_sinkage(*under.soil, load / (b * gear[lead].length), b);
   const double z = std::clamp(above, 0.0, deepest);
-  const double resistance = b * plate_pressure(*under.soil, z, b) * z / (under.soil->bekker_n + 1);
+  const double speed = step.velocity(met[lead].p_W).dot(step.motion.X_WC.linear().col(0));
+  const double pushes = bulldozing(under, b, gear[forward ? 0 : n - 1].radius, z, speed / step.belt_speed);
+  const double resistance = b * plate_pressure(*under.soil, z, b) * z / (under.soil->bekker_n + 1) + pushes;
   return -resistance * std::tanh(step.belt_speed / kRoll);
 }
 
@@ -236,7 +240,7 @@ BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const 
     out.torque -= wheel.radius * f.x();
   }
   const std::size_t lead = step.belt_speed >= 0 ? 1 : gear.size() - 2;
-  const double resistance = compaction(step, gear, met, state);
+  const double resistance = soil_resistance(step, gear, met, state);
   if (resistance != 0) out.pushes.push_back({resistance * motion.X_WC.linear().col(0), met[lead].p_W});
   for (const BeltForce::Push& push : out.pushes) out.force_W += push.f_W;
   // Rollers, links and bushings turn against the spin; smooth through zero, within what the step can bear.

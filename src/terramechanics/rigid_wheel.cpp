@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math.h"
+#include "terramechanics/bearing.h"
 #include "terramechanics/plate.h"
 #include "terramechanics/shear.h"
 
@@ -69,7 +70,8 @@ WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
   }
   const Arc arc = sum_arc(wheel, soil, high);
   out.sinkage = wheel.radius * (1 - std::cos(high));
-  out.drawbar = arc.drawbar;
+  out.bulldozing = bulldozing({&soil, 1}, wheel.width, wheel.radius, out.sinkage, 1 / rim_speed(1.0, wheel.slip));
+  out.drawbar = arc.drawbar - out.bulldozing;
   out.torque = arc.torque;
   out.side = arc.side;
   return out;

@@ -19,11 +19,12 @@ struct WheelCase {
 
 /// What the ground does to it when the load is carried.
 struct WheelForce {
-  double sinkage = 0;   ///< of the lowest point [m]
-  double drawbar = 0;   ///< pull of the soil on the wheel along its way, negative: it must be towed [N]
-  double torque = 0;    ///< that drives the wheel [N m]
-  double side = 0;      ///< of the soil on the wheel against its sideways way [N]
-  bool carried = true;  ///< false: the ground does not carry the load with the axle above it
+  double sinkage = 0;     ///< of the lowest point [m]
+  double drawbar = 0;     ///< pull of the soil on the wheel along its way, negative: it must be towed [N]
+  double bulldozing = 0;  ///< resistance of the soil that it pushes ahead, counted in the drawbar [N]
+  double torque = 0;      ///< that drives the wheel [N m]
+  double side = 0;        ///< of the soil on the wheel against its sideways way [N]
+  bool carried = true;    ///< false: the ground does not carry the load with the axle above it
 };
 
 /// Sums the plate's pressure [Bekker 1969] and the shear of [Janosi 1961] over the arc from the entry angle theta_1 to
@@ -37,6 +38,7 @@ struct WheelForce {
 /// Sideways the rim goes by j_y = r (theta_1 - theta) (1 - s) tan beta with the slip angle beta, and shear acts against
 /// both ways together; what piles up at the wheel's side is not counted. The modulus falls by slip such that a smooth
 /// wheel sinks slip_sinkage() times as deep: by its power n + 1/2 [Bekker 1956].
+/// What the rim pushes ahead of it resists besides (bulldozing, bearing.h), through the axle.
 /// A smooth rim's strength is rim_strength(soil); between grousers soil slides on soil (surface_strength at bank
 /// density) at r plus their height. The load grows with theta_1, which is found by bisection.
 WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil);

@@ -99,6 +99,50 @@ TEST(Ruts, StandingStillAndAnEqualSecondPassAddNothingAHeavierOneDoes) {
   EXPECT_GT(deepest(ground), once);
 }
 
+TEST(Ruts, SecondPassByAHeavierMachineSinksToWhatItsOwnPressureGives) {
+  for (const scene::Soil& soil : {flat_loam(1).setup().soils[0], dry_sand()}) {
+    heightfield::Ground twice = flat(soil), once = flat(soil);
+    Ruts ruts(twice);
+    ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 20e3)}});
+    const double light = deepest(twice);
+    ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
+    Ruts(once).press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
+    print_value("20 kN [m]", light, "", "[docs/machines.md, ruts]");
+    print_value("then 44 kN [m]", deepest(twice), std::to_string(deepest(once)) + " by itself", "[Bekker 1969]");
+    EXPECT_LT(light, 0.9 * deepest(once));
+    EXPECT_NEAR(deepest(twice), deepest(once), 1e-5);
+    // Back to the light one: nothing more.
+    ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 20e3)}});
+    EXPECT_NEAR(deepest(twice), deepest(once), 1e-5);
+  }
+}
+
+TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
+  heightfield::Ground ground = flat_loam();
+  Ruts ruts(ground);
+  ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
+  const Vec2i at = ground.column_at(3.2, 3.36);
+  const double floor = ground.height(at.x(), at.y());
+  // 15 mm slid in, as a wheel presses it out in many steps.
+  const auto fill = [&](double depth) {
+    heightfield::Layer loose = ground.layers(at.x(), at.y()).back();
+    loose.specific_volume = 1.2f;
+    const double area = ground.cell() * ground.cell();
+    loose.mass = std::llround(depth * area * ground.setup().soils[0].bank_density / 1.2 / kMassQuantum);
+    ground.put(at.x(), at.y(), loose);
+  };
+  fill(0.015);
+  EXPECT_NEAR(ground.height(at.x(), at.y()), floor + 0.015, 1e-3);
+  for (double load = 4e3; load <= 44e3; load += 4e3) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, load)}});
+  EXPECT_NEAR(ground.height(at.x(), at.y()), floor, 1e-3);
+  // More than a tyre presses through stays on it.
+  fill(0.2);
+  const double high = ground.height(at.x(), at.y());
+  ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
+  EXPECT_LT(ground.height(at.x(), at.y()), high - 0.03);
+  EXPECT_GT(ground.height(at.x(), at.y()), floor + 0.1);
+}
+
 TEST(Ruts, PressedOverTimeEndsWhereOnePressDoes) {
   heightfield::Ground once = flat_loam(), slowly = flat_loam();
   Ruts(once).press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});

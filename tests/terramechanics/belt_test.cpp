@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "terramechanics/bearing.h"
 #include "terramechanics/grounds.h"
 #include "terramechanics/plate.h"
 #include "values.h"
@@ -124,7 +125,11 @@ TEST(Belt, FeelsBekkersResistanceOfGroundThatNobodyPressed) {
   ground.set_soil([&soil](double, double) { return SoilState{&soil, 1.0}; });
   BeltMotion motion = moving(1, 1);
   motion.X_WC.translation().z() -= z;
-  const double expected = wheel.width * pressure * z / (soil.bekker_n + 1);
+  const double compaction = wheel.width * pressure * z / (soil.bekker_n + 1);
+  // Its idler rolls over z without slip and pushes as much ahead as a wheel does.
+  const double idler = wheel.track->idler_radius + wheel.track->thickness;
+  const double expected = compaction + bulldozing({&soil, 1}, wheel.width, idler, z, 1);
+  EXPECT_GT(expected, 1.01 * compaction);
   EXPECT_NEAR(steady(wheel, motion, ground).force_W.x(), -expected, 0.02 * expected);
   // In the rut of one before it there is none.
   FunctionGround rut([z](double, double) { return -z; });

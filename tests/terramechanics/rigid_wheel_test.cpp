@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/math.h"
+#include "terramechanics/bearing.h"
 
 namespace navvy::terramechanics {
 namespace {
@@ -56,6 +57,23 @@ TEST(RigidWheel, LockedWheelIsDragged) {
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, -1}, plain());
   EXPECT_LT(force.drawbar, -std::tan(radians(20)) * 300);
   EXPECT_LT(force.torque, 0);
+}
+
+TEST(RigidWheel, PushesSoilAheadUnlessItSlips) {
+  const scene::Soil soil = plain();
+  EXPECT_EQ(rigid_wheel({0.5, 0.2, 300, 0.3}, soil).bulldozing, 0);
+  double before = 0;
+  for (const double slip : {0.0, -0.2, -0.5, -1.0}) {
+    const WheelForce force = rigid_wheel({0.5, 0.2, 300, slip}, soil);
+    EXPECT_GT(force.bulldozing, before) << slip;
+    before = force.bulldozing;
+  }
+  // Locked, all of it: without cohesion b gamma z^2 Kgamma / 2 with tan phi' = 2/3 tan 30 deg, Nq' 8.31, Ngamma' 5.13.
+  const WheelForce locked = rigid_wheel({0.5, 0.2, 300, -1}, soil);
+  const double tan_phi = 2.0 / 3 * std::tan(radians(30));
+  const double k_gamma = (2 * 5.13 / tan_phi + 1) / (1 + tan_phi * tan_phi);
+  const double expected = 0.2 * 0.5 * soil.bank_density * kGravity * locked.sinkage * locked.sinkage * k_gamma;
+  EXPECT_NEAR(locked.bulldozing, expected, 0.01 * expected);
 }
 
 TEST(RigidWheel, PullGrowsWithSlip) {

@@ -82,6 +82,7 @@ Report law_alone(const Setup& setup) {
   report.note("sinkage", value(1000 * law.sinkage), "mm", source);
   report.note("torque", value(law.torque), "N m", source);
   report.note("side force", value(law.side), "N", "against the way to the side; the wheel's side wall is not counted");
+  report.note("bulldozing resistance", value(law.bulldozing), "N", "[Bekker 1969], counted in the pull");
   report.note("drawbar pull over the load", value(law.drawbar / wheel.load), "");
   const double in = law.torque * rim_speed(setup["speed"], wheel.slip) / wheel.radius;
   report.note("tractive efficiency", in > 0 ? value(law.drawbar * setup["speed"] / in) : kNone, "",
