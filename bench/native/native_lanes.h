@@ -26,6 +26,7 @@ inline Lanes fmin(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes fmax(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes fmin(const Lanes& a, float b) { return fmin(a, Lanes{} + b); }
 inline Lanes fmax(const Lanes& a, float b) { return fmax(a, Lanes{} + b); }
+inline float fmax(float a, float b) { return a > b ? a : b; }
 inline Lanes fabs(const Lanes& a) { return fmax(a, -a); }
 inline Lanes sqrt(const Lanes& a) {
   Lanes out;
@@ -37,9 +38,13 @@ inline Lanes floor(const Lanes& a) {
   for (int l = 0; l < 16; ++l) out[l] = std::floor(a[l]);
   return out;
 }
+inline float largest(const Lanes& of) {
+  float out = of[0];
+  for (int l = 1; l < 16; ++l) out = fmax(out, of[l]);
+  return out;
+}
 inline Lanes step(float edge, const Lanes& x) { return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f; }
 inline ints isfinite(const Lanes& a) { return a - a == Lanes{}; }  // NOLINT: not 0 for what is not finite
-inline float fmax(float a, float b) { return a > b ? a : b; }
 inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
 inline float mean_of(columns t) { return t; }
 inline bool all(bool of_columns) { return of_columns; }

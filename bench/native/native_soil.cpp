@@ -17,12 +17,6 @@ constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their dr
 constexpr std::size_t kCells = 216;
 constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
 
-float largest(const Lanes& of) {
-  float out = of[0];
-  for (std::size_t l = 1; l < kLanes; ++l) out = std::max(out, of[l]);
-  return out;
-}
-
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
   LawSoil out;
