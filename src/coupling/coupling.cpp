@@ -127,7 +127,8 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.shell) / dt;
     tool.rock_W += blend * (rock - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
-      engine(tool.machine).apply_impulse(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W);
+      engine(tool.machine)
+          .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W, dt);
   }
 }
 

@@ -15,9 +15,10 @@ namespace {
 constexpr double kStill = 1e-3, kStillTime = 0.8;
 /// Feet lie no higher than this over the lowest [cells]: what stands higher stands on other ground.
 constexpr double kLevel = 0.25;
-/// A seat is left when a corner has moved by this share of a cell, and under this much more than what it bore: more is
+/// A seat is left when a corner has moved by this share of a cell (columns that come back may lift a body that has
+/// collision shapes besides), and under this much more than what it bore: more is
 /// asked of the ground than it has shown.
-constexpr double kMoved = 0.01, kOverload = 1.25;
+constexpr double kMoved = 0.25, kOverload = 1.25;
 constexpr double kLoadTime = 0.1;  ///< loads are means over about this time [s]
 constexpr double kPressOut = 0.1;  ///< share of a sinking that is pressed out in a step,
 constexpr double kSlowly = 0.01;   ///< no faster than [m/s]
@@ -143,9 +144,11 @@ bool Seat::hold(const scene::Shell& shell, const ToolMotion& motion, double dt, 
   twist += motion.inverse_mass * got;
   const std::vector<Vec3> standing = feet(shell, X_WT, cell);
   std::vector<double> rise;
-  for (const Vec3& foot : standing)
-    rise.push_back(std::clamp(kPressOut * ((X_WT * foot).z() - (motion.X_WT * foot).z()) / dt, 0.0, kSlowly));
-  // A foot above its place may come down to it, which the next step's rise stops.
+  for (const Vec3& foot : standing) {
+    // A foot above its place may come down to it and no farther; one that sank by rounding is pressed out slowly.
+    const double above = (motion.X_WT * foot).z() - (X_WT * foot).z();
+    rise.push_back(above > 0 ? -above / dt : std::min(-kPressOut * above / dt, kSlowly));
+  }
   const Vec6 given = stand(arms_of(standing, motion.X_WT), rise, motion.inverse_mass, friction, twist);
   impulse.L_W += given.head<3>();
   impulse.J_W += given.tail<3>();

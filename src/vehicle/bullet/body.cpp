@@ -314,10 +314,14 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
-void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) {
+void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
+  if (dt > 0) {
+    body_->stepPositionsMultiDof(dt, nullptr, delta.data());
+    moved();
+  }
   kinematics_valid_ = false;  // velocities; the articulated inertia depends on the pose only
 }
 

@@ -153,7 +153,11 @@ class BulletEngine final : public Engine {
   void set_brake(int machine, int joint, bool on) override { at(machine).set_brake(joint, on); }
   DriveInput drive(int machine) const override { return at(machine).drive(); }
   void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) override {
-    at(machine).apply_impulse(link, J_W, L_W, p_W);
+    at(machine).apply_impulse(link, J_W, L_W, p_W, 0);
+  }
+  void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                             double dt) override {
+    at(machine).apply_impulse(link, J_W, L_W, p_W, dt);
   }
   void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) override {
     at(machine).add_force(link, f_W, p_W);

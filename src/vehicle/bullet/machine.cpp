@@ -103,9 +103,13 @@ void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) {
   pushes_.push_back({link, f_W, p_W});
 }
 
-void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) {
+void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
   disturb();
-  tree_.apply_impulse(link, J_W, L_W, p_W);
+  tree_.apply_impulse(link, J_W, L_W, p_W, dt);
+  if (dt > 0) {
+    place_colliders();
+    joints_.placed();
+  }
   external_impulse_ += J_W;
 }
 

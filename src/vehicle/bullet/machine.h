@@ -52,7 +52,7 @@ class BulletMachine {
   const DriveInput& drive() const { return drive_.input(); }
   /// Force [N] at p_W during the next step; impulse [N s, N m s] at once. Both are counted as external.
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
-  void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W);
+  void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
 
   /// It lies still and takes no part in the step but as what others may come near. Loose bodies of one link alone do.
   bool asleep() const { return rest_ && rest_->asleep(); }

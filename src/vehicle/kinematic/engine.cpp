@@ -96,6 +96,7 @@ class KinematicEngine final : public Engine {
   BaseInput base(int machine) const override { return at(machine).placed ? at(machine).goal : Engine::base(machine); }
   // Nothing pushes it: impulses and forces are swallowed.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
+  void apply_impulse_of_step(int, int, const Vec3&, const Vec3&, const Vec3&, double) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
   void step(double dt, const GroundQuery& ground) override {
