@@ -4,8 +4,8 @@
 // Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain [docs/soil.md, yield], with
 //   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states are near it;
 //   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
-//   - cohesion in shear only; it fades as soil opens (opening_strain), as it is remoulded (plastic shear) and as it gets
-//     looser (density state);
+//   - cohesion in shear only; it fades as soil opens (opening_strain), is remoulded (plastic shear) and gets looser
+//     (density state);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
 //   - a static share of its strength, which soil that hardly shears has on top;
 //   - viscosity on soil that does not yield, so that intact ground does not ring, and on the volume of closed soil;

@@ -43,8 +43,8 @@ double default_stiffness(double cohesion);
 void follow_cohesion(Soil& soil, double before);
 
 /// Cohesion of remoulded soil at its loose density, where none is given [Pa]: a fifth of the residual one. Loam of 1.5
-/// kPa then lies in heaps of 33 to 45 deg, as spoil does; with the whole of it they stand at 50 to 70 [docs/soil.md,
-/// cohesion].
+/// kPa then lies in heaps of 33 to 45 deg, as spoil does; with the whole of it they stand at 50 to 70
+/// [docs/soil.md, cohesion].
 double default_loose_cohesion(double residual);
 
 /// Whoever changes the residual cohesion of a soil from `before` [Pa] calls this where no loose one is given beside it.

@@ -2,8 +2,8 @@
 // Gathers node velocities to particles and books their way; particles take it at the transfer's end.
 //
 // In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
-//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing, spread [s]
-//      and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
+//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
+//      spread [s] and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
 // Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
