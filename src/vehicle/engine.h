@@ -62,8 +62,8 @@ class Engine {
   /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once through the
   /// articulated inertia. Counted in `external_impulse`.
   virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) = 0;
-  /// The same, of the step of `dt` [s] that was taken last: places change by dt times the change of velocities, too, so
-  /// that who stands on soil does not fall by the weight of a step in every step.
+  /// The same, of the step of `dt` [s] that was taken last: the place of a body without joints changes by dt times
+  /// the change of its velocity, too, so that what stands on soil does not fall by the weight of a step in every step.
   virtual void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                                      double dt) = 0;
   /// Force [N] at p_W during the next step only.

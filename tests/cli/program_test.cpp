@@ -457,7 +457,7 @@ TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
 }
 
 TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatGoesOn) {
-  environment_ = {{"NAVVY_DEVICE_MEMORY_MIB", "10"}};
+  environment_ = {{"NAVVY_DEVICE_MEMORY_MIB", "9"}};
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "4", "--out", out()}), 3)
       << complained();
   EXPECT_NE(complained().find("soil step"), std::string::npos) << complained();

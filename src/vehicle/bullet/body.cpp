@@ -318,7 +318,9 @@ void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const V
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
-  if (dt > 0) {
+  // Joints are held by rows that act before the next step's places: what soil does to them must meet those rows first,
+  // or a ram gives way under its load in every step. A body by itself has none.
+  if (dt > 0 && body_->getNumLinks() == 0) {
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
   }
