@@ -52,6 +52,7 @@ void solve(Row& row, Vec6& twist, double wanted, double low, double high) {
 Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const Mat6& inverse_mass, double friction,
            Vec6& twist) {
   std::vector<std::array<Row, 3>> rows;
+  rows.reserve(arms.size());
   for (const Vec3& arm : arms)
     rows.push_back({row_of(arm, Vec3::UnitZ(), inverse_mass), row_of(arm, Vec3::UnitX(), inverse_mass),
                     row_of(arm, Vec3::UnitY(), inverse_mass)});
@@ -84,6 +85,7 @@ double farthest(const scene::Shell& shell, const Pose& X, const Pose& other) {
 
 std::vector<Vec3> arms_of(const std::vector<Vec3>& feet, const Pose& X_WT) {
   std::vector<Vec3> out;
+  out.reserve(feet.size());
   for (const Vec3& foot : feet) out.push_back(X_WT.linear() * foot);
   return out;
 }

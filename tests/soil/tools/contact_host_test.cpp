@@ -54,10 +54,12 @@ TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
   EXPECT_LT(factor, 1.3);
   const Reach r = shipped();
   double mean = 0;
-  for (int place = 0; place < 100; ++place)
-    for (double x = 0.1 * (place % 10) + 0.05; x < length; ++x)
-      for (double y = 0.1 * (place / 10) + 0.05; y < width; ++y)
+  for (int place = 0; place < 100; ++place) {
+    const int column = place % 10, row = place / 10;
+    for (double x = 0.1 * column + 0.05; x < length; ++x)
+      for (double y = 0.1 * row + 0.05; y < width; ++y)
         mean += reference::contact_inner(std::min({x, length - x, y, width - y}), &r) / 100;
+  }
   EXPECT_NEAR(factor * mean / (length * width), 1, 0.01);
 }
 
