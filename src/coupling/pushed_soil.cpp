@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/soil_values.h"
+
 namespace navvy::coupling {
 namespace {
 
-// In remoulding strains: as of soil that slid (soil/exchange/slump.cpp).
-constexpr float kRemoulded = 9;
 // A strip begins so many widths away at most: beyond the other tyre of a pair, and a second pair beside it.
 constexpr double kFarthest = 4;
 
@@ -82,7 +82,7 @@ void PushedSoil::lay_down(const std::function<bool(int, int)>& borne) {
       heightfield::Layer loose = layer;
       const scene::Soil& soil = soils[layer.soil];
       loose.specific_volume = std::max(layer.specific_volume, static_cast<float>(soil.swell));
-      loose.plastic_shear = std::max(layer.plastic_shear, kRemoulded * static_cast<float>(soil.remoulding_strain));
+      loose.plastic_shear = std::max(layer.plastic_shear, scene::remoulded_shear(soil));
       loose.mass = std::llround(static_cast<double>(layer.mass) * share);
       if (loose.mass > 0) spread(loose, to_left);
       loose.mass = layer.mass - loose.mass;

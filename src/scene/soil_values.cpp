@@ -43,7 +43,7 @@ constexpr double kTooSoft = 100;               ///< stiffness / cohesion below w
 struct Mobilised {
   double ratio, share, travel;
 };
-constexpr Mobilised kMobilised[] = {{20, 0.71, 0.43}, {50, 0.87, 0.30}, {100, 0.96, 0.27}};
+constexpr Mobilised kMobilised[] = {{20, 0.63, 0.37}, {50, 0.86, 0.30}, {100, 0.95, 0.30}};
 
 }  // namespace
 

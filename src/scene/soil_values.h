@@ -50,6 +50,9 @@ double default_loose_cohesion(double residual);
 /// Whoever changes the residual cohesion of a soil from `before` [Pa] calls this where no loose one is given beside it.
 void follow_residual_cohesion(Soil& soil, double before);
 
+/// Plastic shear [-] of soil that has slid or was dug: a hundredth of its bonds is left.
+inline float remoulded_shear(const Soil& soil) { return 9 * static_cast<float>(soil.remoulding_strain); }
+
 /// A warning for soil softer than 100 x its cohesion: what share of its strength a blade feels, after how much travel,
 /// and what the default would cost. It runs all the same.
 std::optional<Fault> too_soft(const Soil& soil);

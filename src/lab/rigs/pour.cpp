@@ -18,6 +18,7 @@
 #include "lab/soils.h"
 #include "lab/theory/earth_pressure.h"
 #include "lab/theory/formulas.h"
+#include "scene/soil_values.h"
 
 namespace navvy::lab {
 namespace {
@@ -31,7 +32,7 @@ void loosen(const scene::Soil& soil, soil::Particle& p) {
     p.j = p.j0 = static_cast<float>(soil.swell);
     p.mass = static_cast<std::int32_t>(std::lround(p.mass / soil.swell));
   }
-  if (softens(soil)) p.shear = static_cast<float>(9 * soil.remoulding_strain);
+  if (softens(soil)) p.shear = scene::remoulded_shear(soil);
 }
 
 /// A stream of loose grains, `speed` fast at its mouth, that follows the heap's top at a height of `drop`.

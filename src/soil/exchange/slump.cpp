@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/archive.h"
+#include "scene/soil_values.h"
 
 namespace navvy::soil {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kSweepRate = 100;
 constexpr double kEnough = 0.001;
 /// Sweeps without motion after which a column rests again. tuned: ExchangeSlump.ACliffOfSandStopsNearItsFrictionAngle.
 constexpr int kMostStill = 8;
-/// Plastic shear of fallen soil, in remoulding strains: a hundredth of the bond is left.
-constexpr float kRemoulded = 9;
 
 }  // namespace
 
@@ -77,8 +76,7 @@ bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
   ground_.take_above(high.second, high.first, top - depth, taken_);
   for (heightfield::Layer& layer : taken_) {
     layer.specific_volume = loose(layer);
-    layer.plastic_shear =
-        std::max(layer.plastic_shear, kRemoulded * static_cast<float>(soils[layer.soil].remoulding_strain));
+    layer.plastic_shear = std::max(layer.plastic_shear, scene::remoulded_shear(soils[layer.soil]));
     ground_.put(low.second, low.first, layer);
   }
   found->second.still = 0;

@@ -314,17 +314,19 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
-void TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
+bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
   // Joints are held by rows that act before the next step's places: what soil does to them must meet those rows first,
   // or a ram gives way under its load in every step. A body by itself has none.
-  if (dt > 0 && body_->getNumLinks() == 0) {
+  const bool moves = dt > 0 && body_->getNumLinks() == 0;
+  if (moves) {
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
   }
   kinematics_valid_ = false;  // velocities; the articulated inertia depends on the pose only
+  return moves;
 }
 
 Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {

@@ -59,8 +59,8 @@ class TreeBody {
   /// Adds a force [N] with moment [N m] about p_W for the next step.
   void add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W);
   /// Changes velocities at once, exactly, as the articulated inertia is that of the present pose, and the place of a
-  /// body without joints by dt [s] times that change.
-  void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
+  /// body without joints by dt [s] times that change. Whether it moved.
+  bool apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
   /// Virtual work of an impulse on each freedom, as Bullet orders them: base (angular, linear), then joints. `work`
   /// holds 6 + their number. For a unit impulse without moment it is the row that tells a point's velocity along it.
   void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const;

@@ -47,7 +47,7 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
   placed();
 }
 
-// Positions only change at the end of a step, by the impulses of soil after it and by a snapshot.
+// Positions only change at the end of a step and by a snapshot, so this is all that linkages ever cost.
 void MachineJoints::placed() {
   for (int c = 0; c < hydraulics_.count(); ++c) hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
 }

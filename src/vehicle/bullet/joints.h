@@ -69,10 +69,9 @@ class MachineJoints {
   /// Visit the tree before: linkages follow its positions.
   void visit(Archive& a);
 
-  /// Puts the linkages to where the joints are: whoever moves them by hand says so.
-  void placed();
-
  private:
+  /// Puts the linkages to where the joints are.
+  void placed();
   /// What effort and speed are to be had in this step.
   JointLimits limits(int joint) const;
   /// What the brake of a joint asks of its row in this step.

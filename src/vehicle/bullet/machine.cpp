@@ -105,11 +105,7 @@ void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) {
 
 void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
   disturb();
-  tree_.apply_impulse(link, J_W, L_W, p_W, dt);
-  if (dt > 0) {
-    place_colliders();
-    joints_.placed();
-  }
+  if (tree_.apply_impulse(link, J_W, L_W, p_W, dt)) place_colliders();
   external_impulse_ += J_W;
 }
 

@@ -23,6 +23,17 @@ scene::Soil sand() {
   return soil;
 }
 
+/// Clay that neither swells nor softens.
+scene::Soil clay_of(double cohesion) {
+  scene::Soil clay = sand();
+  clay.bank_density = 1540;
+  clay.friction_angle = radians(30);
+  clay.swell = 1;
+  clay.cohesion = clay.residual_cohesion = cohesion;
+  clay.young_modulus = 200 * cohesion;
+  return clay;
+}
+
 /// A share of the impulse instead of the plate's speed, as the kernels once had it.
 PlaneMethod fractional() {
   PlaneMethod out;
@@ -121,12 +132,7 @@ TEST(PlaneStrain, CuredForcesDoNotDependOnTheStep) {
 }
 
 TEST(PlaneStrain, CuredClayIsFeltByASlowBlade) {
-  scene::Soil clay = sand();
-  clay.bank_density = 1540;
-  clay.friction_angle = radians(30);
-  clay.swell = 1;
-  clay.cohesion = clay.residual_cohesion = 50e3;
-  clay.young_modulus = 200 * clay.cohesion;
+  const scene::Soil clay = clay_of(50e3);
   PlaneBlade blade;
   blade.from = 0.1;
   blade.travel = 0.15;
@@ -145,12 +151,7 @@ TEST(PlaneStrain, CuredClayIsFeltByASlowBlade) {
 }
 
 TEST(PlaneStrain, ClayKeepsItsStrengthWhereItIsOpenOnlyAsItsNodesShow) {
-  scene::Soil clay = sand();
-  clay.bank_density = 1540;
-  clay.friction_angle = radians(30);
-  clay.swell = 1;
-  clay.cohesion = clay.residual_cohesion = 150e3;
-  clay.young_modulus = 200 * clay.cohesion;
+  const scene::Soil clay = clay_of(150e3);
   PlaneBlade blade;
   blade.from = 0.2, blade.travel = 0.25, blade.ramp = 0.015;
   PlaneMethod by_itself = cured();
