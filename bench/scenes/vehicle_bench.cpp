@@ -28,6 +28,7 @@ constexpr int kSteps = 600, kRuns = 5;
 class FirmGround final : public terramechanics::GroundQuery {
  public:
   double height(double, double) const override { return 0; }
+  double highest(const Vec2&, const Vec2&) const override { return 0; }
   Vec3 normal(double, double) const override { return Vec3::UnitZ(); }
 };
 

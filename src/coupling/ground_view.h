@@ -24,6 +24,11 @@ class GroundView final : public terramechanics::GroundQuery {
   GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils, const Ruts* ruts = nullptr)
       : terrain_(terrain), soils_(soils), ruts_(ruts) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
+  double highest(const Vec2& low, const Vec2& high) const override {
+    // Between column centres heights are those of the columns around.
+    const Vec2i first = terrain_.column_at(low.x(), low.y()), last = terrain_.column_at(high.x(), high.y());
+    return terrain_.highest({first.x() - 1, first.y() - 1, last.x() + 2, last.y() + 2});
+  }
   Vec3 normal(double x, double y) const override { return terrain_.normal(x, y); }
   terramechanics::GroundLattice lattice() const override {
     return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};

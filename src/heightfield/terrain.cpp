@@ -122,6 +122,25 @@ Vec3 Terrain::normal(double x, double y) const {
   return Vec3(-dx, -dy, 1).normalized();
 }
 
+double Terrain::highest(const CellRect& rect) const {
+  double out = -std::numeric_limits<double>::infinity();
+  if (rect.empty()) return out;
+  const int x0 = std::clamp(rect.x0, 0, nx() - 1), x1 = std::clamp(rect.x1 - 1, 0, nx() - 1);
+  const int y0 = std::clamp(rect.y0, 0, ny() - 1), y1 = std::clamp(rect.y1 - 1, 0, ny() - 1);
+  for (int ty = y0 / kTileSide; ty <= y1 / kTileSide; ++ty)
+    for (int tx = x0 / kTileSide; tx <= x1 / kTileSide; ++tx) {
+      const int left = std::max(x0 - tx * kTileSide, 0), right = std::min(x1 - tx * kTileSide, kTileSide - 1);
+      const int front = std::max(y0 - ty * kTileSide, 0), back = std::min(y1 - ty * kTileSide, kTileSide - 1);
+      const SurfaceTile* tile = table_.find(tx, ty);
+      const TileHeights* heights = tile != nullptr ? &tile->height : start_->tile(tx, ty);
+      for (int iy = front; iy <= back; ++iy)
+        for (int ix = left; ix <= right; ++ix)
+          out = std::max(out, heights != nullptr ? (*heights)[static_cast<std::size_t>(index_in_tile(ix, iy))]
+                                                 : start_->height(tx * kTileSide + ix, ty * kTileSide + iy));
+    }
+  return out;
+}
+
 void Terrain::copy_heights(const CellRect& rect, std::vector<float>& out) const {
   out.clear();
   if (rect.empty()) return;

@@ -3,6 +3,8 @@
 // a test from a formula.
 #pragma once
 
+#include <limits>
+
 #include "core/math.h"
 #include "scene/soil.h"
 
@@ -43,6 +45,11 @@ class GroundQuery {
 
   /// Of the surface in W [m].
   virtual double height(double x, double y) const = 0;
+  /// Not below any height in the rectangle from `low` to `high` in W [m]; infinite where the ground does not know.
+  virtual double highest(const Vec2& low, const Vec2& high) const {
+    (void)low, (void)high;
+    return std::numeric_limits<double>::infinity();
+  }
   /// Unit upward normal of the surface.
   virtual Vec3 normal(double x, double y) const = 0;
   /// Soil and density state on the surface; a firm floor unless the ground knows better.

@@ -363,6 +363,21 @@ TEST(Ground, CopiesHeightsOfAnyRectangle) {
       ASSERT_EQ(heights[(iy - rect.y0) * 83 + ix - rect.x0], static_cast<float>(ground.height(ix, iy)));
 }
 
+TEST(Ground, TellsTheHighestColumnOfAnyRectangle) {
+  Ground ground(wavy_setup());
+  ground.put(40, 40, {0, 50000000, 1, 0});
+  std::vector<Layer> taken;
+  ground.take_above(12, 3, -1, taken);
+  for (const CellRect rect : {CellRect{-3, 20, 80, 50}, CellRect{0, 0, 77, 45}, CellRect{12, 3, 13, 4},
+                              CellRect{30, 30, 70, 44}, CellRect{-9, -9, -2, -5}, CellRect{90, 60, 91, 61}}) {
+    double highest = -1e9;
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix) highest = std::max(highest, ground.height(ix, iy));
+    EXPECT_EQ(ground.highest(rect), highest);
+  }
+  EXPECT_EQ(ground.highest({4, 4, 4, 9}), -std::numeric_limits<double>::infinity());
+}
+
 TEST(Ground, HoldsTheColumnsLastNamedAndCountsThoseLetGoAsChanged) {
   Ground ground(wavy_setup());
   const auto key = [&](int ix, int iy) { return static_cast<std::int64_t>(iy) * ground.nx() + ix; };

@@ -34,8 +34,9 @@ TEST(WheelLab, SmoothWheelInDrySand) {
 // What a wheel of particles feels of the step and of its speed; pull and sinkage themselves are not gated.
 TEST(WheelLab, SmoothWheelOverSpeedsAndSteps) {
   const auto wheel = [](double speed, double courant) {
-    const Report report =
-        run_rig("wheel", {{"slip", 0.5}, {"load-n", 25.3}, {"travel", 0.1}, {"speed", speed}, {"courant", courant}});
+    const Report report = run_rig(
+        "wheel",
+        {{"slip", 0.5}, {"load-n", 25.3}, {"from", 0.05}, {"travel", 0.1}, {"speed", speed}, {"courant", courant}});
     EXPECT_EQ(measured(report, "particles through the wheel"), 0);
     const std::string name = "wheel at slip 0.5, " + short_text(speed) + " m/s, Courant " + short_text(courant);
     print_value(name + ": pull [N]", measured(report, "drawbar pull"), "1.0 measured, no gate",

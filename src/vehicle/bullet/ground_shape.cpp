@@ -8,6 +8,7 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kEverywhere = 1e9;  // [m]
+constexpr double kRounding = 1e-6;   // of heights between columns [m]
 constexpr double kMostCells = 256;   // along a side of one query: beyond it nodes are left out
 
 }  // namespace
@@ -27,6 +28,8 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVect
   const int x0 = cell_of(low.x(), lattice.node.x()), x1 = cell_of(high.x(), lattice.node.x()) + 1;
   const int y0 = cell_of(low.y(), lattice.node.y()), y1 = cell_of(high.y(), lattice.node.y()) + 1;
   const auto place = [&](int ix, int iy) { return Vec2(lattice.node + step * Vec2(ix, iy)); };
+  // Most of a machine is well above the ground: one question for all of a body's box. Rounding is far below the margin.
+  if (ground_->highest(place(x0, y0), place(x1, y1)) < low.z() - kRounding) return;
   const int nx = x1 - x0 + 1;
   height_.clear();
   for (int iy = y0; iy <= y1; ++iy)
@@ -41,7 +44,7 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVect
   // Both triangles of a cell share the diagonal from its +x to its +y corner; their fronts look up.
   for (int iy = y0; iy < y1; ++iy)
     for (int ix = x0; ix < x1; ++ix) {
-      // Most of a machine is well above the ground: nothing there is worth a call.
+      // A cell below the box is not worth a call.
       const double* row = &height_[static_cast<std::size_t>((iy - y0) * nx + ix - x0)];
       if (std::max({row[0], row[1], row[nx], row[nx + 1]}) < low.z()) continue;
       btVector3 one[3] = {node(ix, iy), node(ix + 1, iy), node(ix, iy + 1)};
