@@ -35,27 +35,20 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
   return contact_near(clearance, r) * along * along;
 }
 
-// Speed at which a node settles towards a plate [m/s]. `down`: part of the plate's normal towards the node along
-// gravity; fill: see contact_touch; quick: see contact_quick. A node over the soil's surface has the last of the soil's
-// mass: it must not carry a plate that lies on it, or light ones stand on nothing [docs/tools.md, stand-off]. Soil
-// beside or above a plate is held whatever the node has, as nodes at its own surface are half empty, too; before one
-// that advances it does not settle at all. The square lets a plate fall through what hardly bears and settle onto what
-// almost does.
-// tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node.
-INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, scalar quick, const Reach* r) {
-  const scalar under = fmax(down, 0.0f), near = contact_near(clearance, r);
-  const scalar holds = near + (1.0f - near) * quick * (1.0f - under);
-  const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - contact_unit(1.5f * fill)));
+// Speed at which a node settles towards a plate that does not advance [m/s]. `down`: part of the plate's normal towards
+// the node along gravity; fill: see contact_touch. Where a node is full there is no room between soil and plate to
+// settle into: it would take the soil's pressure off the plate. A node over the soil's surface has the last of the
+// soil's mass: it must not carry a plate that lies on it, or light ones stand on nothing [docs/tools.md, stand-off].
+// Soil at the side of a plate or above it is held whatever the node has, as nodes at its own surface are half empty,
+// too. The square lets a plate fall through what hardly bears and settle onto what almost does.
+// tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node; under a plate one is
+// as full as can be only where there is soil up to the plate.
+INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
+  const scalar under = fmax(down, 0.0f), full = contact_unit(1.5f * fill), near = contact_near(clearance, r);
+  const scalar no_room = full * (1.0f - under) + contact_unit(3.0f * fill - 2.0f) * under;
+  const scalar holds = near + (1.0f - near) * no_room;
+  const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
-}
-
-// tuned: `navvy lab blade --speed 0.0125,0.05` and SoilCorner.*; slow against settling, fast against a plate at rest
-#define QUICK_SHARE 0.1f  // speed of a plate that advances for all its nodes / that at which soil settles
-
-// Whether a plate advances, as far as it does: 0 at rest or on its way back, 1 when soil must not settle towards it,
-// which would be a dashpot: slow plates would pass through it [docs/tools.md, impulse]. advance [m/s].
-INLINED scalar contact_quick(scalar advance, const Reach* r) {
-  return contact_unit(advance / fmax(QUICK_SHARE * r->settling, (scalar)(1e-6)));
 }
 
 // Along a plate: how much of its area a node stands for. What is cut off at a free edge is given to the nodes just
@@ -85,8 +78,7 @@ INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) { ret
 // One side of one node.
 typedef struct ContactNode {
   scalar3 v, r, n;             // velocity [m/s], lever arm from the tool's origin [m], normal away from the plate
-  scalar m, share;             // mass [kg], contact_share
-  scalar settling, eases;      // contact_settling at a plate at rest, by how much less at one that advances [m/s]
+  scalar m, share, settling;   // mass [kg], contact_share, contact_settling [m/s]
   scalar mu, stick;            // tan of the friction angle, most shear without any push [N s]
 } ContactNode;
 
@@ -100,20 +92,17 @@ typedef struct ContactBranch {
 // whole mass, unilateral, Coulomb and adhesion [docs/tools.md, impulse]. Without one that acts it is 0. Speeds are
 // taken against the resting ground: a node that a plate covers in part falls behind one that advances, by the share
 // that it does not cover, and settles slowly towards one that stands or recedes, with all its load borne.
-INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, const Reach* r,
+INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
                                 ContactBranch* branch) {
   const scalar3 plate = speed + cross(spin, node->r);
   const scalar3 rel = node->v - plate;
   const scalar leaves = dot(rel, node->n), advance = dot(plate, node->n);
-  const scalar behind = (1.0f - node->share) * advance, quick = contact_quick(advance, r);
-  const scalar settles = node->settling - quick * node->eases;
-  const scalar rn = leaves + fmax(behind, settles);
-  // A plate that comes to advance takes the settling away: as steep as that is, the two-way solve must know it.
-  const scalar firmer = quick > 0.0f && quick < 1.0f ? node->eases / (QUICK_SHARE * r->settling) : 0.0f;
-  branch->held = behind > settles ? node->share : 1.0f + firmer;
+  const scalar behind = (1.0f - node->share) * advance;
+  const scalar rn = leaves + fmax(behind, node->settling);
+  branch->held = behind > node->settling ? node->share : 1.0f;
   branch->pushing = rn < 0.0f;
   // What may settle towards the plate has not let go.
-  branch->acts = branch->pushing || (node->stick > 0.0f && leaves + fmax(behind, 0.0f) < r->opening);
+  branch->acts = branch->pushing || (node->stick > 0.0f && leaves + fmax(behind, 0.0f) < opening);
   branch->sticking = false;
   if (!branch->acts) return (scalar)(0.0) * node->n;
   const scalar jn = branch->pushing ? -node->m * rn : 0.0f;

@@ -32,8 +32,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
-  node->settling = contact_settling(clearance, fill, dot(node->n, down), 0.0f, &reach);
-  node->eases = node->settling - contact_settling(clearance, fill, dot(node->n, down), 1.0f, &reach);
+  node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
   node->stick = 0.0f;
   if (surface[i].adhesion > 0.0f) {
     const float adhesion = surface[i].adhesion * tool->adhesion * contact_touch(fill);
@@ -67,7 +66,7 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   global const Tool* tool = tools + node_tool[i];
   ContactBranch branch;
   const float3 j =
-      contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), &reach, &branch);
+      contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
   if (!branch.acts) return;
   const float3 l = cross(node.r, j);
   sums->wrench[0] += l.x;
@@ -144,7 +143,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
       global const Tool* tool = tools + node_tool[i];
       ContactBranch branch;
       const float3 j =
-          contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), &reach, &branch);
+          contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
       if (branch.acts) {
         after = (float4)(v.xyz + j / node.m, dot(j, node.n));
         out.changed = 1;

@@ -160,12 +160,12 @@ void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
   const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0, 0, 0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;
-  ContactNode at{Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, 0, plate.friction, 0};
+  ContactNode at{Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
   double weight = 1;
   if (fraction) weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);
   if (!fraction) at.share = contact_share(clearance, inset, &reach);
   if (!(weight > 0 && at.share > 0)) return;
-  const Vec3 impulse = weight * impulse_on(at, reach, Vec3(plate.speed, 0, 0));
+  const Vec3 impulse = weight * impulse_on(at, 0, Vec3(plate.speed, 0, 0));
   node.vx += impulse.x() / node.mass;
   node.vz += impulse.z() / node.mass;
   plate.impulse += impulse.x();

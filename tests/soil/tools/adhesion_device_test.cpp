@@ -63,15 +63,15 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;
-    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0, 0};
+    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0};
     node.mu = std::tan(soil.tool_friction_angle);
     node.share = reference::contact_share(clearance, inset, &reach);
     if (!(node.share > 0)) return Vec3(Vec3::Zero());
     const double fill = mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance));
-    node.settling = reference::contact_settling(clearance, fill, -node.n.z(), 0, &reach);
+    node.settling = reference::contact_settling(clearance, fill, -node.n.z(), &reach);
     const double area = factor * reference::contact_touch(fill) * reference::contact_area(clearance, inset, &reach);
     node.stick = reference::contact_stick(soil.adhesion, area, &reach);
-    const Vec3 j = reference::impulse_on(node, reach);
+    const Vec3 j = reference::impulse_on(node, reach.opening);
     on_soil += j;
     return j;
   };
