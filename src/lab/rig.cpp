@@ -5,6 +5,7 @@
 
 #include "core/edit_distance.h"
 #include "core/error.h"
+#include "scene/soil_values.h"
 
 namespace navvy::lab {
 namespace {
@@ -112,8 +113,8 @@ void set_written(Setup& setup, const std::map<std::string, std::string>& written
 }
 
 void check(const Rig& rig, const Setup& setup) {
-  // All faults at once: who mends one wants to know of the next.
-  std::vector<Fault> faults;
+  // All faults at once: who mends one wants to know of the next. The soil's here too: a rig may compute without a site.
+  std::vector<Fault> faults = scene::check_soil(setup.soil);
   for (const Parameter& p : rig.parameters) {
     const double value = setup[p.name];
     if (p.allows(value)) continue;

@@ -106,6 +106,17 @@ TEST(Rig, RefusalsNameRigParameterValueRuleAndTheNearest) {
   EXPECT_TRUE(holds(text, "a whole number")) << text;
 }
 
+TEST(Rig, RefusesASoilThatIsNoneAlsoWhereNothingIsSimulated) {
+  const Rig& wheel = find_rig("wheel");
+  lab::Setup setup = setup_of(wheel);
+  set_written(setup, {{"law", "yes"}});
+  EXPECT_NO_THROW(check(wheel, setup));
+  setup.soil.bekker_n = -1;
+  setup.soil.janosi_k = 0;
+  const std::string text = refusal([&] { wheel.run(setup); });
+  for (const char* part : {"bekker_n", "-1", "janosi_k_m"}) EXPECT_TRUE(holds(text, part)) << text;
+}
+
 TEST(Rig, UnknownNamesNameTheNearest) {
   EXPECT_TRUE(holds(refusal([] { find_rig("rets"); }), "'rest'"));
   lab::Setup setup;
