@@ -24,7 +24,7 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const int ix = place.ix, iy = place.iy;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
-  Memory& memory = memory_[key];
+  Memory& memory = memory_.at(ix, iy);
   // A tyre that comes, not one that stays.
   if (under_.insert(key).second && !ground_.held(ix, iy)) memory.work = 0;
   const double height = ground_.height(ix, iy);
@@ -126,8 +126,8 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
 double Ruts::work(double x, double y) const {
   const Vec2i c = ground_.column_at(x, y);
   if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return 0;
-  const auto found = memory_.find(static_cast<std::int64_t>(c.y()) * ground_.nx() + c.x());
-  return found != memory_.end() ? found->second.work : 0;
+  const Memory* memory = memory_.find(c.x(), c.y());
+  return memory != nullptr ? memory->work : 0;
 }
 
 void Ruts::Memory::visit(Archive& a) {
@@ -144,10 +144,6 @@ void Ruts::visit(Archive& a) {
   a.section("ruts", 4, [&] {
     a("memory", memory_);
     a("bearing", bearing_);
-    // Keys ascend, so the first and the last tell of all.
-    const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();
-    a.require(memory_.empty() || (memory_.begin()->first >= 0 && memory_.rbegin()->first < columns), "memory",
-              "a rut lies beside the site");
   });
 }
 

@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <set>
 #include <vector>
 
 #include "core/archive.h"
+#include "coupling/column_table.h"
 #include "coupling/pushed_soil.h"
 #include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
@@ -39,7 +39,7 @@ constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s 
 class Ruts {
  public:
   /// The ground must outlive it.
-  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground) {}
+  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
 
   /// Presses the contact patches of all wheels of the world, in the same order each time, as they are and where they
   /// roll within `interval` [s], the time until the next call. Each carries what of its `force_W` the ground gave;
@@ -78,10 +78,10 @@ class Ruts {
   void press_column(const PushedSoil::Place& place, double pressure, const Press& press);
 
   heightfield::Ground& ground_;
-  PushedSoil pushed_;                      ///< empty between two calls
-  std::set<std::int64_t> under_;           ///< columns under the tyres pressed so far in this call
-  std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
-  std::vector<Bearing> bearing_;           ///< by wheel of the world
+  PushedSoil pushed_;             ///< empty between two calls
+  std::set<std::int64_t> under_;  ///< columns under the tyres pressed so far in this call
+  ColumnTable<Memory> memory_;
+  std::vector<Bearing> bearing_;  ///< by wheel of the world
 };
 
 }  // namespace navvy::coupling
