@@ -55,8 +55,9 @@ class ColumnTable {
       return;
     }
     std::uint64_t number = 0;
-    for (auto& [key, strip] : strips_) {
-      const std::int64_t first = key / strips_x() * nx_ + key % strips_x() * kStrip;
+    for (auto& entry : strips_) {
+      Strip& strip = entry.second;
+      const std::int64_t first = entry.first / strips_x() * nx_ + entry.first % strips_x() * kStrip;
       std::size_t next = 0;
       for (std::uint32_t rest = strip.mask; rest != 0; rest &= rest - 1)
         a.item(number++, [&] {

@@ -13,6 +13,7 @@
 #include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
+#include "terramechanics/ground_query.h"
 #include "terramechanics/tyre_patch.h"
 #include "vehicle/engine.h"
 
@@ -47,15 +48,15 @@ class Ruts {
   /// count as they are.
   void press(const std::vector<LoadedTyre>& tyres, double interval = std::numeric_limits<double>::infinity());
 
-  /// Work per area [J/m2] that pressing the column at x, y took since a tyre came onto it; 0 where none stands.
-  double work(double x, double y) const;
+  /// What pressing the column at x, y took since a tyre came onto it; nothing where none stands.
+  terramechanics::Sinking sinking(double x, double y) const;
 
   void visit(Archive& a);
 
  private:
   struct Memory {
     RutMemory borne;
-    double work = 0;  ///< of pressing it since the tyre that stands on it came [J/m2]
+    terramechanics::Sinking sinking;  ///< since the tyre that stands on it came
     void visit(Archive& a);
   };
   /// How a wheel loads the ground, low-passed.
