@@ -18,6 +18,8 @@ constexpr float kSameSpecificVolume = 1e-3f;
 constexpr float kSameShear = 0.05f;
 // Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
 constexpr float kFullShear = 4.0f;
+// Less than this of a drop is what the subtraction of doubles left of it, and less than a unit of mass is thick [m].
+constexpr double kNoDrop = 1e-9;
 // Past this many layers alike neighbours are united. tuned: Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
@@ -65,7 +67,7 @@ void split(Column& column, std::size_t i, double top, const UnitThickness& unit)
 
 // See compact.
 void press(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
-  for (std::size_t i = column.size(); i-- > 0 && drop > 0;) {
+  for (std::size_t i = column.size(); i-- > 0 && drop > kNoDrop;) {
     // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
     if (thickness(column[i], unit) > 1.5 * zone) {
       split(column, i, zone, unit);
