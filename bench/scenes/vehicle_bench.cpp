@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts, beside 200 bodies, and
 // four of them; the crawler; a light truck on 50 x 50 m of fine loam: vehicle_bench [NAME], rows whose name holds NAME.
-// A row is a second of simulated time; `particles` counts machines and bodies.
+// A row is a second of simulated time; `particles` counts machines and bodies. What ground and ruts came to hold in
+// memory goes to stderr, by columns of the tiles that were touched and by columns that a wheel or belt moved.
 #include <malloc.h>
 
 #include <cstdio>
@@ -62,6 +63,16 @@ const std::vector<Case> kCases = {{"firm", "ew180"},
                                   {"tracks_firm", "ex180_tracked"},
                                   {"tracks_loam", "ex180_tracked", 1, 0, true},
                                   {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};
+
+/// Columns that no longer are as high as at the start.
+std::size_t moved_columns(const heightfield::Ground& ground) {
+  // Of the touched tiles alone: who asks for others makes the ground remember them.
+  const heightfield::CellRect rect = ground.touched_rect();
+  std::size_t moved = 0;
+  for (int iy = rect.y0; iy < rect.y1; ++iy)
+    for (int ix = rect.x0; ix < rect.x1; ++ix) moved += ground.height(ix, iy) != ground.start_height(ix, iy) ? 1 : 0;
+  return moved;
+}
 
 /// Machines on columns or on firm ground, as a world steps them without particles.
 class Stage {
@@ -133,13 +144,18 @@ void measure_case(const Case& what) {
   stage.second();
   bench::Row row;
   // Of the ground and its ruts: what else allocates in a step gives it back.
+  const std::size_t moved_before = moved_columns(stage.ground());
   const std::size_t before = mallinfo2().uordblks, tiles = stage.ground().touched_tiles();
   row.timing = bench::measure(
       kRuns, [] {}, [&] { stage.second(); });
   const std::size_t touched = (stage.ground().touched_tiles() - tiles) * 32 * 32;
-  if (touched > 0)
-    std::fprintf(stderr, "vehicle_step:%s: %.0f bytes a touched column, %zu columns\n", what.name.c_str(),
-                 static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(touched), touched);
+  if (touched > 0) {
+    const auto bytes = static_cast<double>(mallinfo2().uordblks - before);
+    const std::size_t moved = moved_columns(stage.ground()) - moved_before;
+    std::fprintf(stderr, "vehicle_step:%s: %.0f bytes a touched column, %zu columns; %.0f a moved one, %zu\n",
+                 what.name.c_str(), bytes / static_cast<double>(touched), touched, bytes / static_cast<double>(moved),
+                 moved);
+  }
   row.bench = "vehicle_step:" + what.name;
   row.particles = static_cast<std::uint64_t>(what.machines + what.boxes);
   row.steps = kSteps;

@@ -13,7 +13,7 @@
 namespace navvy::coupling {
 
 /// Answers what wheels and bodies ask from the terrain it is given: the live ground means the columns of this very
-/// step, without loose soil. Of ruts it tells the work that they take, where it is given those who press them.
+/// step, without loose soil. Of ruts it tells what they take, where it is given those who press them.
 ///
 /// Height and normal are bilinear between column centres, soil and density state are those at the surface of the column
 /// that holds the place; outside the site the nearest column answers. A call costs a lookup, no allocation. Terrain,
@@ -33,7 +33,9 @@ class GroundView final : public terramechanics::GroundQuery {
   terramechanics::GroundLattice lattice() const override {
     return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};
   }
-  double sinking_work(double x, double y) const override { return ruts_ != nullptr ? ruts_->work(x, y) : 0; }
+  terramechanics::Sinking sinking(double x, double y) const override {
+    return ruts_ != nullptr ? ruts_->sinking(x, y) : terramechanics::Sinking{};
+  }
   terramechanics::SoilState soil(double x, double y) const override {
     const Vec2i c = terrain_.column_at(x, y);
     const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1), iy = std::clamp(c.y(), 0, terrain_.ny() - 1);

@@ -24,9 +24,9 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const int ix = place.ix, iy = place.iy;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
-  Memory& memory = memory_[key];
+  Memory& memory = memory_.at(ix, iy);
   // A tyre that comes, not one that stays.
-  if (under_.insert(key).second && !ground_.held(ix, iy)) memory.work = 0;
+  if (under_.insert(key).second && !ground_.held(ix, iy)) memory.sinking = {};
   const double height = ground_.height(ix, iy);
   memory.borne.find(height);
   // Slip sinks the soil as so much more pressure would.
@@ -35,7 +35,8 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const auto [before, drop] = memory.borne.press(soil, width, height, pressure * softer);
   if (!(drop > 0)) return;
   const double after = before + drop;
-  memory.work +=
+  memory.sinking.depth += drop;
+  memory.sinking.work +=
       (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
@@ -123,16 +124,17 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
     }
 }
 
-double Ruts::work(double x, double y) const {
+terramechanics::Sinking Ruts::sinking(double x, double y) const {
   const Vec2i c = ground_.column_at(x, y);
-  if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return 0;
-  const auto found = memory_.find(static_cast<std::int64_t>(c.y()) * ground_.nx() + c.x());
-  return found != memory_.end() ? found->second.work : 0;
+  if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return {};
+  const Memory* memory = memory_.find(c.x(), c.y());
+  return memory != nullptr ? memory->sinking : terramechanics::Sinking{};
 }
 
 void Ruts::Memory::visit(Archive& a) {
   a("borne", borne);
-  a.ranged("work", work, 0.0, 1e12);
+  a.ranged("work", sinking.work, 0.0, 1e12);
+  a.ranged("depth", sinking.depth, 0.0, 1e6);
 }
 
 void Ruts::Bearing::visit(Archive& a) {
@@ -141,13 +143,9 @@ void Ruts::Bearing::visit(Archive& a) {
 }
 
 void Ruts::visit(Archive& a) {
-  a.section("ruts", 4, [&] {
+  a.section("ruts", 5, [&] {
     a("memory", memory_);
     a("bearing", bearing_);
-    // Keys ascend, so the first and the last tell of all.
-    const std::int64_t columns = static_cast<std::int64_t>(ground_.nx()) * ground_.ny();
-    a.require(memory_.empty() || (memory_.begin()->first >= 0 && memory_.rbegin()->first < columns), "memory",
-              "a rut lies beside the site");
   });
 }
 

@@ -4,15 +4,16 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <set>
 #include <vector>
 
 #include "core/archive.h"
+#include "coupling/column_table.h"
 #include "coupling/pushed_soil.h"
 #include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
 #include "scene/machine.h"
+#include "terramechanics/ground_query.h"
 #include "terramechanics/tyre_patch.h"
 #include "vehicle/engine.h"
 
@@ -39,7 +40,7 @@ constexpr int kRutInterval = 8;  ///< steps between presses; a wheel at 2.5 m/s 
 class Ruts {
  public:
   /// The ground must outlive it.
-  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground) {}
+  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
 
   /// Presses the contact patches of all wheels of the world, in the same order each time, as they are and where they
   /// roll within `interval` [s], the time until the next call. Each carries what of its `force_W` the ground gave;
@@ -47,15 +48,15 @@ class Ruts {
   /// count as they are.
   void press(const std::vector<LoadedTyre>& tyres, double interval = std::numeric_limits<double>::infinity());
 
-  /// Work per area [J/m2] that pressing the column at x, y took since a tyre came onto it; 0 where none stands.
-  double work(double x, double y) const;
+  /// What pressing the column at x, y took since a tyre came onto it; nothing where none stands.
+  terramechanics::Sinking sinking(double x, double y) const;
 
   void visit(Archive& a);
 
  private:
   struct Memory {
     RutMemory borne;
-    double work = 0;  ///< of pressing it since the tyre that stands on it came [J/m2]
+    terramechanics::Sinking sinking;  ///< since the tyre that stands on it came
     void visit(Archive& a);
   };
   /// How a wheel loads the ground, low-passed.
@@ -78,10 +79,10 @@ class Ruts {
   void press_column(const PushedSoil::Place& place, double pressure, const Press& press);
 
   heightfield::Ground& ground_;
-  PushedSoil pushed_;                      ///< empty between two calls
-  std::set<std::int64_t> under_;           ///< columns under the tyres pressed so far in this call
-  std::map<std::int64_t, Memory> memory_;  ///< by iy * nx + ix, ordered for repeatability
-  std::vector<Bearing> bearing_;           ///< by wheel of the world
+  PushedSoil pushed_;             ///< empty between two calls
+  std::set<std::int64_t> under_;  ///< columns under the tyres pressed so far in this call
+  ColumnTable<Memory> memory_;
+  std::vector<Bearing> bearing_;  ///< by wheel of the world
 };
 
 }  // namespace navvy::coupling

@@ -2,12 +2,10 @@
 // Ruts of crawlers: columns under a belt are pressed to the sinkage of their soil.
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <set>
 #include <vector>
 
 #include "core/archive.h"
+#include "coupling/column_table.h"
 #include "coupling/pushed_soil.h"
 #include "coupling/rut_memory.h"
 #include "heightfield/ground.h"
@@ -25,7 +23,8 @@ constexpr double kSinkSpeed = 0.2;  ///< of a belt into soil that gives way, at 
 class TrackRuts {
  public:
   /// The ground must outlive it.
-  explicit TrackRuts(heightfield::Ground& ground) : ground_(ground), pushed_(ground) {}
+  explicit TrackRuts(heightfield::Ground& ground)
+      : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
 
   /// Presses all patches of the world. No column sinks by more than `most` [m] at a time. Columns under belts are held
   /// until the next call, those of tyres besides unless the belts are `alone`.
@@ -38,8 +37,8 @@ class TrackRuts {
   void press_column(const PushedSoil::Place& place, double pressure, double most);
 
   heightfield::Ground& ground_;
-  PushedSoil pushed_;                         // empty between two calls
-  std::map<std::int64_t, RutMemory> memory_;  // by iy * nx + ix, ordered for repeatability
+  PushedSoil pushed_;  // empty between two calls
+  ColumnTable<RutMemory> memory_;
 };
 
 }  // namespace navvy::coupling

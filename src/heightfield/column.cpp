@@ -18,6 +18,8 @@ constexpr float kSameSpecificVolume = 1e-3f;
 constexpr float kSameShear = 0.05f;
 // Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
 constexpr float kFullShear = 4.0f;
+// Less than this of a drop is what the subtraction of doubles left of it, and less than a unit of mass is thick [m].
+constexpr double kNoDrop = 1e-9;
 // Past this many layers alike neighbours are united. tuned: Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
@@ -63,6 +65,33 @@ void split(Column& column, std::size_t i, double top, const UnitThickness& unit)
   column.insert(column.begin() + static_cast<std::ptrdiff_t>(i) + 1, upper);
 }
 
+// See compact.
+void press(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
+  for (std::size_t i = column.size(); i-- > 0 && drop > kNoDrop;) {
+    // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
+    if (thickness(column[i], unit) > 1.5 * zone) {
+      split(column, i, zone, unit);
+      ++i;
+    }
+    // From the surface down, until the drop is used up or everything is as dense as it gets.
+    Layer& layer = column[i];
+    if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
+    const double old = thickness(layer, unit);
+    const double least = old * (static_cast<double>(min_specific_volume) / layer.specific_volume);
+    const double target = std::max(old - drop, least);
+    layer.specific_volume =
+        target == least ? min_specific_volume : static_cast<float>(layer.specific_volume * (target / old));
+    drop -= old - target;
+  }
+  // A split may have left nothing of a layer, and splits of many passes add up.
+  std::erase_if(column, [](const Layer& layer) { return layer.mass == 0; });
+  while (column.size() > kMostLayers) {
+    const std::size_t before = column.size();
+    shorten(column);
+    if (column.size() == before) break;
+  }
+}
+
 }  // namespace
 
 void take_above(Column& column, double height, const UnitThickness& unit, std::vector<Layer>& taken) {
@@ -98,29 +127,11 @@ void put(Column& column, const Layer& layer) {
 }
 
 void compact(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
-  for (std::size_t i = column.size(); i-- > 0 && drop > 0;) {
-    // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
-    if (thickness(column[i], unit) > 1.5 * zone) {
-      split(column, i, zone, unit);
-      ++i;
-    }
-    // From the surface down, until the drop is used up or everything is as dense as it gets.
-    Layer& layer = column[i];
-    if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
-    const double old = thickness(layer, unit);
-    const double least = old * (static_cast<double>(min_specific_volume) / layer.specific_volume);
-    const double target = std::max(old - drop, least);
-    layer.specific_volume =
-        target == least ? min_specific_volume : static_cast<float>(layer.specific_volume * (target / old));
-    drop -= old - target;
-  }
-  // A split may have left nothing of a layer, and splits of many passes add up.
-  std::erase_if(column, [](const Layer& layer) { return layer.mass == 0; });
-  while (column.size() > kMostLayers) {
-    const std::size_t before = column.size();
-    shorten(column);
-    if (column.size() == before) break;
-  }
+  // Splits may take several times the layers that are left in the end, and a column would keep that room.
+  thread_local Column work;
+  work = column;
+  press(work, drop, zone, min_specific_volume, unit);
+  column = work;
 }
 
 }  // namespace navvy::heightfield

@@ -46,7 +46,8 @@ double passive_resistance(const SoilState& ground, double width, double depth);
 ///
 /// From where the rim meets the soil of a depth d, at the angle theta, cos theta = 1 - (z - d) / r, to below the axle
 /// it pushes it ahead by j = r (advance theta - sin theta), and that soil resists by the share 1 - exp(-j / K) [Janosi
-/// 1961]. A rim that slips pushes nothing ahead of it, a locked one all.
+/// 1961]. A rim that slips pushes nothing ahead of it, a locked one all. One that turns pushes with what of it lies
+/// below its axle.
 double bulldozing(const SoilState& ground, double width, double radius, double depth, double advance);
 
 }  // namespace navvy::terramechanics

@@ -22,6 +22,13 @@ struct SoilState {
   double density() const { return soil != nullptr ? soil->bank_density / volume_ratio : 0; }
 };
 
+/// How far a tyre has pressed the ground since it came there. Rolling on, it does that again on each new square metre;
+/// nothing where the ground bore as much before.
+struct Sinking {
+  double work = 0;   ///< [J/m2]
+  double depth = 0;  ///< [m]
+};
+
 /// All of one place at once.
 struct GroundState {
   double height = 0;            ///< of the surface in W [m]
@@ -58,11 +65,10 @@ class GroundQuery {
     return {};
   }
 
-  /// Work that sinking took here since the tyre that stands on it came [J/m2]; 0 where none does. Rolling on, it takes
-  /// this again from each new square metre.
-  virtual double sinking_work(double x, double y) const {
+  /// What sinking took here since the tyre that stands on it came.
+  virtual Sinking sinking(double x, double y) const {
     (void)x, (void)y;
-    return 0;
+    return {};
   }
 
   /// Where its heights are given; between them rigid bodies meet flat triangles.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terramechanics/bearing.h"
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre_patch.h"
 #include "terramechanics/tyre_track.h"
@@ -12,6 +13,7 @@ namespace navvy::terramechanics {
 namespace {
 
 constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
+constexpr double kPressedAhead = 0.1;     // of the radius; at 5 m/s a tyre of 0.5 m comes so far between two presses
 constexpr double kArcStep = radians(15);  // so that 0.1 m cells are not stepped over near the ground
 
 struct Track {
@@ -88,15 +90,40 @@ Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double 
   return shear_force(tyre, 0.5, slip, rolling, soil, rim_mass, dt, bristle, sheared);
 }
 
-/// Compaction resistance of one track [N] at `speed` ahead [m/s]: R = b int p dz [Bekker 1969], the work of sinking a
-/// way further. Smooth through zero, within what the step can bear.
-double compaction(const scene::Wheel& tyre, double work, double normal_force, double speed, double rim_mass,
-                  double dt) {
-  if (!(work > 0)) return 0;
+/// How one track rolls.
+struct Roll {
+  Vec3 p_W = Vec3::Zero();        // where it stands [m]
+  Vec3 forward = Vec3::UnitX();   // unit, of the wheel
+  double speed = 0, rolling = 0;  // ahead, of the wheel and of its rim on it [m/s]
+  double deflection = 0;          // [m]
+};
+
+/// Depth [m] of ground that the tread meets where it rolls to: what the tyre has sunk since it came, unless the ground
+/// before it, seen along the wheel, lies as low: back into its own rut it meets none. As wheels do not stand quite
+/// along the ground, half of the depth is enough.
+double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const GroundQuery& ground, SoilState& met) {
+  // Beyond the columns that are pressed for the tread where it is and where it will be soon, seen between their
+  // middles.
+  const double beyond = 0.5 * chord_length(tyre.radius, roll.deflection + sunk) + kPressedAhead * tyre.radius +
+                        1.5 * ground.lattice().spacing;
+  const Vec3 p = roll.p_W + (roll.speed > 0 ? beyond : -beyond) * roll.forward;
+  met = ground.soil(p.x(), p.y());
+  return std::clamp(2 * (ground.height(p.x(), p.y()) - p.z()), 0.0, sunk);
+}
+
+/// What soil ahead takes of one track's push [N]: compaction, R = b int p dz [Bekker 1969], the work of sinking a way
+/// further, and what the rim pushes ahead of it (bulldozing). Smooth through zero, within what the step can bear.
+double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground, double normal_force,
+                       double rim_mass, double dt) {
+  const Sinking sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
+  if (!(sunk.work > 0)) return 0;
   const double width = tyre.twin_spacing > 0 ? tyre.width : 0.5 * tyre.width;
-  const double resistance = std::min(width * work, normal_force);
+  SoilState met;
+  const double depth = depth_met(tyre, roll, sunk.depth, ground, met);
+  const double pushes = bulldozing(met, width, tyre.radius, depth, roll.speed / roll.rolling);
+  const double resistance = std::min(width * sunk.work + pushes, normal_force);
   const double band = std::max(0.05, resistance * dt / (0.15 * rim_mass));
-  return resistance * std::tanh(speed / band);
+  return resistance * std::tanh(roll.speed / band);
 }
 
 /// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
@@ -152,9 +179,9 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec2 f = tangential_force(tyre, soil, normal_force, slip, rolling, rim_mass, dt, bristle,
                                     state.sheared[static_cast<std::size_t>(t)]);
     const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
-    const double work = ground.sinking_work(center.x() + p.x(), center.y() + p.y());
+    const Roll roll{center + p, motion.X_WWheel.linear().col(0), v_carrier.dot(ahead), rolling, track.deflection};
     // Soil's pressure points to the axle and turns nothing.
-    out.force_W += force - compaction(tyre, work, normal_force, v_carrier.dot(ahead), rim_mass, dt) * ahead;
+    out.force_W += force - soil_resistance(tyre, roll, ground, normal_force, rim_mass, dt) * ahead;
     out.moment_W += p.cross(force);
     out.deflection = std::max(out.deflection, track.deflection);
 

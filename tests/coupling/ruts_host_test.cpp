@@ -154,22 +154,24 @@ TEST(Ruts, PressedOverTimeEndsWhereOnePressDoes) {
   EXPECT_NEAR(deepest(slowly), deepest(once), 5e-5);
 }
 
-TEST(Ruts, TellTheWorkOfSinkingWhereATyreStands) {
+TEST(Ruts, TellTheWorkAndTheDepthOfSinkingWhereATyreStands) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
-  EXPECT_EQ(ruts.work(3.2, 3.36), 0);
+  EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
   const scene::Soil& loam = ground.setup().soils[0];
   const double z = deepest(ground);
   // int p dz of Bekker's law; 1e-4: heights are whole mass quanta.
   const double expected = terramechanics::plate_work(loam, z, 0.28);
-  EXPECT_NEAR(ruts.work(3.2, 3.36), expected, 1e-4 * expected);
-  EXPECT_EQ(ruts.work(4.5, 3.36), 0);
-  // Away and back: the second passage takes no work where the first one bore as much.
+  EXPECT_NEAR(ruts.sinking(3.2, 3.36).work, expected, 1e-4 * expected);
+  EXPECT_NEAR(ruts.sinking(3.2, 3.36).depth, z, 1e-4 * z);
+  EXPECT_EQ(ruts.sinking(4.5, 3.36).work, 0);
+  // Away and back: the second passage takes nothing where the first one bore as much.
   ruts.press({{twin_tyre(), loaded_at(4.5, 3.2, 45e3)}});
-  EXPECT_EQ(ruts.work(3.2, 3.36), 0);
+  EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
-  EXPECT_EQ(ruts.work(3.2, 3.36), 0);
+  EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
+  EXPECT_EQ(ruts.sinking(3.2, 3.36).depth, 0);
 }
 
 TEST(Ruts, SinkDeeperUnderAWheelThatSlips) {

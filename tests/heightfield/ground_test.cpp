@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -158,6 +159,21 @@ TEST(Ground, CompactsTheTopFirstAndKeepsMass) {
   ground.compact_to(30, 30, -100);
   for (const Layer& layer : ground.layers(30, 30)) EXPECT_GE(layer.specific_volume, 0.85f);
   EXPECT_EQ(total(ground.layers(30, 30)), mass);
+}
+
+TEST(Ground, CompactsNoDeeperThanTheDropReaches) {
+  // A pressed zone over what nobody pressed: no layers are cut of that. Near height 0 drops have finer digits than
+  // what is left of a layer, so that their difference does not come out as nothing.
+  Ground::Setup level = wavy_setup();
+  level.surface = [](int, int) { return 0.0; };
+  Ground ground(std::move(level));
+  Random random(3);
+  for (int iy = 0; iy < 20; ++iy)
+    for (int ix = 0; ix < 20; ++ix) {
+      const std::size_t before = ground.layers(ix, iy).size();
+      for (int n = 0; n < 5; ++n) ground.compact_to(ix, iy, ground.height(ix, iy) - random.uniform(0.001, 0.004));
+      EXPECT_LE(ground.layers(ix, iy).size(), before + 1) << ix << " " << iy;
+    }
 }
 
 TEST(Ground, StaysShortUnderEndlessEdits) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "terramechanics/bearing.h"
 #include "terramechanics/grounds.h"
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre.h"
@@ -42,6 +43,22 @@ TyreForce steady(const GroundQuery& ground, const Vec2& carrier, double rim, dou
   for (int i = 0; i < seconds / kStep; ++i) out = tyre_force(twin(), motion, ground, kStep, state);
   return out;
 }
+
+/// A rut that this tyre presses into level ground: it has sunk by `z` [m], and from `from` [m] on, either way, nobody
+/// has been. What pressing takes is told as so little that it does not count.
+class FreshRut final : public GroundQuery {
+ public:
+  FreshRut(const scene::Soil& soil, double z, double from = 0.47) : soil_(soil), z_(z), from_(from) {}
+  double height(double x, double) const override { return std::abs(x) < from_ ? 0.0 : z_; }
+  Vec3 normal(double, double) const override { return Vec3::UnitZ(); }
+  SoilState soil(double, double) const override { return {&soil_, 1}; }
+  Sinking sinking(double, double) const override { return {1e-9, z_}; }
+  GroundLattice lattice() const override { return {Vec2::Zero(), 0.1}; }
+
+ private:
+  const scene::Soil& soil_;
+  double z_, from_;
+};
 
 double limit_of(const scene::Soil& soil, double load) {
   const double pressure = tyre_patch(twin(), soil, load).pressure;
@@ -145,6 +162,45 @@ TEST(TyreOnSoil, InTheAirForgets) {
   state.sheared = {0.1, 0.1};
   EXPECT_TRUE(tyre_force(twin(), motion, level(loam), kStep, state).force_W.isZero());
   EXPECT_EQ(state.sheared[0], 0);
+}
+
+/// How much less it pulls [N] than on the same ground where it has not sunk.
+double held_back(const GroundQuery& rut, const scene::Soil& soil, double speed, double rim) {
+  return steady(level(soil), Vec2(speed, 0), rim).force_W.x() - steady(rut, Vec2(speed, 0), rim).force_W.x();
+}
+
+TEST(TyreOnSoil, IsHeldBackByWhatItPushesAhead) {
+  const scene::Soil loam;
+  const scene::Wheel tyre = twin();
+  const double z = 0.08;
+  const FreshRut rut(loam, z);
+  const auto pushes = [&](double advance) { return 2 * bulldozing({&loam, 1}, tyre.width, tyre.radius, z, advance); };
+  const double all = 2 * passive_resistance({&loam, 1}, tyre.width, z);
+  // 1e-6: the tanh through rest is 1 at this speed up to rounding, forces are differences of larger ones.
+  EXPECT_NEAR(held_back(rut, loam, 1, 1), pushes(1), 1e-6 * all);  // free rolling: a fifth to a quarter
+  EXPECT_GT(pushes(1), 0.15 * all);
+  EXPECT_LT(pushes(1), 0.3 * all);
+  EXPECT_NEAR(held_back(rut, loam, 1, 0), all, 1e-6 * all);  // locked: all
+  EXPECT_NEAR(held_back(rut, loam, 0.7, 1), 0, 1e-6 * all);  // driven, slips away: nothing
+  EXPECT_NEAR(held_back(rut, loam, -1, -1), -pushes(1), 1e-6 * all);
+}
+
+TEST(TyreOnSoil, PushesNothingAheadWhereItMeetsNothingHigher) {
+  const scene::Soil loam;
+  const FreshRut along(loam, 0.08, 1e3);  // back into its own rut
+  EXPECT_NEAR(held_back(along, loam, 1, 1), 0, 1e-3);
+  const FreshRut second(loam, 1e-4, 0.3);  // one that bore nearly as much before
+  EXPECT_LT(held_back(second, loam, 1, 0), 0.02 * held_back(FreshRut(loam, 0.08), loam, 1, 0));
+}
+
+TEST(TyreOnSoil, IsNotPushedBackAtRestNorHarderThanItPresses) {
+  scene::Soil rigid;
+  rigid.cohesion = rigid.residual_cohesion = 1e6;
+  const FreshRut rut(rigid, 0.08);
+  EXPECT_EQ(held_back(rut, rigid, 0, 0), 0);
+  const double load = steady(rut, Vec2(1, 0), 0).force_W.z();
+  EXPECT_GT(2 * passive_resistance({&rigid, 1}, twin().width, 0.08), 2 * load);
+  EXPECT_LE(held_back(rut, rigid, 1, 0), load);
 }
 
 }  // namespace
