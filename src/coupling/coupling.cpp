@@ -23,7 +23,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       solver_(solver),
       ground_(ground),
       ruts_(ground),
-      track_ruts_(ground),
+      track_ruts_(ground, ruts_),
       view_(ground, ground.setup().soils, &ruts_) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
@@ -171,11 +171,10 @@ void ToolLoad::visit(Archive& a) {
 }
 
 void Coupling::visit(Archive& a) {
-  a.section("coupling", 5, [&] {
+  a.section("coupling", 6, [&] {
     a("steps", steps_);
     a.fixed("tools", tools_);
     a("ruts", ruts_);
-    if (has_tracks_) a("track_ruts", track_ruts_);
   });
 }
 

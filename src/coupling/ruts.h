@@ -51,6 +51,9 @@ class Ruts {
   /// What pressing the column at x, y took since a tyre came onto it; nothing where none stands.
   terramechanics::Sinking sinking(double x, double y) const;
 
+  /// What a column of the site has borne of tyres and belts, made if it has borne nothing. Good until the next call.
+  RutMemory& borne(int ix, int iy) { return memory_.at(ix, iy).borne; }
+
   void visit(Archive& a);
 
  private:

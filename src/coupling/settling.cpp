@@ -30,7 +30,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
     return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) - of.begin());
   });
   Ruts ruts(ground);
-  TrackRuts track_ruts(ground);
+  TrackRuts track_ruts(ground, ruts);
   const GroundView view(ground, ground.setup().soils, &ruts);
   const double dt = scene.solver.max_step;
   const int steps = static_cast<int>(std::ceil(time / dt));

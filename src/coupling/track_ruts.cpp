@@ -17,7 +17,7 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   const int ix = place.ix, iy = place.iy;
   const double width = place.width;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
-  RutMemory& memory = memory_.at(ix, iy);
+  RutMemory& memory = ruts_.borne(ix, iy);
   const double height = ground_.height(ix, iy);
   memory.find(height);
   const auto [before, drop] = memory.press(soil, width, height, pressure, most);
@@ -63,10 +63,6 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
     ground_.hold(std::move(columns));
   else
     ground_.hold_more(columns);
-}
-
-void TrackRuts::visit(Archive& a) {
-  a.section("track_ruts", 2, [&] { a("memory", memory_); });
 }
 
 }  // namespace navvy::coupling

@@ -16,9 +16,11 @@ ShearStrength rim_strength(const scene::Soil& soil) {
 ShearStrength surface_strength(const SoilState& ground) {
   if (ground.soil == nullptr) return {};
   const scene::Soil& soil = *ground.soil;
-  // A soil that does not swell is as strong loose as in bank state.
+  // A soil that does not swell is as strong loose as in bank state; one that does loses what the law takes
+  // [docs/soil.md, cohesion].
   const double swollen = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
-  return {soil.cohesion + swollen * (soil.residual_cohesion - soil.cohesion), std::tan(soil.friction_angle)};
+  const double loose = std::min(soil.loose_cohesion, soil.residual_cohesion);
+  return {soil.cohesion + swollen * (loose - soil.cohesion), std::tan(soil.friction_angle)};
 }
 
 double mobilised_share(double displacement, double janosi_k) {

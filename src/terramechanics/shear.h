@@ -23,7 +23,7 @@ struct ShearStrength {
 ShearStrength rim_strength(const scene::Soil& soil);
 
 /// Strength of a surface of soil under rubber or grousers, which hold the soil between them: phi with the cohesion of
-/// its density state, intact at bank density and above, residual once swollen, in proportion between. Nothing on a firm
+/// its density state, intact at bank density and above, loose once swollen, in proportion between. Nothing on a firm
 /// floor.
 ShearStrength surface_strength(const SoilState& ground);
 

@@ -33,7 +33,8 @@ terramechanics::BeltPatch patch_at(double x, double y, double load) {
 
 TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
   heightfield::Ground ground = flat_loam();
-  TrackRuts ruts(ground);
+  Ruts tyres(ground);
+  TrackRuts ruts(ground, tyres);
   const double pressure = 12e3 / (0.4 * 0.6);
   const double z = terramechanics::plate_sinkage(ground.setup().soils[0], pressure, 0.6);
   for (int pass = 0; pass < 3; ++pass) {
@@ -56,7 +57,8 @@ TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
 
 TEST(TrackRuts, RaiseTheirEdgesByWhatTheGroundCannotBear) {
   heightfield::Ground ground = flat_loam();
-  TrackRuts ruts(ground);
+  Ruts tyres(ground);
+  TrackRuts ruts(ground, tyres);
   const Vec2i under = ground.column_at(3.2, 3.25), beside = ground.column_at(3.2, 3.55);
   const double before = ground.height(beside.x(), beside.y());
   // 50 kPa the loam bears as a foundation, 0.5 MPa it does not.
@@ -71,9 +73,35 @@ TEST(TrackRuts, RaiseTheirEdgesByWhatTheGroundCannotBear) {
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }
 
+TEST(TrackRuts, PressTyresRutsOnlyByWhatTheyPressMoreAndTyresTheirs) {
+  // Wheels and belts of one lane: the deeper of the two is left, in either order.
+  scene::Wheel wheel;
+  vehicle::WheelState under_load;
+  under_load.X_WWheel.translation() = Vec3(3.2, 3.2, 0.5);
+  under_load.force_W = Vec3(0, 0, 20e3);
+  const auto depth = [&](const std::vector<bool>& belt_first) {
+    heightfield::Ground ground = flat_loam();
+    Ruts tyres(ground);
+    TrackRuts belts(ground, tyres);
+    for (const bool belt : belt_first)
+      if (belt)
+        belts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+      else
+        tyres.press({{wheel, under_load}});
+    const Vec2i at = ground.column_at(3.2, 3.2);
+    return -ground.height(at.x(), at.y());
+  };
+  const double belt = depth({true}), tyre = depth({false});
+  EXPECT_GT(tyre, 1.5 * belt);
+  // Plates of two widths: a pressure is remembered, and sinks the wider one a little more.
+  EXPECT_NEAR(depth({true, false}), tyre, 0.02 * tyre);
+  EXPECT_NEAR(depth({false, true}), tyre, 0.02 * tyre);
+}
+
 TEST(TrackRuts, HoldWhatTyresHoldBesides) {
   heightfield::Ground ground = flat_loam();
-  TrackRuts ruts(ground);
+  Ruts tyres(ground);
+  TrackRuts ruts(ground, tyres);
   const Vec2i tyre = ground.column_at(1, 1), belt = ground.column_at(3.2, 3.2);
   ground.hold({static_cast<std::int64_t>(tyre.y()) * ground.nx() + tyre.x()});
   ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, false);
@@ -85,7 +113,8 @@ TEST(TrackRuts, HoldWhatTyresHoldBesides) {
 
 TEST(TrackRuts, GiveWayNoFasterThanTold) {
   heightfield::Ground ground = flat_loam();
-  TrackRuts ruts(ground);
+  Ruts tyres(ground);
+  TrackRuts ruts(ground, tyres);
   const Vec2i at = ground.column_at(3.2, 3.2);
   ruts.press({patch_at(3.2, 3.2, 12e3)}, 0.002, true);
   EXPECT_NEAR(ground.height(at.x(), at.y()), -0.002, 1e-5);
@@ -96,9 +125,10 @@ TEST(TrackRuts, GiveWayNoFasterThanTold) {
 
 TEST(TrackRuts, RememberThroughASnapshot) {
   heightfield::Ground ground = flat_loam();
-  TrackRuts ruts(ground), resumed(ground);
+  Ruts tyres(ground), tyres_resumed(ground);
+  TrackRuts ruts(ground, tyres), resumed(ground, tyres_resumed);
   ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
-  load_saved(saved(ruts), resumed);
+  load_saved(saved(tyres), tyres_resumed);
   const Vec2i at = ground.column_at(3.2, 3.2);
   const double height = ground.height(at.x(), at.y());
   resumed.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);

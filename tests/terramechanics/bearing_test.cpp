@@ -40,7 +40,7 @@ TEST(Bearing, FactorsAreTerzaghis) {
 TEST(Bearing, OfClayWithoutFrictionIsItsCohesionAndWhatLiesBeside) {
   scene::Soil clay;
   clay.friction_angle = 0;
-  clay.cohesion = 12e3, clay.residual_cohesion = 3e3;
+  clay.cohesion = 12e3, clay.residual_cohesion = 4e3, clay.loose_cohesion = 3e3;
   const double weight = clay.bank_density * kGravity;
   EXPECT_NEAR(bearing_capacity({&clay, 1}, 0.5, 0.2), 5.712 * 12e3 + 0.2 * weight, 20);
   // Loose: remoulded, two thirds of it.

@@ -106,12 +106,16 @@ TEST(Belt, GripsAFloorByCoulombAndNoMore) {
   EXPECT_NEAR(force.force_W.x(), -force.force_W.y(), 0.02 * 0.7 * 50e3);
 }
 
-TEST(Belt, OnLooseSoilHasTheRemouldedCohesion) {
+TEST(Belt, OnLooseSoilHasTheLooseCohesion) {
   const scene::Wheel wheel = belt();
-  const scene::Soil soil = clay();
+  scene::Soil soil = clay();
+  soil.loose_cohesion = 1e3;
   EXPECT_DOUBLE_EQ(belt_strength(wheel, {&soil, 1.0}).cohesion, 12e3);
   EXPECT_DOUBLE_EQ(belt_strength(wheel, {&soil, 0.95}).cohesion, 12e3);
-  EXPECT_NEAR(belt_strength(wheel, {&soil, 1.1}).cohesion, 7.5e3, 1e-6);
+  EXPECT_NEAR(belt_strength(wheel, {&soil, 1.1}).cohesion, 6.5e3, 1e-6);
+  EXPECT_DOUBLE_EQ(belt_strength(wheel, {&soil, 1.2}).cohesion, 1e3);
+  // At most the residual one, as in the law.
+  soil.loose_cohesion = 5e3;
   EXPECT_DOUBLE_EQ(belt_strength(wheel, {&soil, 1.2}).cohesion, 3e3);
   EXPECT_DOUBLE_EQ(belt_strength(wheel, {}).slope, 0.7);
 }

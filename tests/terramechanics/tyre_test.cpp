@@ -102,7 +102,7 @@ TEST(TyreFriction, IsTheWeakerOfRubberAndSoil) {
   tyre.friction = 0.7;
   scene::Soil clay;
   clay.friction_angle = radians(20);
-  clay.cohesion = 20e3, clay.residual_cohesion = 5e3, clay.swell = 1.2;
+  clay.cohesion = 20e3, clay.residual_cohesion = 6e3, clay.loose_cohesion = 5e3, clay.swell = 1.2;
   EXPECT_EQ(tyre_friction(tyre, {}, 1e5), 0.7);
   EXPECT_NEAR(tyre_friction(tyre, {&clay, 1}, 1e5), std::tan(radians(20)) + 0.2, 1e-12);
   EXPECT_NEAR(tyre_friction(tyre, {&clay, 1.1}, 1e5), std::tan(radians(20)) + 0.125, 1e-12);
