@@ -50,6 +50,9 @@ class Ruts {
   /// Work per area [J/m2] that pressing the column at x, y took since a tyre came onto it; 0 where none stands.
   double work(double x, double y) const;
 
+  /// Load [N] that wheel `i` of the last call's presses with, 0 before.
+  double load(std::size_t i) const { return i < bearing_.size() ? bearing_[i].load : 0; }
+
   void visit(Archive& a);
 
  private:
