@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
+#include "coupling/footings.h"
 #include "coupling/hitching.h"
 #include "coupling/placing.h"
 
@@ -115,7 +116,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     motions[i].w_WT = link.w_WL;
     motions[i].inverse_mass = engine(tool.machine).inverse_mass(index(tool.machine), tool.link);
   }
-  solver_.step(dt, motions, impulses);
+  solver_.step(dt, motions, impulses, footings(dt));
   const double blend = 1 - std::exp(-2 * kPi * kForceCutoff * dt);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     ToolLoad& tool = tools_[i];
@@ -130,6 +131,22 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
       engine(tool.machine)
           .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W, dt);
   }
+}
+
+std::vector<soil::Footing> Coupling::footings(double dt) const {
+  std::vector<soil::Footing> out;
+  // Tyres as ruts number them.
+  std::size_t tyre = 0;
+  for (std::size_t m = 0; m < placed_.size(); ++m) {
+    const scene::Machine& machine = world_.machines[m].machine;
+    for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+      const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
+      // What moves as it is told stands on nothing.
+      if (machine.kinematic) continue;
+      add_footings(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
+    }
+  }
+  return out;
 }
 
 void Coupling::press_ruts(double dt) {

@@ -71,6 +71,8 @@ class Coupling {
   };
   /// Tells the dynamic engine where kinematic machines are.
   void show_movers();
+  /// Wheels and belts of machines with masses, which bear on the ground.
+  std::vector<soil::Footing> footings(double dt) const;
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 

@@ -54,6 +54,9 @@ class Ruts {
   /// What a column of the site has borne of tyres and belts, made if it has borne nothing. Good until the next call.
   RutMemory& borne(int ix, int iy) { return memory_.at(ix, iy).borne; }
 
+  /// Load [N] that wheel `i` of the last call's presses with, 0 before.
+  double load(std::size_t i) const { return i < bearing_.size() ? bearing_[i].load : 0; }
+
   void visit(Archive& a);
 
  private:

@@ -5,19 +5,13 @@
 #include <tuple>
 
 namespace navvy::heightfield {
-namespace {
-
-constexpr double kGap = 2.0;  // [cells] what hangs farther above the surface is in the air
-
-}  // namespace
-
 LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
   // Soil beyond the site's edge has no column to lie on.
   std::erase_if(grains, [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
   std::sort(grains.begin(), grains.end(), [](const LooseGrain& a, const LooseGrain& b) {
     return std::tie(a.iy, a.ix, a.z) < std::tie(b.iy, b.ix, b.z);
   });
-  const double area = columns.cell() * columns.cell(), gap = kGap * columns.cell();
+  const double area = columns.cell() * columns.cell(), gap = kLooseGap * columns.cell();
   for (std::size_t i = 0; i < grains.size();) {
     const LooseGrain& first = grains[i];
     // One column: from its resting surface up.

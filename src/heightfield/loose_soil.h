@@ -9,6 +9,9 @@
 
 namespace navvy::heightfield {
 
+/// A particle this far above the surface reached so far has a gap under it [cells] [docs/exchange.md, maps].
+inline constexpr double kLooseGap = 2.0;
+
 /// A particle as a heightfield sees it. Who owns particles hands them in like this.
 struct LooseGrain {
   int ix = 0, iy = 0;         ///< column above which it is; others than the site's are left out

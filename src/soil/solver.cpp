@@ -118,7 +118,9 @@ double Solver::State::tool_speed(const ToolMotion& motion) const {
   return fastest;
 }
 
-void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
+void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
+                  std::span<const Footing> footings) {
+  state_->footings = footings;
   double fastest = 0;
   for (const ToolMotion& motion : motions) {
     state_->check_motion(motion);
@@ -241,13 +243,13 @@ void Solver::State::exchange_if_due(double dt, double tool_speed, std::span<cons
   // The next chance comes after the transfer that begins now.
   const double ahead = std::min(tool_speed * std::max(dt, transfer_length), kMostHeld * cell);
   if (!first_check && steps_since_check < kCheckSteps && travel + ahead <= kCheckTravel * cell) return;
-  check_exchange(since_check, motions);
+  check_exchange(since_check, dt, motions);
   first_check = false;
   since_check = travel = 0;
   steps_since_check = 0;
 }
 
-void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> motions) {
+void Solver::State::check_exchange(double elapsed, double dt, std::span<const ToolMotion> motions) {
   StageClock clock(times, "exchange");
   std::vector<ToolRegion> regions;
   for (const ToolMotion& motion : motions) {
@@ -268,7 +270,9 @@ void Solver::State::check_exchange(double elapsed, std::span<const ToolMotion> m
   for (Particle& p : all) p = in_cell_block(p);
   settle_tools(elapsed, motions, regions, all);
   for (ToolRegion& region : regions) region.seated = seats[static_cast<std::size_t>(region.tool)].taken;
-  Exchange::Result result = exchange.check(all, regions, time, elapsed);
+  // The next check waits for the end of a transfer.
+  const double until_next = (kCheckSteps + 1) * dt + transfer_length;
+  Exchange::Result result = exchange.check(all, regions, time, elapsed, {footings, until_next});
   stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
   unseat(regions, result.born);

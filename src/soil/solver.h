@@ -13,6 +13,7 @@
 #include "scene/machine.h"
 #include "scene/scene.h"
 #include "soil/energy.h"
+#include "soil/exchange/footing.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 #include "soil/tools/tool_motion.h"
@@ -72,9 +73,11 @@ class Solver {
   /// Largest stable step at the given fastest speed of tools [s].
   double step_limit(double tool_speed) const;
 
-  /// Advances soil by dt. `impulses` has one entry per motion.
+  /// Advances soil by dt. `impulses` has one entry per motion. Awake soil that lies under `footings`, or will before
+  /// the next check of the exchange, is booked into the columns, which bear them [docs/exchange.md, footings].
   /// @throws SimulationError with step and cause when a value is not finite or the ledger opens.
-  void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+  void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
+            std::span<const Footing> footings = {});
 
   /// Turns every column of the rectangle, from W height z_bottom up, into particles now (tests, rigs, first pictures).
   void wake(const heightfield::CellRect& rect, double z_bottom);

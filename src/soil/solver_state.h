@@ -27,7 +27,7 @@ struct Solver::State {
   void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
-  void check_exchange(double elapsed, std::span<const ToolMotion> motions);
+  void check_exchange(double elapsed, double dt, std::span<const ToolMotion> motions);
   /// Tools that stand take seats; `all`: every particle.
   void settle_tools(double elapsed, std::span<const ToolMotion> motions, std::span<const ToolRegion> regions,
                     std::span<const Particle> all);
@@ -84,6 +84,7 @@ struct Solver::State {
   MassCount mass_count;
 
   std::vector<Seat> seats;             ///< by tool
+  std::span<const Footing> footings;   ///< of the step under way
   std::vector<Particle> unplaced;      ///< all particles, once the device could not take them: the run is over
   TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way

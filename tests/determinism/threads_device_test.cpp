@@ -32,5 +32,19 @@ TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
   EXPECT_EQ(first_difference(whole, resumed, from), "");
 }
 
+/// Wheels on soil that is awake, which becomes columns under them.
+TEST(Threads, OneAndTwoThreadsBearAWheelOnAwakeSoilWithTheSameBits) {
+  const std::string scene = navvy::source_dir() + "/tests/determinism/spoil.sdf";
+  const std::string snapshot = (run_folder("snapshot") / "spoil.snapshot").string();
+  std::filesystem::create_directories(run_folder("snapshot"));
+  const HashedRun one =
+      hashed_run("one", scene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.3"}, threads(1));
+  const HashedRun two = hashed_run("two", scene, {"--duration", "4"}, threads(2));
+  EXPECT_EQ(first_difference(one, two), "");
+  const HashedRun resumed = hashed_run("resumed", scene, {"--duration", "4", "--resume", snapshot}, threads(2));
+  ASSERT_FALSE(resumed.at.empty());
+  EXPECT_EQ(first_difference(one, resumed, resumed.at.begin()->first), "");
+}
+
 }  // namespace
 }  // namespace navvy::determinism

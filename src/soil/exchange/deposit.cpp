@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "soil/layout.h"
-
 namespace navvy::soil {
 namespace {
 
@@ -15,10 +13,6 @@ constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
 constexpr double kHollowRest = 5;
 /// A tool this far above the soil leaves it free to settle [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
-/// Where particles crowd into less room than their state asks for (beside plates the tracked volume misses up to half
-/// of it), a block may rise this much above its surface; the rest is stored as density, down to the limit below.
-/// tuned: a blade drawn 2 m through sand leaves every block but the three it stood in within 0.85 .. 1.15.
-constexpr double kMostRise = 1.15, kCrowded = 0.8;
 /// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
 constexpr double kLeastRoom = 4;
 /// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
@@ -114,30 +108,6 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
   return true;
 }
 
-std::vector<Depositor::Share> Depositor::shares(Grains grains) const {
-  // Few soils meet in a block, so the list is searched.
-  std::vector<Share> out;
-  for (const std::uint32_t i : grains) {
-    const Particle& p = index_[i];
-    auto share = std::find_if(out.begin(), out.end(), [&](const Share& s) { return s.soil == p.soil; });
-    if (share == out.end()) {
-      out.push_back({p.soil});
-      share = out.end() - 1;
-    }
-    share->mass += p.mass;
-    share->volume += static_cast<double>(p.mass) * static_cast<double>(p.j0);
-    share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
-    share->height += static_cast<double>(p.mass) * height_in_cells(p);
-  }
-  // What lay lower on average stays below; equal heights are told apart by the soil's number, so that the order is the
-  // same in every run.
-  std::sort(out.begin(), out.end(), [](const Share& a, const Share& b) {
-    const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
-    return za != zb ? za < zb : a.soil < b.soil;
-  });
-  return out;
-}
-
 /// Where a column's surface is with what lies on it [cells above datum].
 double Depositor::surface(int ix, int iy) const {
   return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
@@ -212,11 +182,11 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
 }
 
 // Volume of the soils' density states over that under the surface, cliffs left out.
-double Depositor::crowding(const std::vector<Share>& shares, const Plan& plan) const {
+double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
   double state = 0, room = 0;
   // In cells: kMassQuantum turns quanta into kilograms, the bank density into volume, and the cell's cube into cells.
-  for (const Share& share : shares)
+  for (const SoilShare& share : shares)
     state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
     if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
@@ -224,23 +194,10 @@ double Depositor::crowding(const std::vector<Share>& shares, const Plan& plan) c
   return room > kLeastRoom ? state / room : 1.0;
 }
 
-// The soil's layer, still without mass; `rise`: how much its state stands over its surface.
-heightfield::Layer Depositor::layer_of(const Share& share, double rise) const {
-  const double mass = static_cast<double>(share.mass);
-  heightfield::Layer layer;
-  layer.soil = share.soil;
-  // The clamp is wide on purpose: a tighter one turns noise into volume [docs/exchange.md, decisions].
-  double state = std::clamp(share.volume / mass, DENSEST_STATE, ground_.setup().soils[share.soil].swell);
-  if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
-  layer.specific_volume = static_cast<float>(state);
-  layer.plastic_shear = static_cast<float>(share.shear / mass);
-  return layer;
-}
-
 // At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared out.
 void Depositor::book_column(int ix, int iy) {
-  for (const Share& share : shares(index_.column(ix, iy))) {
-    heightfield::Layer layer = layer_of(share, 1);
+  for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
+    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
@@ -250,41 +207,23 @@ void Depositor::book(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   const PlanGrid& grid = index_.grid();
   const std::array<std::int64_t, 16> weight = weights(plan, block);
-  // What rounding leaves is a few quanta of each soil; the column with the largest share takes them.
-  const std::size_t largest = static_cast<std::size_t>(std::max_element(weight.begin(), weight.end()) - weight.begin());
-  std::int64_t sum = 0;
-  for (const std::int64_t w : weight) sum += w;
 
   // Soil of columns at no cliff is mixed in one pool, as the iso-surface says where it goes.
   std::vector<std::uint32_t> pooled;
+  std::vector<SharedColumn> columns;
   for (std::size_t c = 0; c < 16; ++c) {
     const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
+    columns.push_back({ix, iy, weight[c]});
     const Grains grains = index_.column(ix, iy);
     if (plan.cliff[c])
       book_column(ix, iy);
     else
       pooled.insert(pooled.end(), grains.begin(), grains.end());
   }
-  const std::vector<Share> found = shares(pooled);
+  const std::vector<SoilShare> found = soil_shares(index_, pooled);
   const double rise = crowding(found, plan);
-  for (const Share& share : found) {
-    heightfield::Layer layer = layer_of(share, rise);
-    std::array<std::int64_t, 16> part{};
-    std::int64_t left = share.mass;
-    for (std::size_t c = 0; c < 16; ++c) {
-      // The product may need more than 64 bits; in doubles it would lose quanta.
-      __extension__ using Wide = __int128;
-      part[c] = static_cast<std::int64_t>(static_cast<Wide>(share.mass) * weight[c] / sum);
-      left -= part[c];
-    }
-    part[largest] += left;
-    for (std::size_t c = 0; c < 16; ++c) {
-      layer.mass = part[c];
-      const int place = static_cast<int>(c);
-      // Columns that get nothing are not touched, so that no empty layer is made.
-      if (layer.mass > 0) ground_.put(grid.column_x(key, place), grid.column_y(key, place), layer);
-    }
-  }
+  for (const SoilShare& share : found)
+    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, rise), share.mass, columns);
 }
 
 }  // namespace navvy::soil

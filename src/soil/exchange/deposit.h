@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "soil/exchange/deposit_shape.h"
+#include "soil/exchange/deposit_share.h"
 #include "soil/exchange/wake_rules.h"
 
 namespace navvy::soil {
@@ -50,11 +51,6 @@ class Depositor {
   std::vector<int> deposit(std::span<const int> blocks, const RestTimes& rest);
 
  private:
-  struct Share {  // of one soil of a block
-    std::uint16_t soil = 0;
-    std::int64_t mass = 0;
-    double volume = 0, shear = 0, height = 0;  // mass-weighted sums
-  };
   /// A block about to be booked: its surface, and which columns (x fastest) stand beside a cliff.
   struct Plan {
     BlockShape shape;
@@ -62,15 +58,12 @@ class Depositor {
   };
   // Indices of particles: over a block, or over those of its columns that share.
   using Grains = std::span<const std::uint32_t>;
-  // What lies over some columns, one entry a soil, in the order of mean height from below.
-  std::vector<Share> shares(Grains grains) const;
   std::array<std::int64_t, 16> weights(const Plan& plan, int block) const;
   std::array<bool, 16> cliffs(int block) const;
   double surface(int ix, int iy) const;
   bool bonded(int ix, int iy) const;
 
-  double crowding(const std::vector<Share>& shares, const Plan& plan) const;
-  heightfield::Layer layer_of(const Share& share, double rise) const;
+  double crowding(const std::vector<SoilShare>& shares, const Plan& plan) const;
   void book(const Plan& plan, int block);
   void book_column(int ix, int iy);
 

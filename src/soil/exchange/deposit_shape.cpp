@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soil/exchange/spline.h"
+
 namespace navvy::soil {
 namespace {
 
@@ -16,15 +18,6 @@ constexpr int kSamples = 2;
 constexpr double kHollow = 0.2;
 /// Centres this far apart have an empty cell and half a particle each between them [cells].
 constexpr double kHanging = 1.5;
-
-// Quadratic B-spline, support 1.5 cells [Steffen, Kirby & Berzins 2008].
-double spline(double t) {
-  t = std::abs(t);
-  return t < 0.5 ? 0.75 - t * t : t < 1.5 ? 0.5 * (1.5 - t) * (1.5 - t) : 0.0;
-}
-
-// Its mean over the particles of a column `d` columns away.
-double column_weight(int d) { return 0.5 * (spline(d - 0.25) + spline(d + 0.25)); }
 
 // How much of the spline's weight lies below t: what a column that is full up to there adds to a sample.
 // Its integral from -infinity to t.

@@ -10,6 +10,7 @@
 #include "core/log.h"
 #include "soil/exchange/deposit.h"
 #include "soil/exchange/exchange_index.h"
+#include "soil/exchange/footing_deposit.h"
 #include "soil/exchange/slump.h"
 #include "soil/exchange/wake.h"
 #include "soil/exchange/wake_rules.h"
@@ -63,6 +64,12 @@ struct Exchange::State {
   void wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result);
   void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
                Result& result);
+  /// Books what lies under footings and marks it; false when nothing does.
+  bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
+                     double time, Result& result);
+  /// All other rules, for the particles of the index.
+  void decide(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
+              double time, double elapsed, Result& result);
   int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
   void visit(Archive& a);
 
@@ -267,31 +274,68 @@ int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZon
   return slump.run(elapsed, blocked);
 }
 
+bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
+                                    std::span<const FootingPlace> footings, double time, Result& result) {
+  if (footings.empty() || index.particles().empty()) return false;
+  std::set<PlanKey> blocks;
+  result.footing_columns = FootingDeposit(ground, index, zones).deposit(footings, result.removed, blocks);
+  // What moves beside a wheel does not wake at once what was booked under it.
+  for (const PlanKey& block : blocks) deposited[block] = time;
+  return result.footing_columns > 0;
+}
+
+void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone> zones,
+                             std::span<const FootingPlace> footings, double time, double elapsed, Result& result) {
+  // The plan collects all three rules before anything changes. One column may be asked for by several; the deepest
+  // counts.
+  WakePlan plan;
+  wake_ahead_of_tools(ground, zones, plan);
+  wake_around_motion(
+      ground, index, motion_threshold(zones), zones,
+      [&](int ix, int iy) { return !rests_since_deposit(ix, iy, zones, time); }, plan);
+  plan_slopes(index, zones, plan);
+  // What bears a wheel would be booked back at the next check, and the wheel would have fallen meanwhile.
+  std::erase_if(plan, [&](const WakePlan::value_type& entry) {
+    return bears_footing(ground, index, zones, footings, entry.first.second, entry.first.first);
+  });
+  fit_budget(zones, index.particles().size(), time, plan);
+
+  update_rest(index, elapsed, rest);
+  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not among them. Columns
+  // slide last, on ground that has both.
+  deposit(index, zones, plan, time, result);
+  wake_planned(index, plan, result);
+  result.slumped_columns = run_slump(index, zones, plan, elapsed);
+}
+
 Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
-                                 double elapsed) {
+                                 double elapsed, const Standing& standing) {
   State& s = *state_;
   Result result;
   result.removed.assign(particles.size(), 0);
   const ColumnIndex index(particles, s.ground, s.grid);
   const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.awake_zone);
-
-  // The plan collects all three rules before anything changes. One column may be asked for by several; the deepest
-  // counts.
-  WakePlan plan;
-  wake_ahead_of_tools(s.ground, zones, plan);
-  wake_around_motion(
-      s.ground, index, motion_threshold(zones), zones,
-      [&](int ix, int iy) { return !s.rests_since_deposit(ix, iy, zones, time); }, plan);
-  s.plan_slopes(index, zones, plan);
-  s.fit_budget(zones, particles.size(), time, plan);
-
-  update_rest(index, elapsed, s.rest);
-  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not among them. Columns
-  // slide last, on ground that has both.
-  s.deposit(index, zones, plan, time, result);
-  s.wake_planned(index, plan, result);
-  result.slumped_columns = s.run_slump(index, zones, plan, elapsed);
-  return result;
+  const std::vector<FootingPlace> footings = footing_places(standing.footings, s.ground, standing.interval);
+  if (!s.deposit_under(index, zones, footings, time, result)) {
+    s.decide(index, zones, footings, time, elapsed, result);
+    return result;
+  }
+  // The other rules see the ground with what was booked, and the particles without.
+  std::vector<Particle> left;
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (result.removed[i] != 0) continue;
+    left.push_back(particles[i]);
+    place.push_back(i);
+  }
+  Result others;
+  others.removed.assign(left.size(), 0);
+  const ColumnIndex index_left(left, s.ground, s.grid);
+  s.decide(index_left, tool_zones(s.ground, index_left, tools, s.awake_zone), footings, time, elapsed, others);
+  for (std::size_t i = 0; i < left.size(); ++i) result.removed[place[i]] = others.removed[i];
+  others.removed = std::move(result.removed);
+  others.footing_columns = result.footing_columns;
+  return others;
 }
 
 std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z_bottom,

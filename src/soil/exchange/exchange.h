@@ -10,6 +10,7 @@
 #include "core/math.h"
 #include "heightfield/ground.h"
 #include "scene/scene.h"
+#include "soil/exchange/footing.h"
 #include "soil/particles/particle.h"
 #include "soil/tools/tool_motion.h"
 
@@ -37,12 +38,23 @@ class Exchange {
     std::vector<Particle> born;         ///< to be added (ids are given by the solver)
     std::vector<std::uint8_t> removed;  ///< one flag per particle given: booked into columns
     int woken_columns = 0, deposited_blocks = 0, slumped_columns = 0;
+    int footing_columns = 0;  ///< that got soil because a wheel or belt comes onto it
+  };
+  /// What stands and rolls on the ground, and how long at most until the next check [s].
+  struct Standing {
+    std::span<const Footing> footings;
+    double interval = 0;
   };
   /// One check. `particles` in a repeatable order; `time` is simulated [s] and `elapsed` since the last check. The
   /// ground has changed when it returns, particles have not: the caller adds and removes them before the next step. How
   /// often it is called changes little, as the rules are written in simulated time. Costs the particles, the columns
   /// near tools and what changed since.
-  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed);
+  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed,
+               const Standing& standing);
+  /// Where nothing stands or rolls.
+  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed) {
+    return check(particles, tools, time, elapsed, Standing{});
+  }
   /// Turns columns above W height z_bottom into particles unconditionally. `resting` are the particles there are
   /// already; those on the columns weigh on what wakes. For scenes that start with soil awake and for tests; the budget
   /// is not asked.
