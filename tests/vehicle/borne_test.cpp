@@ -64,8 +64,8 @@ TEST(Borne, WhatRestsOnABodyThatSoilBearsDoesNotSink) {
     const double share = run(10).z() / (10 * (kLower + kUpper) * kGravity);
     print_value("upper block of two on firm soil, sinking in 10 s [mm]", 1000 * (upper - height(*engine, 1)), "<= 0.2",
                 "statics");
-    // Contacts go on pressing out the last tenths of a millimetre; falling with the lower block, as it was without what
-    // the solver expects, is dt g (M + m) / M, 230 mm in 10 s at 1/600 s.
+    // Contacts go on pressing out the last tenths of a millimetre. Without what the solver expects the upper block
+    // falls with the lower one in every step, by 9 and 2 mm until pressing out keeps up with it.
     EXPECT_NEAR(height(*engine, 0), lower, 2e-4) << dt;
     EXPECT_NEAR(height(*engine, 1), upper, 2e-4) << dt;
     EXPECT_NEAR(share, 1, 1e-5) << dt;
