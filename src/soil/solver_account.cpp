@@ -204,7 +204,7 @@ void Solver::State::rebuild(Archive& a) {
 }
 
 void Solver::visit(Archive& a) {
-  a.section("soil", 4, [&] {
+  a.section("soil", 5, [&] {
     state_->visit(a);
     if (a.loading()) state_->rebuild(a);
     if (a.loading() && state_->energy) state_->open_energy();

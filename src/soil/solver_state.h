@@ -31,6 +31,11 @@ struct Solver::State {
   /// Tools that stand take seats; `all`: every particle.
   void settle_tools(double elapsed, std::span<const ToolMotion> motions, std::span<const ToolRegion> regions,
                     std::span<const Particle> all);
+  /// Of the ground under a tool: columns, and what lies on them.
+  Vec3 normal_of_ground(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
+                        std::span<const Particle> all) const;
+  /// Of the plane that fits it best in a rectangle of the plan.
+  Vec2 gradient_of_ground(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
   /// Ground that wakes under a tool no longer bears it.
   void unseat(std::span<const ToolRegion> regions, std::span<const Particle> born);
   /// What seats give.

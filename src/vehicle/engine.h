@@ -64,6 +64,8 @@ class Engine {
   virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W) = 0;
   /// The same, of the step of `dt` [s] that was taken last: the place of a body without joints changes by dt times
   /// the change of its velocity, too, so that what stands on soil does not fall by the weight of a step in every step.
+  /// The next step's contacts expect the mean of the last ones, so that what rests on such a body does not fall with
+  /// it; `link` tells a velocity without it.
   virtual void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                                      double dt) = 0;
   /// Force [N] at p_W during the next step only.

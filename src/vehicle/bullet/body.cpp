@@ -15,6 +15,10 @@ namespace {
 
 using JointType = scene::Joint::Type;
 
+/// What bears a body is expected as the mean over about this time [s]: soil gives impulses with a saw-tooth of some
+/// steps, and a blow once.
+constexpr double kBearingTime = 0.02;
+
 /// Frame at the centre of mass along the principal axes; `moments` gets the principal moments.
 Pose principal_frame(const scene::Link& link, Vec3& moments) {
   Pose X = Pose::Identity();
@@ -322,6 +326,8 @@ bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const V
   // or a ram gives way under its load in every step. A body by itself has none.
   const bool moves = dt > 0 && body_->getNumLinks() == 0;
   if (moves) {
+    borne_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
+    borne_.tail<3>() += J_W;
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
   }
@@ -371,11 +377,25 @@ void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
                                                               false);
   kinematics_valid_ = false;
+  // The solver is to see a body that is borne, or what rests on it falls with it until soil acts.
+  const Vec6 borne = borne_;
+  borne_.setZero();
+  if (borne.isZero(0)) {
+    bearing_.setZero();
+    return;
+  }
+  bearing_ += std::min(1.0, dt / kBearingTime) * (borne / dt - bearing_);
+  respond(0, dt * bearing_.tail<3>(), dt * bearing_.head<3>(), center(0), expected_);
+  body_->applyDeltaVeeMultiDof(expected_.data(), 1);
+  kinematics_valid_ = false;
 }
 
 void TreeBody::step_positions(double dt) {
   // What the solver found is added to the velocities, and those move the positions: semi-implicit Euler.
   body_->processDeltaVeeMultiDof2();
+  // Soil gives what it gives by itself: it is told a body that it does not bear yet.
+  if (!expected_.empty()) body_->applyDeltaVeeMultiDof(expected_.data(), -1);
+  expected_.clear();
   body_->stepPositionsMultiDof(dt);
   body_->clearConstraintForces();
   body_->clearForcesAndTorques();
@@ -444,6 +464,9 @@ void TreeBody::visit(Archive& a) {
   std::vector<double> q = coordinates(), qd = velocities();
   a.fixed("coordinates", q);
   a.fixed("velocities", qd);
+  a("borne", borne_);
+  a("bearing", bearing_);
+  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing", "nothing bears a machine that is not finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
   const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
@@ -453,6 +476,7 @@ void TreeBody::visit(Archive& a) {
   a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
   place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.
+  expected_.clear();
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();
   moved();

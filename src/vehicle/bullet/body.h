@@ -59,7 +59,8 @@ class TreeBody {
   /// Adds a force [N] with moment [N m] about p_W for the next step.
   void add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W);
   /// Changes velocities at once, exactly, as the articulated inertia is that of the present pose, and the place of a
-  /// body without joints by dt [s] times that change. Whether it moved.
+  /// body without joints by dt [s] times that change. Whether it moved. What moved it is expected of the next step,
+  /// too.
   bool apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
   /// Virtual work of an impulse on each freedom, as Bullet orders them: base (angular, linear), then joints. `work`
   /// holds 6 + their number. For a unit impulse without moment it is the row that tells a point's velocity along it.
@@ -67,7 +68,9 @@ class TreeBody {
   /// Inverse articulated mass at the link's origin, (angular, linear), W axes.
   Mat6 inverse_mass(int link) const;
 
-  /// Gravity and added forces change the velocities by one explicit step.
+  /// Gravity and added forces change the velocities by one explicit step. For the solver alone a body without joints
+  /// also has what bears it, the mean of the last impulses of steps (apply_impulse); step_positions takes it away
+  /// again.
   void step_velocities(const Vec3& gravity, double dt);
   /// Takes all speed from it.
   void stop();
@@ -80,7 +83,7 @@ class TreeBody {
   /// Collision objects to the poses of now.
   void place_colliders();
 
-  /// Base pose, joint positions, velocities: all the tree's state between two steps.
+  /// Base pose, joint positions, velocities, what bears it: all the tree's state between two steps.
   void visit(Archive& a);
 
  private:
@@ -114,6 +117,10 @@ class TreeBody {
   std::vector<std::vector<int>> outward_;  // links outward of each Bullet link, itself included
   std::vector<Vec3> pivot_I_;              // joint origin in the child's Bullet frame
   double total_mass_ = 0;
+  // Of a body without joints, (angular about its centre, linear): impulse since the last step [N m s, N s], its mean
+  // as a force [N m, N], and the velocities that the solver has by that.
+  Vec6 borne_ = Vec6::Zero(), bearing_ = Vec6::Zero();
+  std::vector<double> expected_;
   // Worked out when asked for; Bullet wants scratch memory of its own.
   mutable bool kinematics_valid_ = false, factors_valid_ = false;
   mutable std::vector<Frame> frames_;  // by link
