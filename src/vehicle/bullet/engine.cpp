@@ -32,7 +32,7 @@ constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
 constexpr int kMostShapes = 16384;  // links with shapes of all machines together; 130 bytes each
 // A machine this far below the surface has fallen through it: no ground is as thick as that over a body [m].
 constexpr double kLost = 10;
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 /// A hitch with its two machines.
 struct Coupled {
