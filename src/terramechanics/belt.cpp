@@ -12,7 +12,7 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr int kRays = 5;              // of idler and sprocket, every 20 degrees from straight down outward
+constexpr int kRays = 5;  // of idler and sprocket, every 20 degrees from straight down outward
 constexpr double kRayStep = radians(20);
 
 /// A wheel of the running gear as the ground sees it.

@@ -30,10 +30,10 @@ Vec3 lower_tangent(const Circle& a, const Circle& b) {
   return slant * d + std::sqrt(1 - slant * slant) * Vec3(-d.z(), 0, d.x());
 }
 
-/// What each touch is of the whole belt's spring: a roller's share alone, shared with others of its line that are nearer
-/// than two rollers and are pressed the same way.
-std::vector<double> shares(const std::vector<BeltStation>& stations, const std::vector<BeltTouch>& touches, double roller,
-                           double reach) {
+/// What each touch is of the whole belt's spring: a roller's share alone, shared with others of its line that are
+/// nearer than two rollers and are pressed the same way.
+std::vector<double> shares(const std::vector<BeltStation>& stations, const std::vector<BeltTouch>& touches,
+                           double roller, double reach) {
   std::vector<double> out;
   for (const BeltTouch& one : touches) {
     double pressed = 0;
@@ -106,8 +106,7 @@ class Step {
       const Vec2 slip(v.dot(plane.ahead) - plane.runs * belt_speed_, v.dot(plane.left));
       const double mass = mass_of(t);
       const BeltGrip bears = belt_grip(at.friction * load_[t], kFirmShear, mass, dt_);
-      const Vec2 middle =
-          carry_shear(before, slip, stations_[s].length, belt_speed_, kMostShear * bears.K, dt_, here);
+      const Vec2 middle = carry_shear(before, slip, stations_[s].length, belt_speed_, kMostShear * bears.K, dt_, here);
       before = here;
       const Vec2 f = belt_shear_force(bears, middle, slip, belt_speed_, mass, dt_);
       out.f_W[t] += f.x() * plane.ahead + f.y() * plane.left;

@@ -40,10 +40,11 @@ struct BeltBodyForce {
   double torque = 0;      ///< of the belt on its sprocket, against the carrier [N m]
 };
 
-/// Force of bodies on a belt over the next step dt [s]; moves the shear on. `touches` by line and station, as they come.
+/// Force of bodies on a belt over the next step dt [s]; moves the shear on. `touches` by line and station, as they
+/// come.
 ///
-/// A touch alone is as stiff as a roller, and all of a flat floor together as all rollers: touches nearer than two
-/// rollers share. Several bodies at one station all press, the one that presses most also grips. Never pulls.
+/// A touch alone is as stiff as a roller, all of a flat floor together as all rollers: touches nearer than two rollers
+/// share. Several bodies at one station all press, the one that presses most also grips. Never pulls.
 BeltBodyForce belt_body_force(const scene::Wheel& wheel, const std::vector<BeltStation>& stations,
                               const BeltMotion& motion, const std::vector<BeltTouch>& touches, double dt,
                               BeltBodyShear& shear);

@@ -41,8 +41,7 @@ void BeltBodies::touch(Belt& belt, const Pose& X_WC, const scene::Wheel& about, 
   for (std::size_t d = 0; d < belt.discs.size(); ++d) {
     const std::size_t station = d / terramechanics::kBeltLines, line = d % terramechanics::kBeltLines;
     Pose X = X_WC;
-    X.translation() =
-        X_WC * Vec3(belt.stations[station].p_C + Vec3(0, (line == 0 ? 0.25 : -0.25) * about.width, 0));
+    X.translation() = X_WC * Vec3(belt.stations[station].p_C + Vec3(0, (line == 0 ? 0.25 : -0.25) * about.width, 0));
     belt.discs[d].place(X);
     for (std::size_t b = 0; b < near_.size(); ++b)
       if (const auto at = MetBodies::touch(belt.discs[d], *near_[b], about.friction, world))

@@ -49,7 +49,8 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : ma
     }
     if (about.track) {
       wheel.belt = terramechanics::BeltState::of(*about.track);
-      wheel.body_shear.assign(terramechanics::belt_stations(about, wheel.center_C).size(), {Vec2::Zero(), Vec2::Zero()});
+      wheel.body_shear.assign(terramechanics::belt_stations(about, wheel.center_C).size(),
+                              {Vec2::Zero(), Vec2::Zero()});
       if (tree.bullet_of_joint(wheel.spin_joint) < 0) refuse("track", about.joint, "its sprocket cannot turn");
     }
     wheels_.push_back(wheel);

@@ -30,8 +30,8 @@ struct MachineWheel {
   // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
   Vec3 body_W = Vec3::Zero();
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
-  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle of what presses, in the
-  // carrier [m].
+  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle of what presses, in
+  // the carrier [m].
   terramechanics::BeltBodyShear body_shear;
   Vec3 body_p_C = Vec3::Zero();
 
