@@ -5,17 +5,14 @@
 #include <cmath>
 
 #include "terramechanics/bearing.h"
+#include "terramechanics/belt_shear.h"
 #include "terramechanics/plate.h"
 #include "terramechanics/tyre_track.h"
 
 namespace navvy::terramechanics {
 namespace {
 
-constexpr double kFirmShear = 0.005;  // [m] give of a shoe on a firm floor (U)
-constexpr double kMostShear = 6;      // of K: 99.8 % of the strength; what is sheared further forgets no longer
-constexpr double kRest = 0.1;         // [m/s] faster shoes carry their stretch away, which damps by itself
-constexpr double kRoll = 0.05;        // [m/s] resistance turns round over this
-constexpr int kRays = 5;              // of idler and sprocket, every 20 degrees from straight down outward
+constexpr int kRays = 5;  // of idler and sprocket, every 20 degrees from straight down outward
 constexpr double kRayStep = radians(20);
 
 /// A wheel of the running gear as the ground sees it.
@@ -90,28 +87,12 @@ struct Step {
   Vec3 velocity(const Vec3& p_W) const { return motion.v_W + motion.w_W.cross(p_W - motion.X_WC.translation()); }
 };
 
-/// What a contact's soil bears in shear, at most [N], and the displacement [m] at which 63 % of it are mobilised.
-struct Bearing {
-  double most = 0, K = 0;
-};
-
-Bearing bearing(const Step& step, double length, double load, const SoilState& soil) {
+BeltGrip grip_of(const Step& step, double length, double load, const SoilState& soil) {
   const ShearStrength strength = belt_strength(step.wheel, soil);
   const double most = step.wheel.width * length * strength.cohesion + load * strength.slope;
-  // Not stiffer than what the step can bear with the mass of the belt alone.
   const double K = soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear;
-  return {most, std::max(K, most * step.dt * step.dt / (0.25 * step.rim_mass))};
-}
-
-/// Shear force (ahead, left) [N] on the shoes of a contact that slip by `slip` [m/s] and are sheared by `shear` [m].
-Vec2 shear_force(const Step& step, const Bearing& bears, const Vec2& shear, const Vec2& slip) {
-  const auto [most, K] = bears;
-  if (!(most > 0)) return Vec2::Zero();
-  const double j = shear.norm(), share = mobilised_share(j, K);
-  Vec2 force = j > 0 ? Vec2(-most * share / j * shear) : Vec2(Vec2::Zero());
-  const double damping = std::min(0.8 * std::sqrt(most / K * step.rim_mass), 0.3 * step.rim_mass / step.dt);
-  force -= damping * std::exp(-std::abs(step.belt_speed) / kRest) * slip;
-  return force.norm() > most ? Vec2(most * force.normalized()) : force;
+  // Not stiffer than what the step can bear with the mass of the belt alone.
+  return belt_grip(most, K, step.rim_mass, step.dt);
 }
 
 /// How deep the belt's leading end stands in ground that it has not pressed yet, what pressing costs [N], and what its
@@ -136,7 +117,7 @@ double soil_resistance(const Step& step, const std::vector<RunningWheel>& gear, 
   const double speed = step.velocity(met[lead].p_W).dot(step.motion.X_WC.linear().col(0));
   const double pushes = bulldozing(under, b, gear[forward ? 0 : n - 1].radius, z, speed / step.belt_speed);
   const double resistance = b * plate_pressure(*under.soil, z, b) * z / (under.soil->bekker_n + 1) + pushes;
-  return -resistance * std::tanh(step.belt_speed / kRoll);
+  return -resistance * std::tanh(step.belt_speed / kBeltRoll);
 }
 
 /// The shear of all contacts a step on: shoes come in unsheared where the belt's speed brings them, segment by segment
@@ -154,14 +135,9 @@ std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& ge
       contact.shear = before = Vec2::Zero();
       continue;
     }
-    const double carried = std::abs(step.belt_speed) * step.dt / gear[i].length;
-    contact.shear = (contact.shear + step.dt * slip[i] + carried * before) / (1 + carried);
     const SoilState soil = step.ground.soil(met[i].p_W.x(), met[i].p_W.y());
-    const double most = kMostShear * bearing(step, gear[i].length, contact.load, soil).K;
-    if (contact.shear.norm() > most) contact.shear *= most / contact.shear.norm();
-    // Over the segment it grows evenly. Where nothing comes in, all of it is sheared alike.
-    const double rolls = 1 - std::exp(-std::abs(step.belt_speed) / kRest);
-    middle[i] = contact.shear - 0.5 * rolls * (contact.shear - before);
+    const double most = kMostShear * grip_of(step, gear[i].length, contact.load, soil).K;
+    middle[i] = carry_shear(before, slip[i], gear[i].length, step.belt_speed, most, step.dt, contact.shear);
     before = contact.shear;
   }
   return middle;
@@ -233,7 +209,8 @@ BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const 
     const BeltContact& contact = state.contacts[i];
     if (!(contact.load > 0)) continue;
     const SoilState soil = ground.soil(met[i].p_W.x(), met[i].p_W.y());
-    const Vec2 f = shear_force(step, bearing(step, gear[i].length, contact.load, soil), shear[i], slip[i]);
+    const Vec2 f = belt_shear_force(grip_of(step, gear[i].length, contact.load, soil), shear[i], slip[i],
+                                    step.belt_speed, step.rim_mass, dt);
     const Vec3 ahead = left.cross(met[i].normal);
     out.pushes.push_back({contact.load * met[i].normal + f.x() * ahead + f.y() * left, met[i].p_W});
     // Work of a force on the belt, which runs back under the machine as the sprocket turns.
@@ -245,7 +222,7 @@ BeltForce belt_force(const scene::Wheel& wheel, const BeltMotion& motion, const 
   for (const BeltForce::Push& push : out.pushes) out.force_W += push.f_W;
   // Rollers, links and bushings turn against the spin; smooth through zero, within what the step can bear.
   const double inner = wheel.rolling_resistance * load;
-  const double band = std::max(kRoll, inner * dt / (0.15 * step.rim_mass * rollers));
+  const double band = std::max(kBeltRoll, inner * dt / (0.15 * step.rim_mass * rollers));
   out.torque -= inner * wheel.radius * std::tanh(step.belt_speed / band);
   ground_speed /= load;
   out.slip = (step.belt_speed - ground_speed) / std::max({std::abs(step.belt_speed), std::abs(ground_speed), 0.1});

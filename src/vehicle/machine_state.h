@@ -101,6 +101,7 @@ struct WheelState {
   double steer = 0;                  ///< [rad]
   Vec3 force_W = Vec3::Zero();       ///< tyre force of the last step, ground and bodies together [N]
   Vec3 body_W = Vec3::Zero();        ///< what bodies gave of it: it presses no rut [N]
+  Vec3 body_p_W = Vec3::Zero();      ///< the middle of that, on a belt [m]
   double shaft_torque = 0;           ///< of the drive's half shaft in the last step, differentials included [N m]
   double slip = 0;                   ///< longitudinal [-]
   double sinkage = 0;                ///< [m]

@@ -65,7 +65,8 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engin
     double load = 0;
     for (const terramechanics::BeltPatch& patch : patches) load += patch.load;
     for (const terramechanics::BeltPatch& patch : patches)
-      out.push_back({patch.p_W, patch.load / load * wheel.force_W});
+      out.push_back({patch.p_W, patch.load / load * (wheel.force_W - wheel.body_W)});
+    if (!wheel.body_W.isZero(0)) out.push_back({wheel.body_p_W, wheel.body_W});
   }
   return out;
 }

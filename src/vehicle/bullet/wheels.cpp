@@ -49,6 +49,8 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : ma
     }
     if (about.track) {
       wheel.belt = terramechanics::BeltState::of(*about.track);
+      wheel.body_shear.assign(terramechanics::belt_stations(about, wheel.center_C).size(),
+                              {Vec2::Zero(), Vec2::Zero()});
       if (tree.bullet_of_joint(wheel.spin_joint) < 0) refuse("track", about.joint, "its sprocket cannot turn");
     }
     wheels_.push_back(wheel);
@@ -128,6 +130,9 @@ WheelState MachineWheels::state(int i) const {
   state.steer = wheel.steer_joint >= 0 ? tree_.position(wheel.steer_joint) : 0;
   state.force_W = wheel.force.force_W + wheel.body_W;
   state.body_W = wheel.body_W;
+  state.body_p_W = machine_.wheels[static_cast<std::size_t>(i)].track
+                       ? Vec3(tree_.link(wheel.carrier_link).X_WL * wheel.body_p_C)
+                       : Vec3(now.X_WWheel.translation());
   state.slip = wheel.force.slip;
   state.sinkage = wheel.force.sinkage;
   return state;

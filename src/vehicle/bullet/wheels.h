@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "terramechanics/belt.h"
+#include "terramechanics/belt_body.h"
 #include "terramechanics/tyre.h"
 #include "vehicle/bullet/body.h"
 
@@ -29,6 +30,10 @@ struct MachineWheel {
   // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
   Vec3 body_W = Vec3::Zero();
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
+  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle of what presses, in
+  // the carrier [m].
+  terramechanics::BeltBodyShear body_shear;
+  Vec3 body_p_C = Vec3::Zero();
 
   void visit(Archive& a);
 };
@@ -52,6 +57,8 @@ class MachineWheels {
 
   /// Pose (not spinning) and motion of a wheel's centre.
   terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
+  /// The same of a crawler's belt.
+  terramechanics::BeltMotion belt_motion(const MachineWheel& wheel) const;
   const scene::Wheel& about(std::size_t i) const { return machine_.wheels[i]; }
 
   /// For outputs and ruts: where it is now, what acted on it in the last step.
@@ -60,7 +67,6 @@ class MachineWheels {
   std::vector<terramechanics::BeltPatch> belt_patches(int wheel) const;
 
  private:
-  terramechanics::BeltMotion belt_motion(const MachineWheel& wheel) const;
   /// Adds the forces on a crawler's belt, and its torque on the sprocket.
   void push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
 
