@@ -82,7 +82,7 @@ class Stage {
         loam_(what.loam),
         ground_(heightfield::make_ground(site_of(what))),
         ruts_(ground_),
-        track_ruts_(ground_),
+        track_ruts_(ground_, ruts_),
         columns_(ground_, ground_.setup().soils, &ruts_),
         engine_(vehicle::make_bullet_engine(Vec3(0, 0, -kGravity))) {
     for (int i = 0; i < what.machines; ++i) engine_->add_machine(machine, make_pose(0, 6.0 * i, 0));
