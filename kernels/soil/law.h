@@ -47,6 +47,7 @@ typedef struct LawState {
 #undef STATE_REAL
 #undef STATE_REALS
 
+#define MOST_OPEN 100.0f      // J at most [docs/soil.md, opening]
 #define RESTING_TIME 10.0f    // 1 / shear rate at which the static share is gone [s] [docs/soil.md, static friction]
 #define VOLUME_DAMPING 10.0f  // viscosity of closed soil's volume / that of its shear [docs/soil.md, viscosity]
 
@@ -85,7 +86,9 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real xz = s[5] + dt * (g2 * dxz + wxz * (s[2] - s[0]) + wxy * s[4] - wyz * s[3]);
 
   // Pressure from the tracked volume; opened soil has none [Dunatunga 2015] [docs/soil.md, opening].
-  j = fmax(j * (1.0f + dt * trace), (scalar)(0.2));  // a floor far below any real state: p stays finite
+  // A floor far below any real state: p stays finite. A ceiling far above any load that is thrown: a crumb that hangs
+  // at a plate opens without end, and its cell with it by mixing.
+  j = fmin(fmax(j * (1.0f + dt * trace), (scalar)(0.2)), MOST_OPEN);
 #ifdef LAW_EXTENDED
   // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again
   // [docs/soil.md, compaction].

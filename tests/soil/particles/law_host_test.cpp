@@ -74,6 +74,16 @@ TEST(SoilLaw, OpenedSoilCarriesNothingUntilItCloses) {
   EXPECT_GT(e.pressure(), 0);
 }
 
+TEST(SoilLaw, SoilThatOpensWithoutEndStaysANumberAndClosesAgain) {
+  Element e{law_soil(rig::sand(), 0.1)};
+  for (const int axis : {0, 4, 8}) e.c[axis] = 50;
+  for (int i = 0; i < 5000; ++i) e.step(1e-3);  // 0.15 a step: 1e300 after 5000
+  EXPECT_EQ(e.j, 100);
+  for (const int axis : {0, 4, 8}) e.c[axis] = -50;
+  for (int i = 0; i < 40; ++i) e.step(1e-3);
+  EXPECT_GT(e.pressure(), 0);
+}
+
 TEST(SoilLaw, CohesionFadesWithOpeningAndWithRemoulding) {
   scene::Soil soil = rig::sand();
   soil.cohesion = 5000;
