@@ -41,11 +41,11 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
 // soil's mass: it must not carry a plate that lies on it, or light ones stand on nothing [docs/tools.md, stand-off].
 // Soil at the side of a plate or above it is held whatever the node has, as nodes at its own surface are half empty,
 // too. The square lets a plate fall through what hardly bears and settle onto what almost does.
-// tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node; under a plate one is
-// as full as can be only where there is soil up to the plate.
+// tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node; under a plate one
+// that stands off by a quarter of a cell holds 0.8, and 0.9 counts as full.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
   const scalar under = fmax(down, 0.0f), full = contact_unit(1.5f * fill), near = contact_near(clearance, r);
-  const scalar no_room = full * (1.0f - under) + contact_unit(3.0f * fill - 2.0f) * under;
+  const scalar no_room = full * (1.0f - under) + contact_unit(4.0f * fill - 2.6f) * under;
   const scalar holds = near + (1.0f - near) * no_room;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);

@@ -29,17 +29,24 @@ INLINED ints tile_of(ints side) { return side > 0 ? 2 - (side & 1) : 0; }
 // cell are open and half closed, the closed ones would carry the heap on and it would rest too loose.
 INLINED real mean_opening(real volume, real bank, real open) { return open > 0.0f ? volume / fmax(bank, 1.0f) : 0.0f; }
 
-// J of a particle that relaxes by the share `mixing` towards its cell's opening, which keeps the sum of volumes; as it
-// is where the opening is 0.
-INLINED real mixed(real j, real j0, real opening, scalar mixing) {
+// J of a particle that relaxes by the share `mixing` towards its cell's opening; as it is where the opening is 0.
+INLINED real mixed(real j, real j0, real opening, real mixing) {
   return opening > 0.0f ? j + mixing * (j0 * opening - j) : j;
 }
 
-// Mixing and law of one step. A J that is not finite comes out as a NaN: the law's floor would hide it.
-INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening, scalar mixing, LawState* state,
-                           real* sigma) {
+// sqrt(2 D:D) of D = (C + C^T) / 2 [1/s].
+INLINED real strain_rate(const real* c) {
+  const real xy = c[1] + c[3], xz = c[2] + c[6], yz = c[5] + c[7];
+  return sqrt(2.0f * (c[0] * c[0] + c[4] * c[4] + c[8] * c[8]) + (xy * xy + xz * xz + yz * yz));
+}
+
+// Mixing and law of one step. A J that is not finite comes out as a NaN: the law's floor would hide it. Mixing goes by
+// strain, so that neither a slow tool's soil nor soil that rests under stress is evened out for longer; strain: dt over
+// the strain that mixes [s], most: largest share a step.
+INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening, scalar strain, scalar most,
+                           LawState* state, real* sigma) {
   const real before = state->j;
-  state->j = mixed(before, state->j0, opening, mixing);
+  state->j = mixed(before, state->j0, opening, fmin(strain * strain_rate(c), most));
   law_update(c, dt, soil, state, sigma);
   state->j = isfinite(before) ? state->j : before + NAN;
 }
@@ -76,9 +83,7 @@ INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return 
 // apart [s].
 INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
   const real packed = full / fmax(node_mass, MASS_QUANTUM);
-  const real xy = c[1] + c[3], xz = c[2] + c[6], yz = c[5] + c[7];
-  const real rate = sqrt(2.0f * (c[0] * c[0] + c[4] * c[4] + c[8] * c[8]) + (xy * xy + xz * xz + yz * yz));
-  return fmin(j, j0) > packed ? fmin(spread * rate, 1.0f) : 0.0f;
+  return fmin(j, j0) > packed ? fmin(spread * strain_rate(c), 1.0f) : 0.0f;
 }
 
 #define NOISE_OPENS 1.1f  // J / J0 up to which noise opens soil; what is thrown apart opens further

@@ -235,7 +235,7 @@ bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
   // The ground left behind should be the whole of it: soil that still moves is given time to come to rest.
   const bool at_rest = state_->world.soil_counts().particles == 0 || state_->idle >= kLongestRest * recording.settle;
-  const bool programs_over = !state_->operated.empty() && state_->idle >= recording.settle && at_rest;
+  const bool programs_over = state_->idle > 0 && state_->idle >= recording.settle && at_rest;
   return programs_over || time_is_over();
 }
 

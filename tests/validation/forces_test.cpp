@@ -89,5 +89,26 @@ TEST(ScoopForce, IsExactlyNothingWithoutSoil) {
   expect_between("payload in the air [kg]", air.payload, 0, 0, kSource);
 }
 
+/// Mean of what bears the bucket up over 0.2 s before `until` [N].
+double borne(session::Session& session, double until) {
+  run_to(session, until - 0.2);
+  double sum = 0, steps = 0;
+  for (; session.world().time() < until; ++steps) {
+    session.step();
+    sum += session.world().tools().at(0).force().z();
+  }
+  return sum / steps;
+}
+
+TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
+  session::Session session(load_scene("pressed_bucket.sdf", {}, "tests/validation/digs"), shared_device());
+  // It stops at 0.9 s; what pressing fast adds is gone soon after.
+  const double stopped = borne(session, 1.4), later = borne(session, 4.9);
+  std::printf("pressed bucket: %.0f N half a second after it stopped, %.0f N three and a half seconds later\n", stopped,
+              later);
+  expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
+                 "soil at rest stays at rest [docs/tools.md, stand-off]");
+}
+
 }  // namespace
 }  // namespace navvy::validation

@@ -49,7 +49,7 @@ TEST(ToolSpread, OfABladeThatCreeps) {
   const double creeping = blade(0.05, 0.0125, 0.5);
   expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s", creeping / blade(0.05, 0.05, 0.5),
                  0.95, 1.05, kSource);
-  // Three cells deep: what so few cannot resolve, and mixing, which goes by time [docs/soil.md, decisions].
+  // Three cells deep: what so few cannot resolve.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
               blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no gate", kSource);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soil/particles/particle_to_grid.h"
 
-#include <algorithm>
 #include <string>
 
 #include "soil/particles/buffers.h"
@@ -23,11 +22,10 @@ void ParticleToGrid::set_blocks(std::size_t homes, int tiles) {
 }
 
 void ParticleToGrid::enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold) {
-  // Mixing goes a share of the way a step, never past the mean.
   kernel_
       .args(store.state(), store.capacity(), store.soils(), store.homes_buffer(), tiles_, used_, report,
-            static_cast<float>(dt), static_cast<float>(cell), static_cast<float>(std::min(1.0, dt / mixing_time())),
-            hold ? 0.0f : 1.0f)
+            static_cast<float>(dt), static_cast<float>(cell), static_cast<float>(dt / mixing_strain()),
+            static_cast<float>(most_mixing(dt)), hold ? 0.0f : 1.0f)
       .enqueue_groups(store.homes().size());
 }
 

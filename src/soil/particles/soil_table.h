@@ -12,8 +12,10 @@ namespace navvy::soil {
 /// Speed of compression waves [m/s].
 double sound_speed(const scene::Soil& soil);
 
-/// Time over which J / J0 of particles in one cell relaxes to the cell's mean [s].
-double mixing_time();
+/// Strain over which J / J0 of a particle relaxes to its cell's mean, and the largest share of the way that it goes in a
+/// step of `dt` [s], however fast it deforms [docs/soil.md, mixing].
+double mixing_strain();
+double most_mixing(double dt);
 
 /// Mean mass per room of the nodes around a particle [kg] from which on soil counts as crowded at J = 1, for the
 /// densest soil of the scene: where min(J, J0) promises more room than the nodes show, particles are moved apart, all

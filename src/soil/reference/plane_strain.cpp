@@ -105,7 +105,8 @@ void PlaneStrain::mix(double dt) {
   }
   for (PlanePoint& p : points) {
     const Sums& s = sums(p);
-    p.j = mixed(p.j, p.j0, mean_opening(s.volume, s.bank, s.open), std::min(1.0, dt / mixing_time()));
+    const double share = std::min(dt / mixing_strain() * strain_rate(p.c), most_mixing(dt));
+    p.j = mixed(p.j, p.j0, mean_opening(s.volume, s.bank, s.open), share);
   }
 }
 
