@@ -42,6 +42,7 @@ struct Session::State {
     for (int m = 0; m < world.machine_count(); ++m)
       for (const scene::Bucket& bucket : world.machine(m).description().buckets)
         buckets.emplace_back(world.machine(m), bucket);
+    off_site.resize(static_cast<std::size_t>(world.machine_count()));
   }
 
   // World, surface and handles are built in this order and refer to what stands above.
@@ -54,6 +55,7 @@ struct Session::State {
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
   std::vector<Bystander> bystanders;  ///< every machine that can tip, watched while no program drives it
+  std::vector<bool> off_site;         ///< by machine: that it was beyond the site's border has been told
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
@@ -66,6 +68,7 @@ struct Session::State {
   /// Of the machine's program; null without one.
   const OperatedMachine* operated_by_program(int machine) const;
   void watch_bystanders();
+  void watch_border();
   void take_over(int machine);
   void note_forces();
   void visit(Archive& a);
@@ -106,6 +109,30 @@ void Session::State::watch_bystanders() {
   for (Bystander& one : bystanders) {
     const OperatedMachine* program = operated_by_program(one.index());
     if (program == nullptr || program->taken()) one.look(program != nullptr);
+  }
+}
+
+/// Beyond the border the nearest column's height goes on and bears, but is no soil: what a machine does there must not
+/// be taken for a result. Told once a machine, of whichever link gets there first. Not saved: it drives nothing.
+void Session::State::watch_border() {
+  const heightfield::Terrain& ground = world.ground();
+  for (int m = 0; m < world.machine_count(); ++m) {
+    if (off_site[static_cast<std::size_t>(m)]) continue;
+    const sim::MachineHandle machine = world.machine(m);
+    for (std::size_t l = 0; l < machine.description().links.size(); ++l) {
+      const sim::LinkHandle link = machine.link(static_cast<int>(l));
+      const Vec3 p = link.pose().translation();
+      const Vec2i at = ground.column_at(p.x(), p.y());
+      if (ground.contains(at.x(), at.y())) continue;
+      off_site[static_cast<std::size_t>(m)] = true;
+      std::array<char, 96> place{};
+      std::snprintf(place.data(), place.size(), "at (%.2f, %.2f) m, %.2f s", p.x(), p.y(), world.time());
+      log_warning("'" + machine.name() + "' is beyond the site's border with its link '" +
+                  machine.description().links[l].name + "', " + place.data() +
+                  ": the ground goes on there at the border's height, but nothing digs into it; give the site a larger "
+                  "<size_m> or --size (said once a machine)");
+      break;
+    }
   }
 }
 
@@ -180,6 +207,7 @@ void Session::step() {
       one.step(s.cycles, s.tips);
     }
     s.watch_bystanders();
+    s.watch_border();
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
     if (s.energy_at_ends.size() < s.cycles.size()) s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();

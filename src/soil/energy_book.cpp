@@ -12,8 +12,9 @@
 namespace navvy::soil {
 namespace {
 
-/// Rounding of a volume ratio kept as a float; a larger jump between two steps is mixing.
-constexpr double kRounding = 1e-6;
+/// Rounding of a volume ratio kept as a float, two units of its last place; a larger jump between two steps is mixing.
+constexpr double kRoundingOfJ = 2.5e-7;
+constexpr double kRounding = 1e-6;  ///< of a place within a block [cells]
 
 /// Elastic energy of volume / bank volume [Pa], the integral of p over what J has shrunk.
 double volume_energy(const SoilRow& soil, double j, double j0) {
@@ -120,7 +121,7 @@ void EnergyBook::book_law(const ParticleStore& store, const Words& now, double d
     const double j00 = before_.at(FIELD_J0, slot), j01 = now.at(FIELD_J0, slot);
     const double trace = c[0] + c[4] + c[8], volume = bank * j;
     const double mixed = j / (1 + dt * trace);
-    if (std::abs(mixed - before) > kRounding)
+    if (std::abs(mixed - before) > kRoundingOfJ)
       account_.mixing -= bank * (volume_energy(soil, mixed, j00) - volume_energy(soil, before, j00));
     const double slip = now.at(FIELD_SHEAR, slot) - before_.at(FIELD_SHEAR, slot);
     const double q = std::sqrt(0.5 * dot_of(s1, s1));

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "control/step_kinds.h"
+#include "core/log.h"
 #include "core/saved_state.h"
 #include "device/device.h"
 #include "paths.h"
@@ -135,6 +137,46 @@ TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
   EXPECT_EQ(resumed->programs().at(1).last().reason, reports[1].last().reason);
   EXPECT_EQ(resumed->programs().at(1).list.size(), reports[1].list.size());
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
+}
+
+/// Warnings that hold a word, until it goes out of scope.
+class Warnings {
+ public:
+  explicit Warnings(std::string about) {
+    set_log_sink([this, about = std::move(about)](LogLevel level, const std::string& line) {
+      if (level == LogLevel::kWarning && line.find(about) != std::string::npos) lines.push_back(line);
+    });
+  }
+  ~Warnings() { set_log_sink({}); }
+  std::vector<std::string> lines;
+};
+
+TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
+  const Warnings warnings("site's border");
+  device::Device device;
+  Session session(load("<size_m>16 8</size_m>",
+                       machine("dumper", "truck", "2 0 0 0 0 0", "") + machine("dumper", "parked", "-4 0 0 0 0 0", "")),
+                  device);
+  session.set("truck/drive/speed", 2);
+  const auto x = [&] { return session.world().machine(0).link(0).pose().translation().x(); };
+  session.step();
+  EXPECT_TRUE(warnings.lines.empty()) << "both stand on it";
+  while (x() < 9 && session.world().time() < 10) session.step();
+  ASSERT_GE(x(), 9);
+  ASSERT_EQ(warnings.lines.size(), 1u);
+  EXPECT_NE(warnings.lines[0].find("'truck'"), std::string::npos) << warnings.lines[0];
+  EXPECT_NE(warnings.lines[0].find("size_m"), std::string::npos) << warnings.lines[0];
+}
+
+TEST(SessionEnd, WithoutSettlingComesAfterTheProgramAndNotBeforeIt) {
+  device::Device device;
+  scene::Scene scene = load("<size_m>16 8</size_m>",
+                            machine("dumper", "truck", "0 0 0 0 0 0", "<wait><duration_s>0.5</duration_s></wait>"));
+  scene.recording.settle = 0;
+  Session session(std::move(scene), device);
+  while (!session.done()) session.step();
+  EXPECT_TRUE(session.complete());
+  EXPECT_NEAR(session.world().time(), 0.5, 0.05);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "lab/theory/formulas.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
@@ -106,6 +107,7 @@ TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
   const double stopped = borne(session, 1.4), later = borne(session, 4.9);
   std::printf("pressed bucket: %.0f N half a second after it stopped, %.0f N three and a half seconds later\n", stopped,
               later);
+  print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped, "no gate", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");
 }

@@ -125,7 +125,8 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
       const int slot = home.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, strain, most, carried, mine)) atomic_or(&broken, 1);
+      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, strain, most, carried, mine))
+        atomic_or(&broken, 1);
       cells[me] = cell;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

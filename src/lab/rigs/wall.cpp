@@ -102,7 +102,7 @@ Report run_wall(const Setup& setup) {
   ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -height));
   // The wall's way either way; half of it at most is spent on coming up to speed.
   const double way = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * way);
-  site.expect(setup["wait"] + (way + ramp) / speed);
+  site.expect(setup["wait"] + (way + ramp) / speed + setup["hold"]);
   driver.run(0.7 * setup["wait"]);
   // The last third of the wait, after the start has rung out.
   const double at_rest = -driver.run(0.3 * setup["wait"]).x() / gap;
@@ -110,6 +110,11 @@ Report run_wall(const Setup& setup) {
   driver.start(0.8 * way, twist, ramp);
   // The last fifth: the pressure has reached its limit there, when the soil is stiff enough.
   const Vec3 last = -driver.advance(0.2 * way, twist) / gap;
+  // Stopped at once; the last tenth, long after that has rung out.
+  const double hold = setup["hold"];
+  driver.set_twist(Vec3::Zero());
+  if (hold > 0) driver.run(0.9 * hold);
+  const double held = hold > 0 ? -driver.run(0.1 * hold).x() / gap : 0;
 
   const scene::Soil& s = setup.soil;
   const double k0 = s.poisson / (1 - s.poisson);
@@ -117,6 +122,9 @@ Report run_wall(const Setup& setup) {
   report.add("force at rest", at_rest, "N/m", 0.5 * s.bank_density * kGravity * height * height * k0, kNone, kNone,
              "K0 = nu / (1 - nu), elastic rest");
   read_wall(setup, last, share, report);
+  if (hold > 0)
+    report.note("force it is held by / force before it stopped", held / last.x(), "",
+                "over the last tenth of the hold");
   return finish_blade(site, driver, report);
 }
 
@@ -130,23 +138,28 @@ Rig wall_rig() {
       "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` it moves `travel` "
       "heights: towards the soil when positive (passive), away when negative (active). Plane strain: the wall spans a "
       "chute of smooth side plates; it comes up to speed over `ramp`. The force at rest is the mean of the last third "
-      "of the wait, the other the mean "
-      "over the last fifth of the travel. With tool friction (--delta-deg) the wall is rough over its middle two "
-      "thirds and held against the lower bound of Lancellotta and the log spiral of Caquot and Kerisel; planar wedges "
-      "are upper bounds and stand beside them.";
-  rig.examples = {{"Active pressure", "--travel -0.03"}, {"Passive pressure at two speeds", "--speed 0.05,0.2"}};
+      "of the wait, the other the mean over the last fifth of the travel. With tool friction (--delta-deg) the wall is "
+      "rough over its middle two thirds and held against the lower bound of Lancellotta and the log spiral of Caquot "
+      "and Kerisel; planar wedges are upper bounds and stand beside them. With --hold it then stands, and what the "
+      "soil "
+      "keeps of its force is told.";
+  rig.examples = {{"Active pressure", "--travel -0.03"},
+                  {"Passive pressure at two speeds", "--speed 0.05,0.2"},
+                  {"What soil keeps of it when the wall stops", "--hold 0.5,1,2"}};
   rig.parameters = {{"height", 1, "m", "of the wall", above(0)},
                     {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
                     {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
                     {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
                     {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
+                    {"hold", 0, "s", "that it stands after the travel; the force at its end is told", at_least(0)},
                     {"ahead", 3, "heights", "of soil in front", at_least(0)},
                     {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
   rig.default_cell = 0.05;
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
   rig.default_soil.young_modulus = 4e6;  // at 1 MPa a passive wall needs more than a fifth of its height of travel
-  rig.headline = {"passive force", "active force", "coefficient", "force at rest"};
+  rig.headline = {"passive force", "active force", "coefficient", "force at rest",
+                  "force it is held by / force before it stopped"};
   rig.experiment = run_wall;
   return rig;
 }

@@ -12,8 +12,8 @@ namespace navvy::soil {
 /// Speed of compression waves [m/s].
 double sound_speed(const scene::Soil& soil);
 
-/// Strain over which J / J0 of a particle relaxes to its cell's mean, and the largest share of the way that it goes in a
-/// step of `dt` [s], however fast it deforms [docs/soil.md, mixing].
+/// Strain over which J / J0 of a particle relaxes to its cell's mean, and the largest share of the way that it goes in
+/// a step of `dt` [s], however fast it deforms [docs/soil.md, mixing].
 double mixing_strain();
 double most_mixing(double dt);
 

@@ -89,13 +89,15 @@ TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
   EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_gate());
 }
 
+/// The series of that name; empty when there is none.
+std::vector<double> travel_of(const Report& report) {
+  for (const Series& series : report.series)
+    if (series.name == "travel") return series.values;
+  return {};
+}
+
 TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
-  const auto travel = [](double ramp) {
-    const Report report = run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}});
-    for (const Series& series : report.series)
-      if (series.name == "travel") return series.values;
-    return std::vector<double>();
-  };
+  const auto travel = [](double ramp) { return travel_of(run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}})); };
   const std::vector<double> sudden = travel(0), ramped = travel(0.02);
   ASSERT_GT(sudden.size(), 10u);
   ASSERT_GT(ramped.size(), sudden.size());
@@ -117,6 +119,23 @@ TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
   auto quick = small;
   quick["speed"] = 0.05;
   EXPECT_LT(run_rig("wall", quick, coarse).simulated_time, 0.5 * slow.simulated_time);
+}
+
+TEST(LabWall, TellsWhatSoilKeepsWhenTheWallStops) {
+  std::map<std::string, double> small = {{"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
+  const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
+  const char* const kept = "force it is held by / force before it stopped";
+  EXPECT_EQ(run_rig("wall", small, coarse).find(kept), nullptr);
+  small["hold"] = 0.3;
+  const Report report = run_rig("wall", small, coarse);
+  ASSERT_NE(report.find(kept), nullptr);
+  // It stands; the soil loses some of the force that it needs to be moved by, and not all.
+  const std::vector<double> way = travel_of(report);
+  ASSERT_FALSE(way.empty());
+  EXPECT_NEAR(way.back(), 0.04, 1e-6);
+  EXPECT_GT(report.find(kept)->measured, 0.3);
+  EXPECT_LT(report.find(kept)->measured, 0.97);
+  EXPECT_GT(report.simulated_time, 0.05 + 0.04 / 0.1 + 0.3);
 }
 
 TEST(LabFooting, BearsFourTimesTheCohesionAtHalfTheCellsOfTheGate) {

@@ -360,5 +360,23 @@ TEST(SoilLaw, TurningWithoutStrainTurnsTheStress) {
   EXPECT_NEAR(e.s[1], 1000, 1);
 }
 
+TEST(Mixing, GoesByStrainAndNoFasterThanItsTime) {
+  const LawSoil soil = law_soil(plain_sand(35), 0.1);
+  // J after a step of `dt` at a simple shear of `rate`, of a particle that is open by 0.2 in a cell open by 0.1.
+  const auto after = [&](double rate, double dt, double opening) {
+    LawState state{{0, 0, 0, 0, 0, 0}, 1.2, 1, 0};
+    const double c[9] = {0, rate, 0, 0, 0, 0, 0, 0, 0};
+    double sigma[6];
+    reference::advance_state(c, dt, &soil, opening, dt / mixing_strain(), most_mixing(dt), &state, sigma);
+    return state.j;
+  };
+  EXPECT_EQ(after(0, 1e-3, 1.1), 1.2) << "soil at rest keeps what it has";
+  EXPECT_EQ(after(0.5, 1e-3, 0), 1.2) << "nothing in the cell is open";
+  EXPECT_NEAR(after(0.5, 1e-3, 1.1), 1.2 - 0.1 * 0.5e-3 / 0.025, 1e-12);
+  EXPECT_NEAR(after(1, 0.5e-3, 1.1), after(0.5, 1e-3, 1.1), 1e-12) << "the same strain";
+  EXPECT_NEAR(after(100, 1e-3, 1.1), 1.2 - 0.1 * 1e-3 / 0.02, 1e-12) << "however fast";
+  EXPECT_NEAR(after(100, 1, 1.1), 1.1, 1e-12) << "never past the mean";
+}
+
 }  // namespace
 }  // namespace navvy::soil
