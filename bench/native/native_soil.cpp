@@ -186,7 +186,7 @@ bool NativeSoil::sum_openings(const Home& home) {
 void NativeSoil::scatter(const Home& home, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
-  const auto strain = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
+  const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
   const auto most = static_cast<float>(soil::most_mixing(static_cast<double>(dt)));
   const bool open = sum_openings(home);
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
@@ -203,7 +203,7 @@ void NativeSoil::scatter(const Home& home, float dt, bool hold) {
 #define LOAD_MANY(NAME, member, count, rest) \
   for (int k = 0; k < (count); ++k) state.member[k] = load(pack.member[k]);
     LAW_STATE_FIELDS(LOAD_ONE, LOAD_MANY)
-    advance_state(c, dt, &law, opening, strain, most, &state, sigma);
+    advance_state(c, dt, &law, opening, mixing, most, &state, sigma);
 #define STORE_ONE(NAME, member, rest) store(state.member, pack.member);
 #define STORE_MANY(NAME, member, count, rest) \
   for (int k = 0; k < (count); ++k) store(state.member[k], pack.member[k]);

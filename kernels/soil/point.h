@@ -41,12 +41,12 @@ INLINED real strain_rate(const real* c) {
 }
 
 // Mixing and law of one step. A J that is not finite comes out as a NaN: the law's floor would hide it. Mixing goes by
-// strain, so that neither a slow tool's soil nor soil that rests under stress is evened out for longer; strain: dt over
-// the strain that mixes [s], most: largest share a step.
-INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening, scalar strain, scalar most,
-                           LawState* state, real* sigma) {
+// strain, so that neither a slow tool's soil nor soil that rests under stress is evened out for longer. mixing: dt over
+// the strain that mixes [s], so that times the strain rate it is a share; most_mixing: largest share a step [-].
+INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening, scalar mixing,
+                           scalar most_mixing, LawState* state, real* sigma) {
   const real before = state->j;
-  state->j = mixed(before, state->j0, opening, fmin(strain * strain_rate(c), most));
+  state->j = mixed(before, state->j0, opening, fmin(mixing * strain_rate(c), most_mixing));
   law_update(c, dt, soil, state, sigma);
   state->j = isfinite(before) ? state->j : before + NAN;
 }

@@ -11,9 +11,9 @@
 #include "control/dig_pose.h"
 #include "control/dig_rig.h"
 #include "control/ew180_like.h"
-#include "core/log.h"
 #include "core/saved_state.h"
 #include "flip_bytes.h"
+#include "log_lines.h"
 
 namespace navvy::control::testing {
 namespace {
@@ -23,21 +23,6 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
   out.steps = std::move(steps);
   return out;
 }
-
-/// Log lines of the test.
-class Lines {
- public:
-  Lines() {
-    set_log_sink([this](LogLevel, const std::string& line) { lines.push_back(line); });
-  }
-  ~Lines() { set_log_sink({}); }
-  std::vector<std::string> lines;
-  std::string text() const {
-    std::string all;
-    for (const std::string& line : lines) all += line + "\n";
-    return all;
-  }
-};
 
 /// A figure of a step's account by name.
 double figure(const StepReport& step, const std::string& name) {
@@ -65,7 +50,7 @@ void expect_good(const TrenchMeasure& measured) {
 }
 
 TEST(Dig, MakesTheTrenchOfTheShippedScene) {
-  Lines log;
+  LogLines log;
   DigRig rig(ew180_like(), program({trench(), Swing{0}}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(400)) << rig.op.phase() << "\n" << log.text();
   const TrenchMeasure measured = measure(rig.ground, trench());
@@ -127,7 +112,7 @@ TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
 
 TEST(Dig, GivesWayToRockAndFinishesTheRest) {
   // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
-  Lines log;
+  LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 2.6;
   rig.rock_to = 3.2;
@@ -152,7 +137,7 @@ TEST(Dig, CurlsAboutTheBucketsPinAndNotOnItsHeel) {
 }
 
 TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
-  Lines log;
+  LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.thickest_slice = 0.09;
   ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
@@ -164,7 +149,7 @@ TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
 
 TEST(Dig, EndsWhenScoopsBringNothing) {
   // The whole line is rock at the surface: nothing can be dug, and the operator does not try for ever.
-  Lines log;
+  LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 1;
   rig.rock_to = 6;

@@ -16,17 +16,16 @@
 #include <functional>
 #include <iterator>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/log.h"
 #include "core/random.h"
 #include "folder.h"
 #include "heightfield/maps.h"
+#include "log_lines.h"
 #include "paths.h"
 #include "planner/feeds.h"
 #include "planner/grounds.h"
@@ -123,26 +122,6 @@ void read_and_leave(int port, std::size_t bytes) {
   ::close(file);
 }
 
-/// What the library logs while it lives.
-class Logged {
- public:
-  Logged() {
-    set_log_sink([this](LogLevel, const std::string& line) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      lines_.push_back(line);
-    });
-  }
-  ~Logged() { set_log_sink({}); }
-  std::vector<std::string> lines() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return lines_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::string> lines_;
-};
-
 std::ptrdiff_t threads() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
 }
@@ -154,7 +133,7 @@ bool comes_true(const std::function<bool()>& what) {
 }
 
 TEST(Publisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
-  Logged logged;
+  LogLines logged;
   Ground ground(testing::setup(20, 20));
   UpdateFeed feed(two_layers());
   feed.publish(ground.view(0));
@@ -185,7 +164,7 @@ TEST(Publisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
 }
 
 TEST(Publisher, WaitsWhereNoFileCanBeOpened) {
-  Logged logged;
+  LogLines logged;
   Ground ground(testing::setup(20, 20));
   UpdateFeed feed(two_layers());
   feed.publish(ground.view(0));

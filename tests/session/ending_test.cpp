@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "control/step_kinds.h"
-#include "core/log.h"
 #include "core/saved_state.h"
 #include "device/device.h"
+#include "log_lines.h"
 #include "paths.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
@@ -139,20 +139,14 @@ TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-/// Warnings that hold a word, until it goes out of scope.
-class Warnings {
- public:
-  explicit Warnings(std::string about) {
-    set_log_sink([this, about = std::move(about)](LogLevel level, const std::string& line) {
-      if (level == LogLevel::kWarning && line.find(about) != std::string::npos) lines.push_back(line);
-    });
-  }
-  ~Warnings() { set_log_sink({}); }
-  std::vector<std::string> lines;
-};
-
 TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
-  const Warnings warnings("site's border");
+  const LogLines log;
+  const auto told = [&] {
+    std::vector<std::string> out;
+    for (const std::string& line : log.lines())
+      if (line.find("site's border") != std::string::npos) out.push_back(line);
+    return out;
+  };
   device::Device device;
   Session session(load("<size_m>16 8</size_m>",
                        machine("dumper", "truck", "2 0 0 0 0 0", "") + machine("dumper", "parked", "-4 0 0 0 0 0", "")),
@@ -160,12 +154,12 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
   session.set("truck/drive/speed", 2);
   const auto x = [&] { return session.world().machine(0).link(0).pose().translation().x(); };
   session.step();
-  EXPECT_TRUE(warnings.lines.empty()) << "both stand on it";
+  EXPECT_TRUE(told().empty()) << "both stand on it";
   while (x() < 9 && session.world().time() < 10) session.step();
   ASSERT_GE(x(), 9);
-  ASSERT_EQ(warnings.lines.size(), 1u);
-  EXPECT_NE(warnings.lines[0].find("'truck'"), std::string::npos) << warnings.lines[0];
-  EXPECT_NE(warnings.lines[0].find("size_m"), std::string::npos) << warnings.lines[0];
+  ASSERT_EQ(told().size(), 1u);
+  EXPECT_NE(told()[0].find("'truck'"), std::string::npos) << told()[0];
+  EXPECT_NE(told()[0].find("size_m"), std::string::npos) << told()[0];
 }
 
 TEST(SessionEnd, WithoutSettlingComesAfterTheProgramAndNotBeforeIt) {

@@ -105,8 +105,6 @@ TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
   session::Session session(load_scene("pressed_bucket.sdf", {}, "tests/validation/digs"), shared_device());
   // It stops at 0.9 s; what pressing fast adds is gone soon after.
   const double stopped = borne(session, 1.4), later = borne(session, 4.9);
-  std::printf("pressed bucket: %.0f N half a second after it stopped, %.0f N three and a half seconds later\n", stopped,
-              later);
   print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped, "no gate", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");

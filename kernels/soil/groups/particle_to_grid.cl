@@ -18,7 +18,7 @@ static inline LawSoil load_soil(constant SoilRow* row) {
 
 // Law and momentum of the particle in `slot`; false when a value is not finite. out: STAGED words.
 static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
-                           float dt, float dx, float strain, float most, float carried, float* out) {
+                           float dt, float dx, float mixing, float most_mixing, float carried, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
@@ -26,7 +26,7 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   UNROLL
   for (int k = 0; k < 9; ++k) c[k] = LOAD(FIELD_C + k);
   LAW_STATE_FIELDS(LOAD_ONE, LOAD_MANY)
-  advance_state(c, dt, &soil, opening, strain, most, &soil_state, sigma);
+  advance_state(c, dt, &soil, opening, mixing, most_mixing, &soil_state, sigma);
   LAW_STATE_FIELDS(STORE_ONE, STORE_MANY)
 
   const float x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
@@ -96,7 +96,7 @@ static inline int needs(global float* state, int capacity, Home home) {
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
     global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float strain, const float most, const float carried) {
+    const float dx, const float mixing, const float most_mixing, const float carried) {
   local float4 tile[TILE_SIZE];
   local float stage[STAGED * CHUNK];
   local int cells[CHUNK], sides[CHUNK], first[CELLS], counts[CELLS];
@@ -125,7 +125,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
       const int slot = home.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, strain, most, carried, mine))
+      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing, carried, mine))
         atomic_or(&broken, 1);
       cells[me] = cell;
     }

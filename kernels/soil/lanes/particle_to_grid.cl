@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stress update of each particle, then scatter of mass and momentum to its block's tile.
 //
-// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; strain [s], most [-]: mixing of
+// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing [s], most_mixing [-]: of
 //      advance_state() in point.h; carried = 0 in a held step, whose nodes have kept their momentum.
 // Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
 //      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
@@ -72,7 +72,7 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
     global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float strain, const float most, const float carried) {
+    const float dx, const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
   const Home home = homes[block];
   global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
@@ -111,7 +111,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
     real opening = 0.0f;
     if (open) opening = opening_of(openings, cell_of(x, y, z));
-    advance_state(c, dt, &soil, opening, strain, most, &soil_state, sigma);
+    advance_state(c, dt, &soil, opening, mixing, most_mixing, &soil_state, sigma);
     LAW_STATE_FIELDS(STORE_ONE, STORE_MANY)
 
     // Weights and momentum.

@@ -96,7 +96,7 @@ std::vector<double> ReferenceSolver::openings() const {
 void ReferenceSolver::scatter(double dt, bool hold) {
   // All openings first: mixing compares particles as the step found them.
   const std::vector<double> opening = openings();
-  const double strain = dt / mixing_strain(), most = most_mixing(dt);
+  const double mixing = dt / mixing_strain(), most = most_mixing(dt);
   if (!hold) nodes_.clear();
   for (auto& [at, node] : nodes_) {
     node.mass = 0;
@@ -107,7 +107,7 @@ void ReferenceSolver::scatter(double dt, bool hold) {
     const scene::Soil& soil = soils_.at(static_cast<std::size_t>(p.soil));
     const LawSoil law = law_soil(soil, cell_);
     double sigma[6], start[3], a[9];
-    advance_state(p.c, dt, &law, opening[i], strain, most, &p, sigma);
+    advance_state(p.c, dt, &law, opening[i], mixing, most, &p, sigma);
     const Weights weights = weights_at(p.x - p.moved);
     affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, hold ? 0 : 1, dt,
                     cell_, start, a);

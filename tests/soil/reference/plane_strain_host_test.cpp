@@ -153,15 +153,14 @@ TEST(PlaneStrain, CuredClayIsFeltByASlowBlade) {
 TEST(PlaneStrain, ClayKeepsItsStrengthWhereItIsOpenOnlyAsItsNodesShow) {
   const scene::Soil clay = clay_of(150e3);
   PlaneBlade blade;
-  blade.from = 0.2, blade.travel = 0.25, blade.ramp = 0.015;
+  blade.from = 0.35, blade.travel = 0.4, blade.ramp = 0.015;
   PlaneMethod by_itself = cured();
   by_itself.opening = PlaneMethod::Opening::kIntegrated;
   const double lost = push_blade(clay, 0.1, 0.5, by_itself, blade).over_rankine;
   const double kept = push_blade(clay, 0.1, 0.5, cured(), blade).over_rankine;
-  print_value("clay of 150 kPa after 0.2 m, opening by J alone: force / Rankine", lost, "1", "[docs/soil.md, opening]");
-  print_value("clay of 150 kPa after 0.2 m, opening seen by the nodes: the same", kept, "1", "[docs/soil.md, opening]");
-  // What J alone opens takes a quarter of the force.
-  EXPECT_LT(lost, 0.8 * kept);
+  print_value("clay of 150 kPa after 0.4 m, opening by J alone: force / Rankine", lost, "1", "[docs/soil.md, opening]");
+  print_value("clay of 150 kPa after 0.4 m, opening seen by the nodes: the same", kept, "1", "[docs/soil.md, opening]");
+  EXPECT_LT(lost, 0.6);
   EXPECT_GT(kept, 0.85);
   EXPECT_LT(kept, 1.1);
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the libraries log while a test looks.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/log.h"
+
+namespace navvy {
+
+/// Takes every line that is logged while it lives, from any thread; only one at a time, as there is one sink.
+class LogLines {
+ public:
+  LogLines() {
+    set_log_sink([this](LogLevel, const std::string& line) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      lines_.push_back(line);
+    });
+  }
+  ~LogLines() { set_log_sink({}); }
+  LogLines(const LogLines&) = delete;
+  LogLines& operator=(const LogLines&) = delete;
+
+  std::vector<std::string> lines() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return lines_;
+  }
+  /// All of them, each with its end.
+  std::string text() const {
+    std::string all;
+    for (const std::string& line : lines()) all += line + "\n";
+    return all;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace navvy
