@@ -137,7 +137,7 @@ def table(rows):
     halves = {(row["case"][:-4], row["figure"]): row for row in rows
               if row["case"].endswith("Half") and row["case"][:-4] in names}
     runs = []
-    lines = ["| Case | Figure | Measured | Half the cell | Expected | Gate | Source | s | Run |",
+    lines = ["| Case | Quantity | Measured | Half the cell | Expected | Tolerance | Source | s | Run |",
              "|---|---|---|---|---|---|---|---|---|"]
     last = None
     for row in rows:
