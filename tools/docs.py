@@ -74,8 +74,12 @@ def prose_lines(text):
 
 def anchors(text):
     found = collections.Counter()
-    out = set()
-    for _, line in prose_lines(text):
+    out, fenced = set(), False
+    for line in text.split("\n"):
+        if FENCE.match(line.lstrip()):
+            fenced = not fenced
+        if fenced:
+            continue
         heading = re.match(r"^#+ +(.*?)\s*$", line)
         if heading:
             name = slug(heading[1])
