@@ -4,13 +4,20 @@
 
   docs.py              renews generated tables and reference pages, checks links, builds build/docs/site
   docs.py --check      changes nothing: fails when a generated page is stale or a link leads nowhere
-  docs.py --links      checks the links alone
+  docs.py --pages      checks links and tables made from CSV files, for which no program is needed
+  docs.py selftest
+
+A page has a table of a CSV file beside or below it between two marks; the first row are the column headings:
+
+  <!-- generated: begin; csv: fuzz/totals.csv -->
+  <!-- generated: end -->
 
 Reads README.md files and docs/ where they stand, so that the same pages read well on a code host and in the site. The
 site is made by Sphinx with MyST; the library's pages come from the headers through Doxygen and Breathe. Every warning
 is an error. Reference pages need a built navvy (build/release or build/ci) and are left alone without one.
 """
 import collections
+import csv
 import glob
 import html
 import os
@@ -39,6 +46,8 @@ NAVIGATION = [
     ("C++ library", ["docs/api/*"]),
 ]
 LINK = re.compile(r"(!?)\[((?:[^\[\]`]|`[^`]*`|\[[^\]]*\])*)\]\(([^()\s]+)\)")
+BEGIN = re.compile(r"^<!-- generated: begin; csv: (\S+) -->$")
+END = "<!-- generated: end -->"
 FENCE = re.compile(r"^(```|~~~)")
 CITATION = re.compile(r"\[(docs/[\w./-]+\.md)(?:, *([^\]]*))?\](?!\()")
 LITERATURE = re.compile(r"\[((?:[A-Z][\w'-]+|ISO) \d{4,5})((?:[,:;][^\[\]]*)?)\](?!\()")
@@ -109,6 +118,45 @@ def wrong_links(all_pages):
                 elif anchor and path in places and anchor not in places[path]:
                     wrong.append("%s:%d: no heading for %s" % (page, number, target))
     return wrong
+
+
+def csv_table(path):
+    """Markdown of a CSV file."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = [[cell.replace("|", "\\|").replace("*_", "\\*_") for cell in row] for row in csv.reader(file)]
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    return lines[:1] + ["|" + "---|" * len(rows[0])] + lines[1:]
+
+
+def with_csv_tables(text, folder):
+    """The page with its CSV tables made anew."""
+    out, inside = [], False
+    for line in text.split("\n"):
+        begin = BEGIN.match(line)
+        if not inside:
+            out.append(line)
+        if begin:
+            out += csv_table(os.path.join(folder, begin[1]))
+            inside = True
+        elif inside and line == END:
+            out.append(line)
+            inside = False
+    return "\n".join(out)
+
+
+def csv_tables(all_pages, only_check):
+    good = True
+    for page in all_pages:
+        before = read(page)
+        after = with_csv_tables(before, os.path.join(ROOT, os.path.dirname(page)))
+        if before == after:
+            continue
+        if only_check:
+            good = False
+            print("%s: a table is not what its CSV file gives: `./dev docs` writes it" % page, file=sys.stderr)
+        else:
+            write(os.path.join(ROOT, page), after)
+    return good
 
 
 # --- the site
@@ -309,12 +357,26 @@ def generated(only_check):
     return good
 
 
+def selftest():
+    assert slug("Keys of summary.json") == "keys-of-summaryjson"
+    assert slug("In a machine's `model`") == "in-a-machines-model"
+    assert anchors("# A b\n```\n# no\n```\n## A b\n") == {"a-b", "a-b-1"}
+    pages_here = ["docs/soil.md", "docs/bibliography.md", "README.md"]
+    text = staged("README.md", "[docs/soil.md, yield] and [Klar 2016]; [code](src/x.h), `[docs/soil.md]`", pages_here)
+    assert text == "[soil, yield](docs/soil.md#yield) and [\\[Klar 2016\\]](docs/bibliography.md); code (`src/x.h`), " \
+                   "`[docs/soil.md]`", text
+
+
 def main(arguments=None):
     arguments = sys.argv[1:] if arguments is None else arguments
-    if any(argument not in ("--check", "--links") for argument in arguments):
+    if any(argument not in ("--check", "--pages", "selftest") for argument in arguments):
         sys.exit(__doc__)
-    good = "--links" in arguments or generated("--check" in arguments)
+    if "selftest" in arguments:
+        selftest()
+        return 0
     all_pages = pages()
+    good = csv_tables(all_pages, bool(arguments))
+    good &= "--pages" in arguments or generated("--check" in arguments)
     wrong = wrong_links(all_pages)
     for line in wrong:
         print(line, file=sys.stderr)
