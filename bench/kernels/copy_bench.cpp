@@ -5,7 +5,7 @@
 
 #include "bench.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 int main() {
   using namespace navvy;
@@ -21,7 +21,7 @@ int main() {
       row.bytes_per_particle = 32;
       bench::print(device.info(), row, bandwidth);
     }
-    const device::Program program = device::Program::from_text(
+    const device::KernelProgram program = device::KernelProgram::from_text(
         device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
     device::Buffer<int> x(device, 2);
     x.fill(0);

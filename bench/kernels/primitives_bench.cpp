@@ -8,9 +8,9 @@
 #include "core/saved_state.h"
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "heightfield/change_follower.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace {
 
@@ -23,8 +23,8 @@ device::Device& shared_device() {
 
 void device_copy(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "copy",
+  const device::KernelProgram program =
+      device::KernelProgram::from_text(device, "copy",
                                  "kernel void copy(global const float4* from, global float4* to) { "
                                  "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const auto bytes = static_cast<std::size_t>(state.range(0));
@@ -39,12 +39,12 @@ void device_copy(benchmark::State& state) {
   }
   state.SetBytesProcessed(2 * state.range(0) * static_cast<std::int64_t>(state.iterations()));
 }
-BENCHMARK(device_copy)->RangeMultiplier(16)->Range(1 << 16, 1 << 28)->UseRealTime();
+BENCHMARK(device_copy)->RangeMultiplier(16)->WorkSize(1 << 16, 1 << 28)->UseRealTime();
 
 void kernel_launch(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  const device::KernelProgram program =
+      device::KernelProgram::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
   device::Buffer<int> x(device, 2);
   x.fill(0);
   device::Kernel nothing(program, "nothing");
@@ -56,8 +56,8 @@ BENCHMARK(kernel_launch)->UseRealTime();
 
 void launch_and_wait(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  const device::KernelProgram program =
+      device::KernelProgram::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
   device::Buffer<int> x(device, 2);
   x.fill(0);
   device::Kernel nothing(program, "nothing");
@@ -95,7 +95,7 @@ BENCHMARK(ground_sample_untouched)->Arg(1000)->Arg(10000);
 /// Height of a column of ground that was dug.
 void ground_height_touched(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 100; iy < 200; ++iy)
     for (int ix = 100; ix < 200; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
   int ix = 100;
@@ -110,7 +110,7 @@ BENCHMARK(ground_height_touched);
 
 /// Digs a little off a hundred columns of a 1 km2 site, `apart` columns from each other.
 void dig_hundred(heightfield::Ground& ground, int apart) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int i = 0; i < 100; ++i) {
     const int ix = 3000 + apart * (i % 10), iy = 3000 + apart * (i / 10);
     ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
@@ -144,20 +144,20 @@ BENCHMARK(terrain_dig_view_and_follow)->Arg(1)->Arg(40)->Iterations(2000)->Unit(
 /// Taking soil off a column and putting it back.
 void ground_take_and_put(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   int ix = 100;
   for (auto _ : state) {
     ix = ix < 164 ? ix + 1 : 100;
     taken.clear();
     ground.take_above(ix, 120, ground.height(ix, 120) - 0.1, taken);
-    for (const heightfield::Layer& layer : taken) ground.put(ix, 120, layer);
+    for (const heightfield::SoilLayer& layer : taken) ground.put(ix, 120, layer);
   }
 }
 BENCHMARK(ground_take_and_put);
 
 void ground_save(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 128; ++iy)
     for (int ix = 0; ix < 128; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
   for (auto _ : state) {

@@ -69,7 +69,7 @@ void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
 
 std::vector<soil::Particle> NativeSoil::particles() const {
   std::vector<soil::Particle> out(count_);
-  for (const Home& home : homes_)
+  for (const ParticleBlock& home : particle_blocks_)
     for (std::size_t i = 0; i < home.count; ++i) {
       const Pack& pack = packs_[home.first + i / kLanes];
       const std::size_t l = i % kLanes;
@@ -110,23 +110,23 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
   velocity_ = grid_;
   interval_ = {};
   packs_.clear();
-  homes_.clear();
+  particle_blocks_.clear();
   count_ = particles.size();
   drift_ = 0;
   ++sorts_;
   for (std::size_t n = 0; n < keys.size(); ++n) {
     if (n == 0 || keys[n].home != keys[n - 1].home) {
-      Home home;
+      ParticleBlock home;
       home.first = packs_.size();
       for (std::size_t a = 0; a < 3; ++a) home.corner[a] = soil::kBlockCells * (keys[n].home[a] - low[a]);
-      homes_.push_back(home);
+      particle_blocks_.push_back(home);
     }
     append(particles[keys[n].index]);
   }
 }
 
 void NativeSoil::append(const soil::Particle& p) {
-  Home& home = homes_.back();
+  ParticleBlock& home = particle_blocks_.back();
   const std::size_t l = home.count++ % kLanes;
   if (l == 0) {
     packs_.emplace_back();  // lanes without a particle: no mass, inside the home
@@ -150,7 +150,7 @@ void NativeSoil::append(const soil::Particle& p) {
   pack.id[l] = p.id;
 }
 
-bool NativeSoil::sum_openings(const Home& home) {
+bool NativeSoil::sum_openings(const ParticleBlock& home) {
   bool open = false;
   const std::size_t packs = (home.count + kLanes - 1) / kLanes;
   for (std::size_t n = 0; n < packs && !open; ++n) {
@@ -183,7 +183,7 @@ bool NativeSoil::sum_openings(const Home& home) {
   return true;
 }
 
-void NativeSoil::scatter(const Home& home, float dt, bool hold) {
+void NativeSoil::scatter(const ParticleBlock& home, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
   const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
@@ -243,7 +243,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   for (int z = 0; z < nodes_[2]; ++z) {
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
     const bool held = above <= static_cast<float>(soil::kHeldMargin);
-    const float room = 1 / room_above(above);
+    const float room = 1 / free_fraction_above(above);
     for (std::size_t end = n + row_ * rows_; n < end; ++n) {
       Float4 node = grid_[n];
       const float mass = node[3];
@@ -260,7 +260,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   }
 }
 
-float NativeSoil::gather(const Home& home, float dt) {
+float NativeSoil::gather(const ParticleBlock& home, float dt) {
   const float dx = cell_;
   const auto cell = static_cast<double>(cell_);
   const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
@@ -311,7 +311,7 @@ float NativeSoil::gather(const Home& home, float dt) {
     store(seen_opening(j, j0, u[3], filled, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
-      const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);
+      const Lanes way = (dt / dx) * u[a] + crowding_displacement(share, lean[a], u[3], most);
       store(load(pack.moved[a]) + way, pack.moved[a]);
       m[a] = way * (dx / dt);
     }
@@ -326,10 +326,10 @@ void NativeSoil::step(double dt) {
   if (!hold) end_transfer();
   if (drift_ > kMostDrift) sort(particles());
   std::fill(grid_.begin(), grid_.end(), Float4{});
-  for (const Home& home : homes_) scatter(home, static_cast<float>(dt), hold);
+  for (const ParticleBlock& home : particle_blocks_) scatter(home, static_cast<float>(dt), hold);
   update_grid(static_cast<float>(dt), hold);
   float fastest = 0;
-  for (const Home& home : homes_) fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
+  for (const ParticleBlock& home : particle_blocks_) fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
   interval_.book(dt, cell, static_cast<double>(fastest), 0);
 }
 

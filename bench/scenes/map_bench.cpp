@@ -31,7 +31,7 @@
 #include "core/random.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "paths.h"
 #include "planner/footprint.h"
 #include "planner/map_maker.h"
@@ -41,7 +41,7 @@
 #include "planner/updates.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #include "sim/timing.h"
 
 namespace {
@@ -76,7 +76,7 @@ heightfield::GroundSetup hills(int columns) {
 /// A bucket of 1 m x 1.1 m x 0.25 m from here; columns.
 constexpr int kBucketX = 10, kBucketY = 11;
 void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = y0; iy < y0 + kBucketY; ++iy)
     for (int ix = x0; ix < x0 + kBucketX; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
 }

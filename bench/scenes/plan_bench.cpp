@@ -16,7 +16,7 @@
 #include "control/surface.h"
 #include "core/saved_state.h"
 #include "core/stopwatch.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "paths.h"
 #include "planner/path_planner.h"
 #include "scene_io/loader.h"
@@ -27,7 +27,7 @@ using namespace navvy;
 
 /// Trench and spoil as the scene's dig leaves them, in plain shapes.
 void dig(heightfield::Ground& ground, bool across) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = ground.origin() + ground.cell() * Vec2(ix + 0.5, iy + 0.5);
@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
       heightfield::Ground ground = heightfield::make_ground(scene);
       if (dug) dig(ground, across);
       const auto planner = planner::path_planners()(scene.machines.at(0).machine);
-      planner->look(control::GroundSurface(ground));
+      planner->look(control::GroundSurfaceView(ground));
       measure(name, *planner, asked, 5, runs);
     }
     return 0;

@@ -15,7 +15,7 @@
 
 #include "bench.h"
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "planner/formats/formats.h"
 #include "planner/sources.h"
 #include "planner/updates.h"
@@ -70,7 +70,7 @@ void measure_updates(double edge, int runs) {
   planner::UpdateFeed feed(planner::options_for(scene, ground, planner::all_layers()));
   feed.publish(ground.view());
   int bucket = 0;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   measure("map:update", edge, runs, [&] {
     constexpr std::uint64_t kBuckets = 20;
     for (std::uint64_t k = 0; k < kBuckets; ++k, ++bucket) {

@@ -15,9 +15,9 @@
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/loader.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace {
 
@@ -113,7 +113,7 @@ class Stage {
   }
   void press() {
     std::vector<coupling::LoadedTyre> tyres;
-    std::vector<terramechanics::BeltPatch> belts;
+    std::vector<terramechanics::TrackPatch> running_tracks;
     for (int m = 0; m < engine_->machine_count(); ++m)
       for (std::size_t w = 0; w < machine_.wheels.size(); ++w) {
         const int wheel = static_cast<int>(w);
@@ -121,11 +121,11 @@ class Stage {
           tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
           continue;
         }
-        for (const terramechanics::BeltPatch& patch : engine_->belt_patches(m, wheel)) belts.push_back(patch);
+        for (const terramechanics::TrackPatch& patch : engine_->track_patches(m, wheel)) running_tracks.push_back(patch);
       }
     const double interval = coupling::kRutInterval * kStep;
     ruts_.press(tyres, interval);
-    if (!belts.empty()) track_ruts_.press(belts, coupling::kSinkSpeed * interval, tyres.empty());
+    if (!running_tracks.empty()) track_ruts_.press(running_tracks, coupling::kSinkSpeed * interval, tyres.empty());
   }
 
   const scene::Machine& machine_;
@@ -135,7 +135,7 @@ class Stage {
   coupling::TrackRuts track_ruts_;
   coupling::GroundView columns_;
   FirmGround firm_;
-  std::unique_ptr<vehicle::Engine> engine_;
+  std::unique_ptr<vehicle::PhysicsEngine> engine_;
 };
 
 void measure_case(const Case& what) {

@@ -45,8 +45,8 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
 // that stands off by a quarter of a cell holds 0.8, and 0.9 counts as full.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
   const scalar under = fmax(down, 0.0f), full = contact_unit(1.5f * fill), near = contact_near(clearance, r);
-  const scalar no_room = full * (1.0f - under) + contact_unit(4.0f * fill - 2.6f) * under;
-  const scalar holds = near + (1.0f - near) * no_room;
+  const scalar no_clearance = full * (1.0f - under) + contact_unit(4.0f * fill - 2.6f) * under;
+  const scalar holds = near + (1.0f - near) * no_clearance;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
 }

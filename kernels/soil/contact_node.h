@@ -29,7 +29,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
+  const float room = fmax(mean_of(kernel_share((float4)(clearance))), MIN_FREE_FRACTION);
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
@@ -154,7 +154,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     // Mass per room, as far as ground and plate leave room on this side.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);
+    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
     out.felt[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
   }
   return out;

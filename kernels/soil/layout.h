@@ -27,12 +27,12 @@ namespace navvy::soil {
 #endif
 
 // One home block: a block that holds particles.
-typedef struct Home {
+typedef struct ParticleBlock {
   int start;  // first slot, a multiple of NAVVY_LANES
   int count;  // particles
   int tile;   // first tile
   int near;   // 1: near a shell, three tiles (0 neutral, 1 front, 2 back); 0: one
-} Home;
+} ParticleBlock;
 
 // Resting ground of one active block [cells from its corner], per node column, x fastest.
 typedef struct BlockFloor {
@@ -57,7 +57,7 @@ typedef struct Report {
 } Report;
 
 #ifdef __cplusplus
-static_assert(sizeof(Home) == 16 && offsetof(Home, tile) == 8 && offsetof(Home, near) == 12);
+static_assert(sizeof(ParticleBlock) == 16 && offsetof(ParticleBlock, tile) == 8 && offsetof(ParticleBlock, near) == 12);
 static_assert(sizeof(BlockFloor) == 320 && offsetof(BlockFloor, around) == 64);
 static_assert(sizeof(ContactSoil) == 16 && offsetof(ContactSoil, inv_density) == 8);
 static_assert(sizeof(Report) == 16 && offsetof(Report, push) == 8);

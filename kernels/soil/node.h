@@ -10,7 +10,7 @@
 
 #include "soil/layout.h"
 
-#define LEAST_ROOM 0.25f  // a sliver tells nothing
+#define MIN_FREE_FRACTION 0.25f  // a sliver tells nothing
 
 // Share of the quadratic B-spline of a node that lies on its side of a plane t cells away (t < 0: node behind it).
 INLINED columns kernel_share(columns t) {
@@ -21,12 +21,12 @@ INLINED columns kernel_share(columns t) {
 }
 
 // The same for a node whose four columns end `below` cells under it (or above, when negative), on its side of a plate
-// `beside` cells away. Never less than LEAST_ROOM.
-INLINED scalar room_between(columns below, scalar beside) {
-  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))), LEAST_ROOM);
+// `beside` cells away. Never less than MIN_FREE_FRACTION.
+INLINED scalar free_fraction_between(columns below, scalar beside) {
+  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))), MIN_FREE_FRACTION);
 }
 
-INLINED scalar room_above(columns below) { return all(below >= 1.5f) ? 1.0f : room_between(below, 1.5f); }
+INLINED scalar free_fraction_above(columns below) { return all(below >= 1.5f) ? 1.0f : free_fraction_between(below, 1.5f); }
 
 // 1 / m [1/kg] of a node, or of several side by side; 0 for one lighter than a mass quantum, which is empty: velocity
 // after gravity is p INVERSE_MASS(m) + g dt where m > MASS_QUANTUM.

@@ -99,7 +99,7 @@ INLINED real seen_opening(real j, real j0, real node_mass, scalar filled, scalar
 
 // Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,
 // seen from the particle [kg cells]; most: farthest way [cells].
-INLINED real way_apart(real share, real lean, real node_mass, scalar most) {
+INLINED real crowding_displacement(real share, real lean, real node_mass, scalar most) {
   return fmin(fmax(-share * lean / fmax(node_mass, MASS_QUANTUM), -most), most);
 }
 

@@ -47,7 +47,7 @@ typedef struct SideResult {
 // The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
 // plate comes back to its surface. One that seems farther behind than it can be came to another plate of the tool,
 // which shows it its other face (plates that meet in a T), and lies where it lies.
-static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
+static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
                                    float band, float longest_push, global const ShellTriangle* triangles,
                                    global const Tool* tools) {
   SideResult out = {x, 0, 0.0f, 0};

@@ -10,7 +10,7 @@
 #include "core/stopwatch.h"
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 namespace navvy::bench {
 namespace {
@@ -123,8 +123,8 @@ double kernel_seconds(device::Device& device, const std::function<void()>& resto
 }
 
 double copy_bandwidth(device::Device& device, std::size_t bytes) {
-  const device::Program program =
-      device::Program::from_text(device, "copy",
+  const device::KernelProgram program =
+      device::KernelProgram::from_text(device, "copy",
                                  "kernel void copy(global const float4* from, global float4* to) { "
                                  "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const std::size_t count = bytes / 16;
@@ -142,7 +142,7 @@ double copy_bandwidth(device::Device& device, std::size_t bytes) {
 }
 
 double fma_peak(device::Device& device) {
-  const device::Program program = device::Program::from_text(device, "fma_peak", kFmaSource);
+  const device::KernelProgram program = device::KernelProgram::from_text(device, "fma_peak", kFmaSource);
   device::Kernel kernel(program, "fma_peak");
   // A launch must take long enough for its own cost not to show, and short enough for a bench of seconds: a GPU takes
   // many items, a CPU with few lanes takes more rounds of fewer items.

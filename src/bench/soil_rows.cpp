@@ -8,14 +8,14 @@
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "device/device.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 
 namespace navvy::bench {
 namespace {
 
-using lab::Box;
+using lab::SiteBox;
 using lab::open_box;
 using lab::Site;
 
@@ -107,7 +107,7 @@ Row held_bucket(device::Device& device, int steps) {
 
 /// A tilted bucket with its lip in a bed of `length` x `width` x 0.6 m: what a trench costs.
 Row dig(device::Device& device, double length, double width, int steps, const scene::Soil& what = sand()) {
-  const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
+  const SiteBox bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
   // Larger than the bed, so that no soil reaches the site's edge and the count stays.
   options.size = std::max(20.0, 2 * length + 4);

@@ -15,7 +15,7 @@
 #include "core/sealed.h"
 #include "planner/queries.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::cli {
 
@@ -83,11 +83,11 @@ std::string shown(const std::string& text) {
 
 std::string shown(const json& value) { return shown(value.dump(-1, ' ', false, json::error_handler_t::replace)); }
 
-ControlRequests::ControlRequests(session::Session& session, double rate, ControlDesk desk)
+ControlRequests::ControlRequests(session::Session& session, double rate, ControlServices services)
     : session_(session),
       world_(session.world()),
       rate_(rate),
-      desk_(std::move(desk)),
+      services_(std::move(services)),
       start_(saved(session)),
       feed_(planner::options_for(session.world().description(), session.world().ground(), planner::all_layers(),
                                  session.design())) {
@@ -122,7 +122,7 @@ json ControlRequests::answer(const json& line) {
     out = go_back([&] { load_saved(start_, session_); });
   }
   const bool file = key == "save" || key == "load";
-  if (file && !desk_.files) refuse(key, what, "files are not to be had here", "use reset");
+  if (file && !services_.files) refuse(key, what, "files are not to be had here", "use reset");
   if (key == "watch") {
     const std::size_t before = world_.outputs().size();
     session_.watch(text_in(key, what));
@@ -243,8 +243,8 @@ json ControlRequests::image(const json& what) const {
   if (std::find(names.begin(), names.end(), name) == names.end())
     refuse("image", what, "no camera of this name in the scene",
            names.empty() ? "add a <navvy:camera>" : suggestion(name, names));
-  if (!desk_.draw) refuse("image", what, "nobody draws here", "ask the program navvy");
-  const Picture picture = desk_.draw(name);
+  if (!services_.draw) refuse("image", what, "nobody draws here", "ask the program navvy");
+  const Picture picture = services_.draw(name);
   return {{"camera", name},
           {"time", world_.time()},
           {"width", picture.width},

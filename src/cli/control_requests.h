@@ -25,7 +25,7 @@ struct Picture {
 };
 
 /// What the program lends to its controller.
-struct ControlDesk {
+struct ControlServices {
   /// Draws what a camera of the scene sees now; nothing: no pictures. @throws Error.
   std::function<Picture(const std::string& camera)> draw;
   bool files = true;  ///< states may be saved to and loaded from files
@@ -37,7 +37,7 @@ struct ControlDesk {
 class ControlRequests {
  public:
   /// Keeps the session's present state for `reset` (some MiB for each million particles).
-  ControlRequests(session::Session& session, double rate, ControlDesk desk);
+  ControlRequests(session::Session& session, double rate, ControlServices services);
 
   /// Whether the line asks for something, and so drives nothing.
   static bool is_request(const nlohmann::json& line);
@@ -58,7 +58,7 @@ class ControlRequests {
   session::Session& session_;
   const sim::World& world_;
   double rate_;
-  ControlDesk desk_;
+  ControlServices services_;
   std::vector<char> start_;
   planner::UpdateFeed feed_;
   bool moved_ = false;

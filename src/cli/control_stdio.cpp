@@ -67,12 +67,12 @@ std::string line_of(const json& out) { return out.dump(-1, ' ', false, json::err
 
 /// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest
 /// step.
-ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk)
+ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlServices services)
     : stop_(std::move(stop)),
       session_(session),
       world_(session.world()),
       rate_(rate),
-      requests_(session, rate, std::move(desk)) {}
+      requests_(session, rate, std::move(services)) {}
 
 /// The next line without its end. Every byte is looked at once, whatever the pieces that it comes in.
 ControlStdio::Read ControlStdio::read_line(std::string& line) {

@@ -25,7 +25,7 @@ namespace navvy::cli {
 class ControlStdio {
  public:
   /// @param stop asked while it waits for its controller: true ends the wait
-  ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk = {});
+  ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlServices services = {});
   /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone, or `stop` said so.
   bool exchange();
   /// How the controller went away without {"end": true}; empty while it is there.

@@ -14,7 +14,7 @@
 #include <initializer_list>
 
 #include "cli/exit_code.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 
 namespace navvy::cli {
 namespace {
@@ -75,7 +75,7 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
 }
 
 void tell(const char* text) {
-  record::leave_last_words("failed", text);
+  record::write_crash_summary("failed", text);
   const char* const parts[] = {"error: ", text, "\n"};
   for (const char* part : parts)
     if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;

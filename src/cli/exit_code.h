@@ -12,7 +12,7 @@ enum ExitCode {
   kFile = 4,          ///< a result could not be written (disk full, permission)
   kSimulation = 5,    ///< the run stopped itself; failed.snapshot was written
   kIncomplete = 6,    ///< the run ended, but a program of it did not come to its end; all results are there
-  kGateMissed = 7,    ///< an experiment of the laboratory ended outside a gate that holds for it
+  kOutOfTolerance = 7,    ///< an experiment of the laboratory ended outside a gate that holds for it
   kInterrupted = 130  ///< Ctrl-C, SIGTERM, SIGHUP, or a controller that went away; results up to then are complete
 };
 

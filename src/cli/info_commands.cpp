@@ -57,7 +57,7 @@ void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
 }
 
 /// Says what follows from a machine's file without standing in it.
-void tell_derived(const std::string& name, const scene::Machine& machine) {
+void print_derived(const std::string& name, const scene::Machine& machine) {
   for (const std::string& one : machine.derived) std::printf("'%s': %s\n", name.c_str(), one.c_str());
 }
 
@@ -67,7 +67,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   std::set<std::string> told;
   set_log_sink([&](LogLevel level, const std::string& text) {
     if (level < LogLevel::kWarning || !told.insert(text).second) return;
-    std::cout << (tells_its_severity(text) ? "" : "warning: ") << text << "\n";
+    std::cout << (print_its_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
   for (const std::string& name : files) {
@@ -88,9 +88,9 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     errors += count.errors;
     warnings += count.warnings;
     const std::size_t counted = faults.size();
-    if (machine) tell_derived(machine->name, *machine);
+    if (machine) print_derived(machine->name, *machine);
     if (world)
-      for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
+      for (const scene::MachineInWorld& placed : world->machines) print_derived(placed.name, placed.machine);
     // What only a machine on its ground can tell: the test that a run makes before it starts.
     if (world)
       for (Fault& fault : session::check_programs(*world, planner::path_planners())) faults.push_back(std::move(fault));

@@ -275,7 +275,7 @@ int run_rig(const LabOptions& options) {
   if (!options.json.empty())
     write_file_atomically(options.json, (lists.axes.empty() ? runs.front() : runs).dump(1) + "\n");
   if (!options.plot.empty()) write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
-  return missed ? kGateMissed : kOk;
+  return missed ? kOutOfTolerance : kOk;
 }
 
 /// Names an option that the rig does not have, with the nearest that it has.

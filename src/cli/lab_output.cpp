@@ -40,7 +40,7 @@ std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_t
 /// Supplied, kept and spent, in joules; then what the sums do not explain.
 void print_energy(const soil::EnergyAccount& energy) {
   std::string text;
-  soil::tell_energy(energy, [&](const char* name, double joule) {
+  soil::report_energy(energy, [&](const char* name, double joule) {
     text += (text.empty() ? " " : ", ") + std::string(name) + " " + lab::short_text(joule);
   });
   std::printf("energy [J]:%s\n", text.c_str());
@@ -63,7 +63,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
     // Absent where there is none, so that a reader need not tell a gate of nulls from no gate.
-    if (q.has_gate()) out["gate"][name] = {number(q.low), number(q.high)};
+    if (q.has_tolerance()) out["gate"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
     if (q.missed()) out["missed"].push_back(name);
     // Of a gate that says nothing here: what it holds for.
@@ -74,7 +74,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     for (const double v : s.values) values.push_back(number(v));
   }
   if (report.energy)
-    soil::tell_energy(*report.energy, [&](const char* name, double joule) { out["energy_j"][name] = number(joule); });
+    soil::report_energy(*report.energy, [&](const char* name, double joule) { out["energy_j"][name] = number(joule); });
   out["particles_peak"] = report.particles_peak;
   out["steps"] = report.steps;
   out["simulated_time_s"] = report.simulated_time;
@@ -87,10 +87,10 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 void print_table(const lab::Report& report) {
   std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "gate", "source");
   for (const lab::Quantity& q : report.results) {
-    const std::string gate = q.has_gate() ? text_of(q.low) + " .. " + text_of(q.high) : "";
+    const std::string tolerance = q.has_tolerance() ? text_of(q.low) + " .. " + text_of(q.high) : "";
     std::printf("%-40s %14s %12s %-22s %s\n", (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
                 (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(), text_of(q.expected).c_str(),
-                (gate + (q.missed()   ? "  MISS"
+                (tolerance + (q.missed()   ? "  MISS"
                          : q.in_range ? ""
                                       : "  not judged"))
                     .c_str(),

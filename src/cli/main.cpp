@@ -19,7 +19,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "device/error.h"
+#include "device/device_error.h"
 
 namespace {
 
@@ -37,7 +37,7 @@ void install_log_sink() {
   set_log_sink([logger, bare, told](LogLevel level, const std::string& text) {
     constexpr std::size_t kRemembered = 1000;
     if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second) return;
-    if (level >= LogLevel::kWarning && cli::tells_its_severity(text)) {
+    if (level >= LogLevel::kWarning && cli::print_its_severity(text)) {
       bare->warn(text);
       return;
     }

@@ -18,14 +18,14 @@
 #include "core/log.h"
 #include "core/sealed.h"
 #include "device/device.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "planner/formats/formats.h"
 #include "planner/map_maker.h"
 #include "planner/path_planner.h"
 #include "planner/sources.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #include "sim/timing.h"
 
 namespace navvy::cli {

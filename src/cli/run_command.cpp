@@ -87,14 +87,14 @@ std::string short_text(double value) {
 }
 
 /// What a controller may ask of the recorder.
-ControlDesk desk_of(record::Recorder& recorder) {
-  ControlDesk desk;
-  desk.draw = [&recorder](const std::string& camera) {
+ControlServices services_of(record::Recorder& recorder) {
+  ControlServices services;
+  services.draw = [&recorder](const std::string& camera) {
     const render::Image image = recorder.draw(camera);
     return Picture{image.width, image.height,
                    planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
   };
-  return desk;
+  return services;
 }
 
 /// A controller's turn, if there is one. False: it told the run to end.
@@ -139,7 +139,7 @@ std::string interrupted_by(const ControlStdio* control) {
 
 /// Writes what a run leaves that nothing failed in; its exit status. `by`: what interrupted it.
 int close_run(const RunOptions& options, const session::Session& session, record::Recorder& recorder,
-              PublishedMap* published, const std::string& by, bool told_to_end) {
+              PublishedMap* published, const std::string& by, bool asked_to_end) {
   publish_end(published, recorder);
   const bool complete = session.complete();
   recorder.finish(!by.empty() ? "interrupted" : complete ? "finished" : "incomplete", by);
@@ -151,7 +151,7 @@ int close_run(const RunOptions& options, const session::Session& session, record
   }
   // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
   // failure.
-  const bool cut_as_asked = (options.scene.duration > 0 || told_to_end) && !session.fell_short();
+  const bool cut_as_asked = (options.scene.duration > 0 || asked_to_end) && !session.fell_short();
   return complete || cut_as_asked ? kOk : kIncomplete;
 }
 
@@ -162,16 +162,16 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
-  const ControlDesk desk = desk_of(recorder);
-  bool snapshot_due = !options.snapshot.empty(), told_to_end = false;
+  const ControlServices services = services_of(recorder);
+  bool snapshot_due = !options.snapshot.empty(), asked_to_end = false;
   try {
     if (!options.control.empty())
-      control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
+      control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, services);
     // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
     // start.
     while (!session.done() && !StopSignals::asked()) {
-      told_to_end = !exchange(control.get(), recorder, published);
-      if (told_to_end) break;
+      asked_to_end = !exchange(control.get(), recorder, published);
+      if (asked_to_end) break;
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
         snapshot_due = false;
@@ -204,12 +204,12 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // From here on nobody hurries: the files are closed in their order.
   const std::string by = interrupted_by(control.get());
   signals.obeyed();
-  const int code = close_run(options, session, recorder, published, by, told_to_end);
+  const int code = close_run(options, session, recorder, published, by, asked_to_end);
   return snapshot_due && code != kInterrupted ? kFile : code;
 }
 
 /// The programs that did not come to their end, one a line: what a user must not miss.
-void tell_programs(std::FILE* say, const session::Session& session) {
+void print_programs(std::FILE* say, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
     if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
     const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
@@ -322,7 +322,7 @@ int run(const RunOptions& options) {
   const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
-  if (code != kInterrupted) tell_programs(say, session);
+  if (code != kInterrupted) print_programs(say, session);
   std::fprintf(say, "results: %s/summary.json\n", record_options.directory.c_str());
   return code;
 }

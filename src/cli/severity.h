@@ -7,7 +7,7 @@
 namespace navvy::cli {
 
 /// Whether a line is a fault as core/error.h writes it, `file:line: warning: ...`: nothing is to be put before that.
-inline bool tells_its_severity(const std::string& line) {
+inline bool print_its_severity(const std::string& line) {
   // The file's part has no blank after its colons.
   const std::size_t colon = line.find(": ");
   if (colon == std::string::npos) return false;

@@ -102,16 +102,16 @@ std::string told(const scene::Machine& machine, const scene::Joint& joint) {
   return out + limits;
 }
 
-void tell_drive(const scene::Drive& drive) {
+void print_drive(const scene::Drive& drive) {
   const scene::Powertrain& common = scene::powertrain(drive);
-  const scene::DriveEngine* engine = scene::drive_engine(drive);
+  const scene::CombustionEngine* engine = scene::drive_engine(drive);
   if (engine == nullptr) {
     std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(drive), common.max_speed,
                 common.tractive_force / 1000, common.power / 1000);
   } else {
     std::printf("  drive: %s, %.1f m/s\n", scene::drive_name(drive), common.max_speed);
-    const scene::DriveEngine::Point rated = scene::rated_point(*engine);
-    if (engine->kind == scene::DriveEngine::Kind::kSpeedSource)
+    const scene::CombustionEngine::Point rated = scene::rated_point(*engine);
+    if (engine->kind == scene::CombustionEngine::Kind::kSpeedSource)
       std::printf("  engine: speed source, %.3g N m, %.0f rpm at most; gears", engine->max_torque,
                   engine->max_speed * 30 / kPi);
     else
@@ -167,7 +167,7 @@ int one_machine(const std::string& name) {
   if (machine.levers.given)
     std::printf("  levers: %s, dead band %.0f %%\n",
                 machine.levers.pattern == scene::Levers::Pattern::kIso ? "ISO" : "SAE", 100 * machine.levers.dead_band);
-  if (machine.has_drive) tell_drive(machine.drive);
+  if (machine.has_drive) print_drive(machine.drive);
   return kOk;
 }
 

@@ -13,7 +13,7 @@
 
 #include "cli/exit_code.h"
 #include "device/kernel_cache.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 
 namespace navvy::cli {
 namespace {
@@ -29,7 +29,7 @@ int wake[2] = {-1, -1};
 sigset_t before;
 
 [[noreturn]] void leave(bool again) {
-  record::leave_last_words("interrupted",
+  record::write_crash_summary("interrupted",
                            again ? "stopped from outside a second time: what was not written by then is missing"
                                  : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
                                    "not answer; results are those of the last checkpoint");

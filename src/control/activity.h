@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "control/arm.h"
+#include "control/arm_kinematics.h"
 #include "control/observation.h"
 #include "control/outcome.h"
 #include "control/path_planner.h"
@@ -39,15 +39,15 @@ struct Handover {
 };
 
 /// One operator's machine, and what flows from step to step. Activities keep a reference to it.
-struct Workplace {
+struct OperatorContext {
   /// Copies the machine. Whoever builds the workplace adds the arm where the program needs it.
-  explicit Workplace(const scene::Machine& machine_in) : machine(machine_in) {}
+  explicit OperatorContext(const scene::Machine& machine_in) : machine(machine_in) {}
 
   const scene::Machine machine;  ///< its joints in the order of Observation and Command
   /// In every program with a step that needs one.
   std::unique_ptr<PathPlanner> planner;
   std::vector<PlannedPath> paths;  ///< of all steps, in the order in which they were planned
-  std::optional<Arm> arm;          ///< in every program with a step that needs one
+  std::optional<ArmKinematics> arm;          ///< in every program with a step that needs one
   Handover handover;
   std::string label = "operator";  ///< who speaks in messages: "'truck', step 2 (tip)"; derived, no state
   std::int64_t step = 1;           ///< number of the running step; derived
@@ -62,7 +62,7 @@ struct Workplace {
     if (seen.surface != nullptr)
       planner->look(*seen.surface);
     else if (seen.ground != nullptr)
-      planner->look(GroundSurface(*seen.ground));
+      planner->look(GroundSurfaceView(*seen.ground));
   }
 
   /// Index in Machine::joints of axis 0..3: swing, boom, stick, bucket.
@@ -79,7 +79,7 @@ struct Workplace {
 /// limit, after which the step goes on or falls short, and says so. A snapshot taken at any moment resumes bit for bit.
 class Activity {
  public:
-  explicit Activity(Workplace& place) : place_(place) {}
+  explicit Activity(OperatorContext& place) : place_(place) {}
   virtual ~Activity() = default;
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
@@ -104,7 +104,7 @@ class Activity {
   const std::string& reason() const { return reason_; }
   /// The step's own account as far as it has come, in figures: asked when the step ends, however it ends, and whenever
   /// a summary is written. Must not depend on how often it is asked.
-  virtual std::vector<Figure> account(const Observation&) const { return {}; }
+  virtual std::vector<Measurement> account(const Observation&) const { return {}; }
 
   /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`. Who overrides
   /// it calls this first.
@@ -137,7 +137,7 @@ class Activity {
   /// Said of a step that is done all the same; a later one replaces it.
   void remark(std::string text) { reason_ = std::move(text); }
 
-  Workplace& place_;
+  OperatorContext& place_;
 
  private:
   // Part of every activity's state, so that no kind has to think of it.

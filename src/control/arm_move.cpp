@@ -21,7 +21,7 @@ constexpr double kPatience = 2.0;                // beyond a move's own time [s]
 
 }  // namespace
 
-void ArmMove::start(const Workplace& place, const Axes& to, const Observation& seen, Pace pace) {
+void ArmMove::start(const OperatorContext& place, const Axes& to, const Observation& seen, Pace pace) {
   double time[4];
   for (std::size_t i = 0; i < 4; ++i) {
     from_[i] = place.handover.q[i];
@@ -37,8 +37,8 @@ void ArmMove::start(const Workplace& place, const Axes& to, const Observation& s
   arm_delay_ = time[0] > kShortestMove ? pace.arm_delay * time[0] : 0;
 }
 
-void ArmMove::open_bucket(const Workplace& place, const Observation& seen) {
-  const Arm& arm = *place.arm;
+void ArmMove::open_bucket(const OperatorContext& place, const Observation& seen) {
+  const ArmKinematics& arm = *place.arm;
   // The nearest turn to the opening angle that the cylinder can do; only the bucket joint moves.
   ArmAngles q = place.arm_angles();
   const double angle = arm.forward(q).angle;
@@ -56,7 +56,7 @@ void ArmMove::visit(Archive& a) {
 
 double ArmMove::duration() const { return std::max(swing_time_, arm_delay_ + arm_time_); }
 
-bool ArmMove::advance(Workplace& place, const Observation& seen, double since, const char* phase) {
+bool ArmMove::advance(OperatorContext& place, const Observation& seen, double since, const char* phase) {
   const double swing = smooth(since / swing_time_), other = smooth((since - arm_delay_) / arm_time_);
   // What the machine still lacks, judged at all four joints alike.
   double error = 0, speed = 0;

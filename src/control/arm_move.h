@@ -20,12 +20,12 @@ class ArmMove {
  public:
   /// From the commanded angles to `to` [rad]. Its time follows from the slowest axis, at the usual rates or at a share
   /// of the joints' own limits, whichever is slower.
-  void start(const Workplace& place, const Axes& to, const Observation& seen, Pace pace);
+  void start(const OperatorContext& place, const Axes& to, const Observation& seen, Pace pace);
   /// Opens the bucket where it is, until what it holds falls out.
-  void open_bucket(const Workplace& place, const Observation& seen);
+  void open_bucket(const OperatorContext& place, const Observation& seen);
   /// Goes on with the move, `since` [s] after its start. True when the machine has arrived, or has had the move's time
   /// and a little patience; `phase` names the move in the warning then.
-  bool advance(Workplace& place, const Observation& seen, double since, const char* phase);
+  bool advance(OperatorContext& place, const Observation& seen, double since, const char* phase);
   /// Of the commanded move [s].
   double duration() const;
   double target(std::size_t axis) const { return to_[axis]; }

@@ -18,7 +18,7 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
   return out;
 }
 
-bool dump_pose(const Arm& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
+bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
                double& possible) {
   constexpr double kLeast = 0.3, kStep = 0.05;
   // Opened, the soil leaves about below the pin, which therefore comes over the dump point.

@@ -2,7 +2,7 @@
 // Poses of the bucket in a digging cycle, for the operator and for the check before the run.
 #pragma once
 
-#include "control/arm.h"
+#include "control/arm_kinematics.h"
 
 namespace navvy::control {
 
@@ -26,10 +26,10 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W);
 /// Joint angles that hold a level bucket so that, opened, it drops its soil at `dump_at` with the tip `clearance` over
 /// `ground`; where the arm is too short for that the clearance is taken down to 0.3 m. False when even that is out of
 /// reach. `possible` receives the clearance.
-bool dump_pose(const Arm& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
+bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
                double& possible);
 
 /// Angle of the line pin to tip that gives the cutting edge this angle.
-inline double with_cut(const Arm& arm, double cut) { return cut - arm.cut_angle(); }
+inline double with_cut(const ArmKinematics& arm, double cut) { return cut - arm.cut_angle(); }
 
 }  // namespace navvy::control

@@ -9,7 +9,7 @@
 
 #include "control/surface.h"
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::control {

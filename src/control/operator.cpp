@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "control/activity.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "control/watch.h"
 
 namespace navvy::control {
@@ -18,8 +18,8 @@ struct Operator::State {
   // Activities refer to the steps and to the workplace: all three keep their addresses, as the state does not move.
   const scene::Program program;
   const std::string name;
-  std::vector<const Step*> steps;
-  Workplace place;
+  std::vector<const ProgramStep*> steps;
+  OperatorContext place;
   std::unique_ptr<Activity> active;  // of steps[step], null between steps
   std::int64_t step = 0;
   Watch watch;
@@ -32,7 +32,7 @@ struct Operator::State {
   bool past_last() const { return step >= static_cast<std::int64_t>(steps.size()); }
   bool done() const { return past_last() && !failed(); }
   bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
-  const Step& present() const { return *steps[static_cast<std::size_t>(step)]; }
+  const ProgramStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
   void plan_ahead(const Observation& seen);
   void watch_over(const Observation& seen, double time, double dt);
@@ -52,9 +52,9 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
       commanded(machine.joints.size()) {
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));
   // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the machine drives.
-  const auto needs_arm = [](const Step* one) { return one->needs_arm(); };
+  const auto needs_arm = [](const ProgramStep* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
-  for (const Step* one : steps) {
+  for (const ProgramStep* one : steps) {
     if (!one->needs_planner() || place.planner) continue;
     if (!planners)
       throw InputError(Fault{Fault::Severity::kError, machine.file, 0, name + "/navvy:program/" + one->element(), "",
@@ -62,7 +62,7 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
     place.planner = planners(place.machine);
   }
   // Told before anything moves, not when the step's turn comes.
-  for (const Step* one : steps) one->check_machine(place.machine);
+  for (const ProgramStep* one : steps) one->check_machine(place.machine);
 }
 
 void Operator::State::make_activity() {
@@ -76,7 +76,7 @@ void Operator::State::make_activity() {
 void Operator::State::plan_ahead(const Observation& seen) {
   if (!place.planner) return;
   place.look(seen);
-  const GroundSurface resting(*seen.ground);
+  const GroundSurfaceView resting(*seen.ground);
   const SurfaceView& surface = seen.surface != nullptr ? *seen.surface : resting;
   Pose X_WB = seen.X_WB;
   for (std::size_t i = 0; i < steps.size(); ++i) {

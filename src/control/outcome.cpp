@@ -12,7 +12,7 @@ const char* name_of(StepState state) {
   return names.at(static_cast<std::size_t>(state));
 }
 
-void Figure::visit(Archive& a) {
+void Measurement::visit(Archive& a) {
   a("name", name);
   a("value", value);
 }

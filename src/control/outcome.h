@@ -30,7 +30,7 @@ const char* name_of(StepState state);
 inline bool fell_short(StepState state) { return state > StepState::kDone; }
 
 /// A figure of a step's account: what it came to as a number.
-struct Figure {
+struct Measurement {
   std::string name;  ///< ends in its unit, as keys of summary.json do: "depth_reached_m"
   double value = 0;
 
@@ -45,7 +45,7 @@ struct StepReport {
   std::string reason;           ///< a sentence; empty when it is done and there is nothing to say
   double start = 0, end = 0;    ///< [s] simulated; end is the present while it runs
   Vec3 place = Vec3::Zero();    ///< of the base link then [m] in W
-  std::vector<Figure> figures;  ///< the step's own account (Activity::account)
+  std::vector<Measurement> figures;  ///< the step's own account (Activity::account)
 
   void visit(Archive& a);
 };

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
@@ -44,7 +44,7 @@ ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& p
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
-    const Step& step = step_of(program_.steps[index_]);
+    const ProgramStep& step = step_of(program_.steps[index_]);
     step.check_reach(*this);
     // A drive that misses its target has been told of; the steps after it are judged as if it arrived.
     if (const std::optional<Pose> next = step.station(machine, X_WB, surface)) X_WB = *next;
@@ -76,7 +76,7 @@ void ReachCheck::add(Fault::Severity severity, const std::string& element, const
                      value, rule, remedy});
 }
 
-void ReachCheck::require_swing(const Arm& arm, const char* element, double swing, const char* remedy) {
+void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, double swing, const char* remedy) {
   // Angles of the joint, as the engine stops it there.
   if (!arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper())) return;
   fault(element, number_text(degrees(swing), "deg"),

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "control/arm.h"
+#include "control/arm_kinematics.h"
 #include "control/path_planner.h"
 #include "control/surface.h"
 #include "core/error.h"
@@ -43,7 +43,7 @@ class ReachCheck {
   /// Whether a step before the present one changes the ground.
   bool after_digging() const;
   /// Tells of an angle [rad] beyond the swing joint's limits.
-  void require_swing(const Arm& arm, const char* element, double swing, const char* remedy);
+  void require_swing(const ArmKinematics& arm, const char* element, double swing, const char* remedy);
 
  private:
   void add(Fault::Severity severity, const std::string& element, const std::string& value, const std::string& rule,

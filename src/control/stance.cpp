@@ -41,7 +41,7 @@ void Stance::follow(const Pose& X_WB, double dt) {
   base_[6] = q.z();
 }
 
-Pose Stance::swing_frame(const Arm& arm) const {
+Pose Stance::swing_frame(const ArmKinematics& arm) const {
   Pose X_WB = Pose::Identity();
   // slerp keeps the length to rounding only.
   X_WB.linear() = Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized().toRotationMatrix();
@@ -49,7 +49,7 @@ Pose Stance::swing_frame(const Arm& arm) const {
   return X_WB * arm.X_BS();
 }
 
-double Stance::rise(const Pose& X_WB, const Arm& arm, double swing) const {
+double Stance::rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const {
   // Sine of the angle between the arm's direction and the plane on which the base stood: turning about the upright
   // counts nothing, nor does leaning to the arm's side.
   const Vec3 outward = X_WB.linear() * arm.X_BS().linear() * Vec3(std::cos(swing), std::sin(swing), 0);

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "control/arm.h"
+#include "control/arm_kinematics.h"
 #include "core/archive.h"
 #include "core/math.h"
 
@@ -20,14 +20,14 @@ class Stance {
   /// Follows it with a time constant of a quarter of a second; `dt` [s].
   void follow(const Pose& X_WB, double dt);
   /// Smoothed pose of the swing axis' frame S in W, at zero swing.
-  Pose swing_frame(const Arm& arm) const;
+  Pose swing_frame(const ArmKinematics& arm) const;
   /// Takes how the machine stands by now, smoothed, as how it shall stand: ground that gives way under its wheels tilts
   /// it for good, which is no reason to stop.
   void settle();
   /// 1 while the machine stands as it did when it was last settled, 0 when the bucket tips it by 3 deg.
   double footing(const Pose& X_WB) const;
   /// By how much the side that the arm points to has risen since then [rad]; negative where it sank. `swing` [rad].
-  double rise(const Pose& X_WB, const Arm& arm, double swing) const;
+  double rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const;
 
   void visit(Archive& a) {
     a("base", base_);

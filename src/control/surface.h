@@ -2,7 +2,7 @@
 // The surface an operator looks at.
 #pragma once
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/terrain_view.h"
 
 namespace navvy::control {
@@ -21,10 +21,10 @@ class SurfaceView {
 };
 
 /// The resting columns of a ground that is at hand.
-class GroundSurface final : public SurfaceView {
+class GroundSurfaceView final : public SurfaceView {
  public:
   /// `ground` must outlive it.
-  explicit GroundSurface(const heightfield::Ground& ground) : ground_(ground) {}
+  explicit GroundSurfaceView(const heightfield::Ground& ground) : ground_(ground) {}
   const heightfield::Terrain& terrain() const override { return ground_; }
   heightfield::TerrainView mapped() const override { return ground_.view(); }
 

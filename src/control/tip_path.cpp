@@ -20,7 +20,7 @@ constexpr double kRise = radians(1.5), kRiseMost = radians(2.5), kReliefRate = 0
 
 }  // namespace
 
-TipPath::Solution TipPath::solve(const Workplace& place, const Stance& stance, const Vec2& p, double height) const {
+TipPath::Solution TipPath::solve(const OperatorContext& place, const Stance& stance, const Vec2& p, double height) const {
   const SwingPoint tip = swing_point(stance.swing_frame(*place.arm), Vec3(p.x(), p.y(), height));
   BucketPose pose{tip.reach, tip.height, tip.level(angle)};
   // Out of reach the arm keeps its angles.
@@ -30,7 +30,7 @@ TipPath::Solution TipPath::solve(const Workplace& place, const Stance& stance, c
   return {with_arm(swing, q), pose.angle + tip.pitch, found};
 }
 
-Axes TipPath::start(const Workplace& place, const Stance& stance, const Vec2& p, double height, double tip_angle) {
+Axes TipPath::start(const OperatorContext& place, const Stance& stance, const Vec2& p, double height, double tip_angle) {
   z = height;
   angle = tip_angle;
   lift = 0;
@@ -41,7 +41,7 @@ Axes TipPath::start(const Workplace& place, const Stance& stance, const Vec2& p,
   return solution.q;
 }
 
-void TipPath::follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt,
+void TipPath::follow(OperatorContext& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt,
                      bool curling) {
   // Out of reach `reached` stays what it last was.
   const Solution solution = solve(place, stance, p, z + lift);
@@ -64,7 +64,7 @@ void TipPath::visit(Archive& a) {
   a("stall", stall_);
 }
 
-void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Observation& seen, double dt,
+void TipPath::feel_stall(const OperatorContext& place, const Stance& stance, const Observation& seen, double dt,
                          bool curling) {
   ArmAngles real, soon;
   bool stalled = false;
@@ -75,7 +75,7 @@ void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Obs
     soon[i] = joint.position + kAhead * joint.velocity;
     stalled = stalled || joint.stalled;
   }
-  const Arm& arm = *place.arm;
+  const ArmKinematics& arm = *place.arm;
   const BucketPose wanted = arm.forward(place.arm_angles()), tip = arm.forward(real), next = arm.forward(soon);
   // How far the tip lags behind what the arm could reach, and how fast it goes, from two poses a moment apart.
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);

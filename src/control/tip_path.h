@@ -20,10 +20,10 @@ class TipPath {
   double slow = 1;     ///< share of the path's speed that the machine follows
 
   /// Begins at W (p, z), free of any stall; the joint angles of that pose, by the short way round.
-  Axes start(const Workplace& place, const Stance& stance, const Vec2& p, double height, double tip_angle);
+  Axes start(const OperatorContext& place, const Stance& stance, const Vec2& p, double height, double tip_angle);
   /// Commands the tip to W (p, z + lift) and feels how it follows; `dt` [s]. While `curling`, a machine that the bucket
   /// pulls over is not relieved by rising: that would pull it further.
-  void follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt, bool curling);
+  void follow(OperatorContext& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt, bool curling);
 
   void visit(Archive& a);
 
@@ -34,8 +34,8 @@ class TipPath {
     double angle = 0;    // of the tip over the horizontal, the nearest possible to the wish [rad]
     bool found = false;  // false: out of reach
   };
-  Solution solve(const Workplace& place, const Stance& stance, const Vec2& p, double height) const;
-  void feel_stall(const Workplace& place, const Stance& stance, const Observation& seen, double dt, bool curling);
+  Solution solve(const OperatorContext& place, const Stance& stance, const Vec2& p, double height) const;
+  void feel_stall(const OperatorContext& place, const Stance& stance, const Observation& seen, double dt, bool curling);
 
   double stall_ = 0;  // [s] that the tip has been held
 };

@@ -29,7 +29,7 @@ class ColumnTable {
     const auto place = static_cast<std::ptrdiff_t>(strip.before(bit));
     if ((strip.mask & bit) == 0) {
       // By a few at a time: doubling would leave a third unused.
-      if (strip.values.size() == strip.values.capacity()) strip.values.reserve(strip.values.size() + kMoreRoom);
+      if (strip.values.size() == strip.values.capacity()) strip.values.reserve(strip.values.size() + kMoreClearance);
       strip.values.emplace(strip.values.begin() + place);
       strip.mask |= bit;
       ++size_;
@@ -70,7 +70,7 @@ class ColumnTable {
 
  private:
   static constexpr int kStrip = 32;  // columns, a bit each
-  static constexpr std::size_t kMoreRoom = 4;
+  static constexpr std::size_t kMoreClearance = 4;
 
   struct Strip {
     std::uint32_t mask = 0;  // which columns have a value

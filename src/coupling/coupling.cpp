@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
-#include "coupling/footings.h"
+#include "coupling/support_areas.h"
 #include "coupling/hitching.h"
-#include "coupling/placing.h"
+#include "coupling/machine_placing.h"
 
 namespace navvy::coupling {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and
 
 }  // namespace
 
-Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine, vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
     : world_(world),
       dynamic_(engine),
@@ -29,7 +29,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     // Both engines number their machines from 0: who asks for one says its number in the scene.
-    vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
+    vehicle::PhysicsEngine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
     if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
     for (const scene::Wheel& wheel : placed.machine.wheels) has_tracks_ |= wheel.track.has_value();
@@ -116,7 +116,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     motions[i].w_WT = link.w_WL;
     motions[i].inverse_mass = engine(tool.machine).inverse_mass(index(tool.machine), tool.link);
   }
-  solver_.step(dt, motions, impulses, footings(dt));
+  solver_.step(dt, motions, impulses, support_areas(dt));
   const double blend = 1 - std::exp(-2 * kPi * kForceCutoff * dt);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     ToolLoad& tool = tools_[i];
@@ -133,8 +133,8 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
   }
 }
 
-std::vector<soil::Footing> Coupling::footings(double dt) const {
-  std::vector<soil::Footing> out;
+std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
+  std::vector<soil::SupportArea> out;
   // Tyres as ruts number them.
   std::size_t tyre = 0;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -143,7 +143,7 @@ std::vector<soil::Footing> Coupling::footings(double dt) const {
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
       // What moves as it is told stands on nothing.
       if (machine.kinematic) continue;
-      add_footings(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
+      add_support_areas(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
     }
   }
   return out;
@@ -152,22 +152,22 @@ std::vector<soil::Footing> Coupling::footings(double dt) const {
 void Coupling::press_ruts(double dt) {
   // All at once: what one wheel does not bear another may.
   std::vector<LoadedTyre> tyres;
-  std::vector<terramechanics::BeltPatch> belts;
+  std::vector<terramechanics::TrackPatch> running_tracks;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
-    const vehicle::Engine& engine = *placed_[m].engine;
+    const vehicle::PhysicsEngine& engine = *placed_[m].engine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const int wheel = static_cast<int>(w);
       if (machine.wheels[w].track)
-        for (const terramechanics::BeltPatch& patch : engine.belt_patches(placed_[m].index, wheel))
-          belts.push_back(patch);
+        for (const terramechanics::TrackPatch& patch : engine.track_patches(placed_[m].index, wheel))
+          running_tracks.push_back(patch);
       else
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
     }
   }
   const double interval = kRutInterval * dt;
   if (!tyres.empty() || !has_tracks_) ruts_.press(tyres, interval);
-  if (has_tracks_) track_ruts_.press(belts, kSinkSpeed * interval, tyres.empty());
+  if (has_tracks_) track_ruts_.press(running_tracks, kSinkSpeed * interval, tyres.empty());
 }
 
 void ToolLoad::visit(Archive& a) {

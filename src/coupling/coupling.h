@@ -10,10 +10,10 @@
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/solver.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling {
 
@@ -42,7 +42,7 @@ struct TimeShare {
 class Coupling {
  public:
   /// The references must outlive it. Registers every shell of every dynamic or kinematic machine with the solver.
-  Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+  Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine, vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
            heightfield::Ground& ground);
 
   /// Advances everything by dt [s].
@@ -55,7 +55,7 @@ class Coupling {
   /// By particle, whether a bucket or a bed holds it: 1 or 0.
   std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// The engine that moves machine `m` of the world, and its index there.
-  vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
+  vehicle::PhysicsEngine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
   int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
   /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
@@ -65,20 +65,20 @@ class Coupling {
  private:
   /// Where a machine of the scene is moved.
   struct PlacedMachine {
-    vehicle::Engine* engine = nullptr;  ///< one of the two given
+    vehicle::PhysicsEngine* engine = nullptr;  ///< one of the two given
     int index = 0;                      ///< of the machine in that engine
     int mover = -1;                     ///< its number in the dynamic engine of what another one moves
   };
   /// Tells the dynamic engine where kinematic machines are.
   void show_movers();
   /// Wheels and belts of machines with masses, which bear on the ground.
-  std::vector<soil::Footing> footings(double dt) const;
+  std::vector<soil::SupportArea> support_areas(double dt) const;
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
   const scene::Scene& world_;
-  vehicle::Engine& dynamic_;
-  vehicle::Engine& kinematic_;
+  vehicle::PhysicsEngine& dynamic_;
+  vehicle::PhysicsEngine& kinematic_;
   soil::Solver& solver_;
   heightfield::Ground& ground_;
   Ruts ruts_;

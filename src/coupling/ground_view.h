@@ -33,8 +33,8 @@ class GroundView final : public terramechanics::GroundQuery {
   terramechanics::GroundLattice lattice() const override {
     return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};
   }
-  terramechanics::Sinking sinking(double x, double y) const override {
-    return ruts_ != nullptr ? ruts_->sinking(x, y) : terramechanics::Sinking{};
+  terramechanics::Sinkage sinking(double x, double y) const override {
+    return ruts_ != nullptr ? ruts_->sinking(x, y) : terramechanics::Sinkage{};
   }
   terramechanics::SoilState soil(double x, double y) const override {
     const Vec2i c = terrain_.column_at(x, y);

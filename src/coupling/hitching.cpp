@@ -8,7 +8,7 @@
 
 namespace navvy::coupling {
 
-void add_hitches(const scene::Scene& scene, vehicle::Engine& engine, const std::function<int(int)>& index) {
+void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine, const std::function<int(int)>& index) {
   for (const scene::Hitch& hitch : scene.hitches) {
     const int parent = index(hitch.parent), child = index(hitch.child);
     const Vec3 hook = engine.link(parent, hitch.parent_link).X_WL * hitch.hook;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::coupling {
 
@@ -38,12 +38,12 @@ class PushedSoil {
   void take(const Place& place, double depth);
   /// Lays all of it down, in the order it was taken; columns that are `borne` receive nothing. What finds no place,
   /// between what presses and the site's edge, is pressed into the column it came from.
-  void lay_down(const std::function<bool(int ix, int iy)>& borne);
+  void deposit_down(const std::function<bool(int ix, int iy)>& borne);
 
  private:
   struct Load {
     Place place;
-    std::vector<heightfield::Layer> layers;  ///< bottom first
+    std::vector<heightfield::SoilLayer> layers;  ///< bottom first
   };
   /// A column of the strip and what share of it [-] lies in the strip.
   struct Strip {
@@ -52,7 +52,7 @@ class PushedSoil {
   };
   /// To one side: `sign` 1 left, -1 right. Empty where there is no room.
   std::vector<Strip> strip(const Place& from, double sign, const std::function<bool(int, int)>& borne) const;
-  void spread(const heightfield::Layer& layer, const std::vector<Strip>& strip);
+  void spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip);
 
   heightfield::Ground& ground_;
   std::vector<Load> loads_;

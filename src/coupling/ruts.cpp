@@ -66,7 +66,7 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
   // Where a belt or another tyre stands nothing can be laid down.
-  pushed_.lay_down([this](int ix, int iy) {
+  pushed_.deposit_down([this](int ix, int iy) {
     return ground_.held(ix, iy) || under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
   });
   ground_.hold(std::exchange(under_, {}));
@@ -124,11 +124,11 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
     }
 }
 
-terramechanics::Sinking Ruts::sinking(double x, double y) const {
+terramechanics::Sinkage Ruts::sinking(double x, double y) const {
   const Vec2i c = ground_.column_at(x, y);
   if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return {};
   const Memory* memory = memory_.find(c.x(), c.y());
-  return memory != nullptr ? memory->sinking : terramechanics::Sinking{};
+  return memory != nullptr ? memory->sinking : terramechanics::Sinkage{};
 }
 
 void Ruts::Memory::visit(Archive& a) {

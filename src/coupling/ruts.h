@@ -11,11 +11,11 @@
 #include "coupling/column_table.h"
 #include "coupling/pushed_soil.h"
 #include "coupling/rut_memory.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
 #include "terramechanics/tyre_patch.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling {
 
@@ -49,7 +49,7 @@ class Ruts {
   void press(const std::vector<LoadedTyre>& tyres, double interval = std::numeric_limits<double>::infinity());
 
   /// What pressing the column at x, y took since a tyre came onto it; nothing where none stands.
-  terramechanics::Sinking sinking(double x, double y) const;
+  terramechanics::Sinkage sinking(double x, double y) const;
 
   /// What a column of the site has borne of tyres and belts, made if it has borne nothing. Good until the next call.
   RutMemory& borne(int ix, int iy) { return memory_.at(ix, iy).borne; }
@@ -62,7 +62,7 @@ class Ruts {
  private:
   struct Memory {
     RutMemory borne;
-    terramechanics::Sinking sinking;  ///< since the tyre that stands on it came
+    terramechanics::Sinkage sinking;  ///< since the tyre that stands on it came
     void visit(Archive& a);
   };
   /// How a wheel loads the ground, low-passed.

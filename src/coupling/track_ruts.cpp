@@ -28,10 +28,10 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   memory.height = ground_.height(ix, iy);
 }
 
-void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone) {
+void TrackRuts::press(const std::vector<terramechanics::TrackPatch>& patches, double most, bool alone) {
   // A column between two segments bears the heavier one, once: each presses further only by what it bears more.
   std::map<std::int64_t, std::pair<double, PushedSoil::Place>> under;  // pressure [Pa]
-  for (const terramechanics::BeltPatch& patch : patches) {
+  for (const terramechanics::TrackPatch& patch : patches) {
     const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
     const Vec2 middle = patch.p_W.head<2>();
     // Wide enough for a column to either side of its middle, as those of tyres: the belt stands between both.
@@ -56,7 +56,7 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
     press_column(bears.second, bears.first, most);
     columns.insert(key);
   }
-  pushed_.lay_down([&](int ix, int iy) {
+  pushed_.deposit_down([&](int ix, int iy) {
     return ground_.held(ix, iy) || columns.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
   });
   if (alone)

@@ -6,8 +6,8 @@
 
 #include "coupling/pushed_soil.h"
 #include "coupling/ruts.h"
-#include "heightfield/ground.h"
-#include "terramechanics/belt.h"
+#include "heightfield/layered_ground.h"
+#include "terramechanics/track.h"
 
 namespace navvy::coupling {
 
@@ -25,7 +25,7 @@ class TrackRuts {
 
   /// Presses all patches of the world. No column sinks by more than `most` [m] at a time. Columns under belts are held
   /// until the next call, those of tyres besides unless the belts are `alone`.
-  void press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone);
+  void press(const std::vector<terramechanics::TrackPatch>& patches, double most, bool alone);
 
  private:
   /// One column under `pressure` [Pa] of a plate as wide as the belt, by its own soil.

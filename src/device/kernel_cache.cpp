@@ -36,7 +36,7 @@ constexpr std::string_view kManifestHead = "navvy kernel cache 1";
 /// All our kernels of one version take a few MB compiled. Above this the folder holds many versions: it is emptied.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 /// With less room on the disk the driver would leave half-written files behind.
-constexpr std::uintmax_t kLeastRoom = std::uintmax_t{16} << 20;
+constexpr std::uintmax_t kLeastCapacity = std::uintmax_t{16} << 20;
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
   throw FileError("kernel cache '" + folder.string() + "': " + cause);
@@ -113,7 +113,7 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   // The driver does not tell when it cannot write: it leaves files that are cut short, which is what this class is
   // about.
   struct statvfs disk {};
-  if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastRoom)
+  if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastCapacity)
     fail(folder_, "its disk is full (less than 16 MiB left)");
   lock();
   try {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume and inertia of round and square bodies by their formulas, beside those of meshes in geometry/solid.h.
+// Volume and inertia of round and square bodies by their formulas, beside those of meshes in geometry/solid_properties.h.
 #pragma once
 
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 
 namespace navvy::geometry {
 

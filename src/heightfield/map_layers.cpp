@@ -41,7 +41,7 @@ double specific_volume(const Terrain& terrain, int ix, int iy) { return terrain.
 double loose_depth(const Terrain& terrain, int ix, int iy) { return terrain.loose_depth(ix, iy); }
 
 // As a number, so that every layer is a map of floats.
-double awake(const Terrain& terrain, int ix, int iy) { return terrain.awake(ix, iy) ? 1 : 0; }
+double active(const Terrain& terrain, int ix, int iy) { return terrain.active(ix, iy) ? 1 : 0; }
 
 }  // namespace
 
@@ -56,7 +56,7 @@ const std::vector<MapLayer>& map_layers() {
       {"soil", "-", "index of the soil at the surface", soil},
       {"specific_volume", "-", "volume over bank volume at the surface", specific_volume},
       {"loose_depth", "m", "depth of loose soil that lies on the columns", loose_depth},
-      {"awake", "-", "1 where that soil may still move, 0 elsewhere", awake},
+      {"awake", "-", "1 where that soil may still move, 0 elsewhere", active},
   };
   return table;
 }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/ground.h"
 
 namespace navvy::heightfield {

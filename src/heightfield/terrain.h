@@ -59,7 +59,7 @@ class Terrain {
   /// Depth of the loose soil that lies on the column [m]; 0 in every terrain of columns alone.
   float loose_depth(int ix, int iy) const;
   /// Whether what one sees there are particles, which may still move, and not a resting column.
-  bool awake(int ix, int iy) const { return loose_depth(ix, iy) > 0; }
+  bool active(int ix, int iy) const { return loose_depth(ix, iy) > 0; }
 
   // Between column centres, bilinear; beyond the outermost centres level.
   /// Height at W (x, y) [m].

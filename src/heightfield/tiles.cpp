@@ -55,7 +55,7 @@ void TileColumns::take(const Tile& tile) {
     const Column& column = tile.columns[static_cast<std::size_t>(tile.slot[i])];
     place.push_back(static_cast<std::uint16_t>(i));
     layers.push_back(static_cast<std::uint32_t>(column.size()));
-    for (const Layer& layer : column) {
+    for (const SoilLayer& layer : column) {
       soil[next] = layer.soil;
       mass[next] = layer.mass;
       specific_volume[next] = layer.specific_volume;
@@ -131,7 +131,7 @@ Column& Tiles::touch_column(int ix, int iy) {
     // Made before a slot is taken: the source may throw.
     Column column;
     site_->column(ix, iy, column);
-    for (const Layer& layer : column) start_mass_[layer.soil] += layer.mass;
+    for (const SoilLayer& layer : column) start_mass_[layer.soil] += layer.mass;
     slot = static_cast<std::int16_t>(tile.columns.size());
     tile.columns.push_back(std::move(column));
   }

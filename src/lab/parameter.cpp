@@ -20,7 +20,7 @@ std::string joined(const std::vector<Choice>& choices) {
 
 }  // namespace
 
-bool Range::contains(double value) const {
+bool ParameterRange::contains(double value) const {
   // Infinite limits alone would let infinity pass.
   if (!std::isfinite(value) || (whole && value != std::round(value))) return false;
   const bool high_enough = open_least ? value > least : value >= least;
@@ -28,7 +28,7 @@ bool Range::contains(double value) const {
   return high_enough && low_enough;
 }
 
-std::string Range::text() const {
+std::string ParameterRange::text() const {
   const bool from = std::isfinite(least), to = std::isfinite(most);
   // A count says so first: most ranges are of lengths.
   const std::string kind = whole ? "a whole number, " : "";
@@ -41,31 +41,31 @@ std::string Range::text() const {
   return kind + out;
 }
 
-Range any() { return {}; }
+ParameterRange any() { return {}; }
 
 // These five are all that rigs need; a half-open range is made by setting its flags.
-Range above(double least) {
-  Range out;
+ParameterRange above(double least) {
+  ParameterRange out;
   out.least = least;
   out.open_least = true;
   return out;
 }
 
-Range at_least(double least) {
-  Range out;
+ParameterRange at_least(double least) {
+  ParameterRange out;
   out.least = least;
   return out;
 }
 
-Range between(double least, double most) {
-  Range out;
+ParameterRange between(double least, double most) {
+  ParameterRange out;
   out.least = least;
   out.most = most;
   return out;
 }
 
-Range count_from(int least) {
-  Range out = at_least(least);
+ParameterRange count_from(int least) {
+  ParameterRange out = at_least(least);
   out.whole = true;
   return out;
 }

@@ -13,7 +13,7 @@
 namespace navvy::lab {
 
 /// The numbers a parameter may take. Only finite ones lie in any range.
-struct Range {
+struct ParameterRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool open_least = false;  ///< `least` itself is not allowed
@@ -26,12 +26,12 @@ struct Range {
 };
 
 /// Any finite number.
-Range any();
-Range above(double least);                 ///< value > least: what a rig divides by, or what would be no body at all
-Range at_least(double least);              ///< value >= least: what may be left out
-Range between(double least, double most);  ///< both ends allowed
+ParameterRange any();
+ParameterRange above(double least);                 ///< value > least: what a rig divides by, or what would be no body at all
+ParameterRange at_least(double least);              ///< value >= least: what may be left out
+ParameterRange between(double least, double most);  ///< both ends allowed
 /// Whole numbers from `least` on.
-Range count_from(int least);
+ParameterRange count_from(int least);
 
 /// One of the ways in which a rig can be run.
 struct Choice {
@@ -46,7 +46,7 @@ struct Parameter {
   double value = 0;                  ///< default
   std::string unit;                  ///< "" for a pure number; may be a length of the rig's own, as "cells" or "depths"
   std::string help;                  ///< what it is, continuing the name: `depth` "of the pit"
-  Range range;                       ///< unused when there are choices
+  ParameterRange range;                       ///< unused when there are choices
   std::vector<Choice> choices = {};  ///< empty for a number
 
   bool allows(double value) const;

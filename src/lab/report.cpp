@@ -6,7 +6,7 @@
 
 namespace navvy::lab {
 
-bool Quantity::has_gate() const { return !std::isnan(low) || !std::isnan(high); }
+bool Quantity::has_tolerance() const { return !std::isnan(low) || !std::isnan(high); }
 
 bool Quantity::missed() const {
   if (!judged()) return false;

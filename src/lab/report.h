@@ -26,9 +26,9 @@ struct Quantity {
   std::string range = "";  ///< what the gate holds for, in words; empty where it holds for every setup of the rig
   bool in_range = true;    ///< whether this setup lies there
 
-  bool has_gate() const;
+  bool has_tolerance() const;
   /// Whether the gate says anything about this setup.
-  bool judged() const { return has_gate() && in_range; }
+  bool judged() const { return has_tolerance() && in_range; }
   /// Judged, and outside the gate or not a number.
   bool missed() const;
   /// Limits the gate to what its source speaks of. Of a setup outside it nothing can be missed.

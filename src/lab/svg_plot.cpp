@@ -84,7 +84,7 @@ Axis y_axis(const Plot& plot) {
   for (const PlotLine& l : plot.lines)
     for (const double v : l.y) take(v);
   for (const double v : plot.expected) take(v);
-  for (const auto& [from, to] : plot.gates) take(from), take(to);
+  for (const auto& [from, to] : plot.tolerances) take(from), take(to);
   if (!(low <= high)) low = 0, high = 1;
   // Zero is a good beginning where the values are not crowded far from it.
   if (low > 0 && low < 0.4 * high) low = 0;
@@ -139,7 +139,7 @@ std::string svg_of(const Plot& plot) {
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + at(kWidth) + "\" height=\"" + at(kHeight) +
                     "\" viewBox=\"0 0 760 480\" font-family=\"sans-serif\" font-size=\"13\">\n" +
                     "<rect width=\"760\" height=\"480\" fill=\"white\"/>\n";
-  for (const auto& [low, high] : plot.gates)
+  for (const auto& [low, high] : plot.tolerances)
     out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(y.at(high)) + "\" width=\"" + at(kRight - kLeft) + "\" height=\"" +
            at(y.at(low) - y.at(high)) + "\" fill=\"#eeeeee\"/>\n";
   out += frame(plot, x, y, values);

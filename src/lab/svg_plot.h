@@ -21,7 +21,7 @@ struct Plot {
   std::string title, x_label, y_label;
   std::vector<PlotLine> lines;
   std::vector<double> expected;                  ///< heights of dashed lines, drawn across
-  std::vector<std::pair<double, double>> gates;  ///< bands from .first to .second
+  std::vector<std::pair<double, double>> tolerances;  ///< bands from .first to .second
 };
 
 /// The chart, 760 x 480 units. The x axis is logarithmic when the values are positive and span a factor of five; the y

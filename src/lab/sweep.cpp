@@ -135,7 +135,7 @@ Plot plot_of(const Rig& rig, const Sweep& sweep) {
   }
   // NaN is not equal to itself: what none has is not drawn.
   if (same(expected)) out.expected.push_back(expected.front());
-  if (same(low) && same(high)) out.gates.emplace_back(low.front(), high.front());
+  if (same(low) && same(high)) out.tolerances.emplace_back(low.front(), high.front());
   return out;
 }
 

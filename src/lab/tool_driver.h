@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lab/site.h"
+#include "lab/lab_site.h"
 
 namespace navvy::lab {
 

@@ -131,7 +131,7 @@ class ViewSource final : public LayerSource {
       case Layer::kLooseDepth:
         return each([&](int ix, int iy) { return view_.loose_depth(ix, iy); });
       case Layer::kAwake:
-        return each([&](int ix, int iy) { return view_.awake(ix, iy) ? 1.0f : 0.0f; });
+        return each([&](int ix, int iy) { return view_.active(ix, iy) ? 1.0f : 0.0f; });
       case Layer::kDisturbedAt:
         return each([](int, int) { return kUnknown; });
       case Layer::kSlope:
@@ -216,7 +216,7 @@ void MapMaker::update_base(const heightfield::TerrainView& view, const CellRect&
       differs = set(Layer::kSoil, ix, iy, view.surface_soil(ix, iy)) || differs;
       differs = set(Layer::kDensity, ix, iy, density_at(view, ix, iy)) || differs;
       differs = set(Layer::kLooseDepth, ix, iy, view.loose_depth(ix, iy)) || differs;
-      set(Layer::kAwake, ix, iy, view.awake(ix, iy) ? 1.0f : 0.0f);
+      set(Layer::kAwake, ix, iy, view.active(ix, iy) ? 1.0f : 0.0f);
       if (differs) set(Layer::kDisturbedAt, ix, iy, static_cast<float>(view.time()));
       // Another site of this size and place has another start.
       if (wants(Layer::kElevationStart))

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/band.h"
 #endif

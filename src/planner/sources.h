@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "heightfield/design.h"
-#include "heightfield/ground.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/layered_ground.h"
 #include "planner/map_maker.h"
 #include "scene/scene.h"
 

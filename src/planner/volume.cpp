@@ -58,7 +58,7 @@ void add(const TerrainMap& map, Layer reference, int ix, int iy, double share, C
   const float soil = map.at(Layer::kSoil, ix, iy);
   const double bank = soil >= 0 ? map.setup().soils[static_cast<std::size_t>(soil)].bank_density : NAN;
   sum.fill_bank += rise * share * static_cast<double>(map.at(Layer::kDensity, ix, iy)) / bank;
-  sum.awake += std::min(rise, static_cast<double>(map.at(Layer::kLooseDepth, ix, iy))) * share;
+  sum.active += std::min(rise, static_cast<double>(map.at(Layer::kLooseDepth, ix, iy))) * share;
 }
 
 void require_valid(std::span<const Vec2> polygon, Layer reference) {

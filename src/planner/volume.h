@@ -16,7 +16,7 @@ struct CutFill {
   double cut = 0;           ///< reference above elevation: bank volume, where the reference was bank [m3]
   double fill = 0;          ///< elevation above reference, as it lies [m3]
   double fill_bank = 0;  ///< of that as bank, by density at the surface; NaN where the map lacks density or soil [m3]
-  double awake = 0;      ///< of `fill`, what still lies as particles; NaN where the map lacks loose_depth [m3]
+  double active = 0;      ///< of `fill`, what still lies as particles; NaN where the map lacks loose_depth [m3]
 };
 
 /// Elevation against `reference` (kElevationStart: what was moved; kTarget: what the design still wants) over a simple

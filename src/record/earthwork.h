@@ -22,7 +22,7 @@ struct Earthwork {
   std::vector<SoilMoved> soils;  ///< as the scene lists them
 };
 /// Of the surface that maps show. Costs a pass over the touched columns, and over the particles where `lying`
-/// (sim::awake_places) is not known already.
+/// (sim::active_places) is not known already.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
 Earthwork measure_earthwork(const sim::World& world);
 

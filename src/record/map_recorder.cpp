@@ -11,7 +11,7 @@
 #include "planner/map_maker.h"
 #include "planner/ros/streams.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #include "sim/timing.h"
 
 namespace navvy::record {

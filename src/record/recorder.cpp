@@ -12,7 +12,7 @@
 #include "core/stopwatch.h"
 #include "planner/path_file.h"
 #include "record/hash_log.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 #include "record/map_recorder.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
@@ -29,7 +29,7 @@ struct Recorder::State {
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
-        last_words(folder->path("summary.reserve"), folder->path("summary.json")),
+        crash_summary(folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
@@ -40,7 +40,7 @@ struct Recorder::State {
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
-  LastWords last_words;
+  CrashSummary crash_summary;
   Telemetry telemetry;
   sim::FrameBuilder frames;
   std::unique_ptr<render::Renderer> renderer, drawer;  // of frames; without those, of pictures that somebody asks for
@@ -74,7 +74,7 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
   try {
     state_->write_start();
   } catch (const std::exception& error) {
-    leave_last_words("failed", error.what());
+    write_crash_summary("failed", error.what());
     throw;
   }
 }
@@ -174,7 +174,7 @@ void Recorder::State::checkpoint(bool force) {
 /// Kept ready as well, for whoever has to leave it in a hurry.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
-  last_words.keep(text);
+  crash_summary.keep(text);
   write_file_atomically(path("summary.json"), text);
   summary_bytes = text.size();
   since_summary.restart();
@@ -247,7 +247,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception&) {
       text.clear();
     }
-    if (text.empty() || !s.last_words.write(text)) leave_last_words("failed", s.status.message.c_str());
+    if (text.empty() || !s.crash_summary.write(text)) write_crash_summary("failed", s.status.message.c_str());
   }
   // A failed run has told its cause already.
   if (first && status != "failed") std::rethrow_exception(first);

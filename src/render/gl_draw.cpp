@@ -157,7 +157,7 @@ void GlDraw::make_grain() {
 }
 
 // From above, a little skewed by height so that slopes facing any way keep their grain's size; on walls from the side.
-void GlDraw::lay_grain(bool on_walls) {
+void GlDraw::place_grain(bool on_walls) {
   glActiveTexture(GL_TEXTURE0);
   const float k = 1.0f / kGrainLength;
   set_plane(GL_S, on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0) : Eigen::Vector4f(k, 0, 0.35f * k, 0));
@@ -173,7 +173,7 @@ void GlDraw::bind_grain() {
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
   glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
   glTexEnvi(GL_TEXTURE_ENV, GL_RGB_SCALE, 2);
-  lay_grain(false);
+  place_grain(false);
   glEnable(GL_TEXTURE_GEN_S);
   glEnable(GL_TEXTURE_GEN_T);
 }
@@ -217,7 +217,7 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, cons
   if (!shadows.empty()) bind_shadow(shadows, lighting);
   // Walls after tops, as the grain lies otherwise on them and the texture's planes are set once for all tiles.
   for (const bool walls : {false, true}) {
-    if (walls) lay_grain(true);
+    if (walls) place_grain(true);
     glActiveTexture(GL_TEXTURE1);
     for (const GroundPart& part : parts) {
       if (walls && part.mesh->walls.empty()) continue;

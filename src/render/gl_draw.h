@@ -32,7 +32,7 @@ class GlDraw {
  private:
   // The grain is made at its first use, in GL's memory, and kept.
   void make_grain();
-  void lay_grain(bool on_walls);
+  void place_grain(bool on_walls);
   void bind_grain();
   // Sends the mask anew when its version differs from the one in the texture.
   void bind_shadow(const ShadowMap& shadows, const Lighting& lighting);

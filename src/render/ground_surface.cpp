@@ -31,11 +31,11 @@ bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b
 
 /// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach` columns, cover no fewer
 /// columns than their union does with its own.
-std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int ny) {
+std::vector<ColumnRect> united(std::vector<ColumnRect> rects, int reach, int nx, int ny) {
   for (std::size_t i = 0; i < rects.size(); ++i)
     for (std::size_t k = i + 1; k < rects.size();) {
-      const CellRect both = rects[i].with(rects[k]);
-      const auto cost = [&](const CellRect& rect) { return rect.grown(reach, nx, ny).area(); };
+      const ColumnRect both = rects[i].with(rects[k]);
+      const auto cost = [&](const ColumnRect& rect) { return rect.grown(reach, nx, ny).area(); };
       if (cost(both) > cost(rects[i]) + cost(rects[k])) {
         ++k;
         continue;
@@ -50,7 +50,7 @@ std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int
 
 }  // namespace
 
-std::vector<CellRect> GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
+std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const std::size_t n =
       static_cast<std::size_t>(std::max(0, ground.nx)) * static_cast<std::size_t>(std::max(0, ground.ny));
   if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
@@ -62,23 +62,23 @@ std::vector<CellRect> GroundSurface::update(const scene::FrameGround& ground, co
                      !(lighting == lighting_) || !same(soil_color_, ground.soil_color) || height_.size() != n;
   // A frame may be drawn more than once.
   if (!fresh && revision_ == ground.revision) return {};
-  const std::vector<CellRect> changed =
-      fresh ? std::vector<CellRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
+  const std::vector<ColumnRect> changed =
+      fresh ? std::vector<ColumnRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
   if (fresh) start(ground, lighting, n);
   revision_ = ground.revision;
-  for (const CellRect& rect : changed) copy(ground, rect);
+  for (const ColumnRect& rect : changed) copy(ground, rect);
   if (fresh && n > 0) measure_relief();
   // A column's light depends on the ground as far as shadows fall, so all heights are in place before any of it is
   // made.
-  std::vector<CellRect> lit;
-  for (const CellRect& rect : united(changed, kShadowReach, nx_, ny_)) {
+  std::vector<ColumnRect> lit;
+  for (const ColumnRect& rect : united(changed, kShadowReach, nx_, ny_)) {
     if (rect.empty()) continue;
-    const CellRect sun = rect.grown(kShadowReach, nx_, ny_);
+    const ColumnRect sun = rect.grown(kShadowReach, nx_, ny_);
     find_openness(rect.grown(kOpenReach, nx_, ny_));
     find_sun(sun);
     lit.push_back(sun);
   }
-  for (const CellRect& rect : lit) paint(rect);
+  for (const ColumnRect& rect : lit) paint(rect);
   return lit;
 }
 
@@ -112,18 +112,18 @@ void GroundSurface::measure_relief() {
   relief_ = std::max(high - low, 2.0f);
 }
 
-std::vector<CellRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
+std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
   // Frames in between were not seen: what they told is lost, so the heights themselves are compared.
   if (ground.revision != revision_ + 1) return {compared(ground)};
-  std::vector<CellRect> told;
+  std::vector<ColumnRect> told;
   for (const scene::FrameRect& rect : ground.changed)
     told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1), std::min(ny_, rect.y1)});
-  std::erase_if(told, [](const CellRect& rect) { return rect.empty(); });
+  std::erase_if(told, [](const ColumnRect& rect) { return rect.empty(); });
   return told;
 }
 
-CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
-  CellRect rect = {nx_, ny_, 0, 0};
+ColumnRect GroundSurface::compared(const scene::FrameGround& ground) const {
+  ColumnRect rect = {nx_, ny_, 0, 0};
   // Whole rows first: hardly any differs.
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
@@ -147,7 +147,7 @@ CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
   return rect;
 }
 
-void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect) {
+void GroundSurface::copy(const scene::FrameGround& ground, const ColumnRect& rect) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
@@ -159,9 +159,9 @@ void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect)
 }
 
 // How much of the sky a column sees, from the mean height around it: a box mean by running sums along x, then y.
-void GroundSurface::find_openness(const CellRect& rect) {
+void GroundSurface::find_openness(const ColumnRect& rect) {
   const int width = rect.x1 - rect.x0;
-  const CellRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1, std::min(ny_, rect.y1 + kOpenReach)};
+  const ColumnRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1, std::min(ny_, rect.y1 + kOpenReach)};
   // Sums along x of the rows that the sums along y need.
   scratch_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(tall.y1 - tall.y0));
   for (int iy = tall.y0; iy < tall.y1; ++iy) {
@@ -188,7 +188,7 @@ void GroundSurface::find_openness(const CellRect& rect) {
 }
 
 // Share of the sun: the highest ground towards the sun against the ray, softened over the sun's (widened) disc.
-void GroundSurface::find_sun(const CellRect& rect) {
+void GroundSurface::find_sun(const ColumnRect& rect) {
   const Vec3f& to_sun = lighting_.to_sun;
   const float flat = to_sun.head<2>().norm();
   // The sun overhead casts no shadow of the ground.
@@ -247,7 +247,7 @@ Vec3f GroundSurface::albedo(int ix, int iy) const {
   return color.cwiseMax(0.0f);
 }
 
-void GroundSurface::paint(const CellRect& rect) {
+void GroundSurface::paint(const ColumnRect& rect) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);

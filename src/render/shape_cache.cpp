@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "geometry/obj/read_obj.h"
-#include "render/solid.h"
+#include "render/closed_mesh.h"
 
 namespace navvy::render {
 namespace {

@@ -88,7 +88,7 @@ std::size_t GroundPart::triangles() const {
 
 void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const int old_x = surface_.nx(), old_y = surface_.ny();
-  const std::vector<CellRect> changed = surface_.update(ground, lighting);
+  const std::vector<ColumnRect> changed = surface_.update(ground, lighting);
   rebuilt_ = 0;
   if (changed.empty()) return;
   if (old_x != surface_.nx() || old_y != surface_.ny()) {
@@ -98,11 +98,11 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
   }
   // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
-  std::vector<CellRect> wide;
-  for (const CellRect& rect : changed) wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
+  std::vector<ColumnRect> wide;
+  for (const ColumnRect& rect : changed) wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
   for (int ty = 0; ty < tiles_y_; ++ty)
     for (int tx = 0; tx < tiles_x_; ++tx) {
-      const bool touched = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+      const bool touched = std::any_of(wide.begin(), wide.end(), [&](const ColumnRect& rect) {
         return tx * kTile < rect.x1 && (tx + 1) * kTile >= rect.x0 && ty * kTile < rect.y1 &&
                (ty + 1) * kTile >= rect.y0;
       });
@@ -111,7 +111,7 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
       measure(tx, ty);
       tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)].level = -1;
     }
-  const bool at_edge = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+  const bool at_edge = std::any_of(wide.begin(), wide.end(), [&](const ColumnRect& rect) {
     return rect.x0 == 0 || rect.y0 == 0 || rect.x1 == surface_.nx() || rect.y1 == surface_.ny();
   });
   surroundings_stale_ = surroundings_stale_ || at_edge;

@@ -22,7 +22,7 @@ struct Powertrain {
 
 /// An engine that turns a drive line through gears, in place of the governed motor: either one with a torque curve, or
 /// a source of speed, which keeps to its speed up to its largest torque.
-struct DriveEngine {
+struct CombustionEngine {
   enum class Kind { kTorqueCurve, kSpeedSource };
   struct Point {
     double speed = 0;   ///< [rad/s]
@@ -38,7 +38,7 @@ struct DriveEngine {
   double efficiency = 0.9;    ///< of all gears together [-]
 };
 /// Where the curve's torque x speed is largest.
-DriveEngine::Point rated_point(const DriveEngine& engine);
+CombustionEngine::Point rated_point(const CombustionEngine& engine);
 
 /// What lets two shafts of a drive line turn at different speeds. The slower one gets more torque than the faster one
 /// by the locking torque: none of an open one, whatever it takes of a locked one, and of one with limited slip at most
@@ -65,7 +65,7 @@ struct AckermannDrive : Powertrain {
   double steer_rate = radians(30);    ///< of a steered wheel [rad/s]
   Differential axles;                 ///< between the wheels of each driven axle
   Differential centre;                ///< between the foremost driven axle and the others
-  std::optional<DriveEngine> engine;  ///< without: the governed motor of Powertrain
+  std::optional<CombustionEngine> engine;  ///< without: the governed motor of Powertrain
 };
 
 /// Left and right wheels driven each side by itself: most mobile robots, skid-steered loaders. It steers by a yaw rate
@@ -107,7 +107,7 @@ inline const Powertrain& powertrain(const Drive& drive) {
 }
 
 /// Its engine, null where the drive has a governed motor.
-inline const DriveEngine* drive_engine(const Drive& drive) {
+inline const CombustionEngine* drive_engine(const Drive& drive) {
   const auto* steered = std::get_if<AckermannDrive>(&drive);
   if (steered == nullptr) steered = std::get_if<LinkageDrive>(&drive);
   return steered != nullptr && steered->engine ? &*steered->engine : nullptr;

@@ -47,7 +47,7 @@ struct GroundPatch {
 
 /// Soil that starts as particles: the columns of a rectangle from a height up. For scenes and tests that begin with
 /// soil in motion; elsewhere the exchange wakes soil when it is needed.
-struct AwakeSoil {
+struct ActiveSoil {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
   double bottom = 0;                            ///< W height [m]
 };
@@ -85,7 +85,7 @@ struct StartGround {
   std::vector<GroundFeature> features;
   std::vector<GroundLayer> layers;  ///< at least one
   std::vector<GroundPatch> patches;
-  std::vector<AwakeSoil> awake;
+  std::vector<ActiveSoil> active;
 };
 
 }  // namespace navvy::scene

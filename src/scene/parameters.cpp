@@ -87,12 +87,12 @@ void put(const Writer& w, const Soil& soil) {
 void put(const Writer& w, const SolverSettings& solver) {
   // The control rate acts through the base step alone, which the state holds: left out, so that a plain run's snapshot
   // can be gone on from under a controller.
-  const auto& [cell, courant, max_step, control_rate, max_particles, awake_zone, exchange] = solver;
+  const auto& [cell, courant, max_step, control_rate, max_particles, active_zone, exchange] = solver;
   w("cell", cell);
   w("courant", courant);
   w("max_step", max_step);
   w("max_particles", max_particles);
-  w("awake_zone", awake_zone);
+  w("awake_zone", active_zone);
   w("exchange", exchange);
 }
 
@@ -118,7 +118,7 @@ void put(const Writer& w, const std::vector<GroundLayer>& layers) {
 
 void put(const Writer& w, const StartGround& ground) {
   const auto& [file, scale, has_at, at_is_local, at, size, origin, has_origin, surface, depth, has_rock, rock, steep,
-               features, layers, patches, awake] = ground;
+               features, layers, patches, active] = ground;
   // A map counts by its heights, which the ground itself answers for.
   w("is_map", !file.empty());
   w("has_at", has_at);
@@ -140,8 +140,8 @@ void put(const Writer& w, const StartGround& ground) {
     one("max", max);
     put(one, patch_layers);
   }
-  for (std::size_t i = 0; i < awake.size(); ++i) {
-    const auto& [min, max, bottom] = awake[i];
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto& [min, max, bottom] = active[i];
     const Writer one = w.at("awake", i);
     one("min", min);
     one("max", max);
@@ -258,7 +258,7 @@ void put(const Writer& w, const Wheel& wheel) {
   if (track) put(w.at("track"), *track);
 }
 
-void put(const Writer& w, const DriveEngine& engine) {
+void put(const Writer& w, const CombustionEngine& engine) {
   const auto& [kind, curve, braking_torque, max_speed, max_torque, gears, final_ratio, efficiency] = engine;
   w("kind", static_cast<int>(kind));
   for (std::size_t i = 0; i < curve.size(); ++i) {

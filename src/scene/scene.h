@@ -23,7 +23,7 @@ struct SolverSettings {
   double max_step = 0.0017;     ///< base step never exceeds this [s]
   double control_rate = 0;      ///< a whole number of base steps makes up its period [1/s]; 0: no such rate
   int max_particles = 2000000;  ///< the awake budget
-  double awake_zone = 1;        ///< multiplies how far around and below itself a tool wakes soil
+  double active_zone = 1;        ///< multiplies how far around and below itself a tool wakes soil
   bool exchange = true;         ///< false: ground neither wakes nor takes soil back by itself (rigs, tests)
 };
 

@@ -11,11 +11,11 @@ namespace navvy::scene_io {
 
 namespace {
 
-using Kind = scene::DriveEngine::Kind;
+using Kind = scene::CombustionEngine::Kind;
 constexpr double kRpm = 2 * kPi / 60;  // [rad/s]
 
-void read_point(Element& element, scene::DriveEngine& engine, Faults& faults) {
-  scene::DriveEngine::Point point;
+void read_point(Element& element, scene::CombustionEngine& engine, Faults& faults) {
+  scene::CombustionEngine::Point point;
   const std::size_t before = faults.error_count();
   Fields fields(element, faults);
   fields.number("speed_rpm", point.speed, {1, 1e5}, kRpm)
@@ -34,7 +34,7 @@ void read_point(Element& element, scene::DriveEngine& engine, Faults& faults) {
 }
 
 /// Elements of one kind that stand in an engine of the other.
-void check_kind(const Element& element, const Fields& fields, const scene::DriveEngine& engine, Faults& faults) {
+void check_kind(const Element& element, const Fields& fields, const scene::CombustionEngine& engine, Faults& faults) {
   const bool source = engine.kind == Kind::kSpeedSource;
   for (const char* name : {"point", "braking_torque_nm", "shared_with_pump"})
     if (source && fields.has(name))
@@ -71,7 +71,7 @@ void check_gears(const Fields& fields, const std::vector<double>& gears, Faults&
 }  // namespace
 
 void read_engine(Element& element, scene::AckermannDrive& drive, Faults& faults) {
-  scene::DriveEngine engine;
+  scene::CombustionEngine engine;
   bool shared = false;
   const std::size_t before = faults.error_count();
   Fields fields(element, faults);
@@ -92,7 +92,7 @@ void read_engine(Element& element, scene::AckermannDrive& drive, Faults& faults)
   if (faults.error_count() == before) check_gears(fields, engine.gears, faults);
   if (faults.error_count() > before) return;
   if (shared) {
-    const scene::DriveEngine::Point rated = scene::rated_point(engine);
+    const scene::CombustionEngine::Point rated = scene::rated_point(engine);
     drive.engine_power = rated.speed * rated.torque;
   }
   drive.engine = std::move(engine);

@@ -92,12 +92,12 @@ scene::GroundPatch read_patch(Element& element, const std::vector<scene::Soil>& 
   return patch;
 }
 
-scene::AwakeSoil read_awake(Element& element, Faults& faults) {
-  scene::AwakeSoil awake;
-  read_rectangle(element, awake.min, awake.max, faults, [&](Fields& fields) {
-    fields.number("bottom_m", awake.bottom, {-1e4, 1e4});
+scene::ActiveSoil read_active(Element& element, Faults& faults) {
+  scene::ActiveSoil active;
+  read_rectangle(element, active.min, active.max, faults, [&](Fields& fields) {
+    fields.number("bottom_m", active.bottom, {-1e4, 1e4});
   });
-  return awake;
+  return active;
 }
 
 void read_file(Fields& fields, scene::StartGround& ground, Faults& faults) {
@@ -129,7 +129,7 @@ scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>&
                                   {{"hold", scene::SteepGround::kHold}, {"settle", scene::SteepGround::kSettle}})
       .each("layer", [&](Element& layer) { ground.layers.push_back(read_layer(layer, soils, faults)); })
       .each("patch", [&](Element& patch) { ground.patches.push_back(read_patch(patch, soils, faults)); })
-      .each("awake", [&](Element& awake) { ground.awake.push_back(read_awake(awake, faults)); });
+      .each("awake", [&](Element& active) { ground.active.push_back(read_active(active, faults)); });
   ground.has_origin = fields.has("origin_m");
   if (!ground.has_origin) ground.origin = -0.5 * ground.size;
 

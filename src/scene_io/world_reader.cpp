@@ -42,7 +42,7 @@ void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults
       .number("max_step_s", solver.max_step, {1e-6, 0.02})
       .number("control_rate_hz", solver.control_rate, {0.001, 1e5})
       .whole("max_particles", solver.max_particles, {1000, limits::kParticles})
-      .number("awake_zone", solver.awake_zone, {0.5, 4})
+      .number("awake_zone", solver.active_zone, {0.5, 4})
       .finish();
 }
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/log.h"
-#include "session/bystander.h"
-#include "sim/terrain_view.h"
+#include "session/uncontrolled_machine.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::session {
 namespace {

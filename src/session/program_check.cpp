@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "control/reach.h"
-#include "control/step.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "control/program_step.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/make_ground.h"
+#include "sim/start_placing.h"
 
 namespace navvy::session {
 namespace {
@@ -108,9 +108,9 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
 std::vector<Fault> check_programs(const scene::Scene& world, const control::MakePathPlanner& planners) {
   try {
     const heightfield::Ground ground = heightfield::make_ground(world, nullptr);
-    sim::check_awake(world, ground);
+    sim::check_active(world, ground);
     heightfield::make_design(world, ground);
-    return check_programs(world, control::GroundSurface(ground), sim::starting_poses(world, ground), planners);
+    return check_programs(world, control::GroundSurfaceView(ground), sim::starting_poses(world, ground), planners);
   } catch (const InputError& error) {
     // A ground that cannot be laid is itself the answer.
     return error.faults();

@@ -15,9 +15,9 @@
 #include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
-#include "heightfield/design.h"
+#include "heightfield/design_surface.h"
 #include "session/bucket_gauge.h"
-#include "session/bystander.h"
+#include "session/uncontrolled_machine.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
 #include "sim/snapshot.h"
@@ -54,7 +54,7 @@ struct Session::State {
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
-  std::vector<Bystander> bystanders;  ///< every machine that can tip, watched while no program drives it
+  std::vector<UncontrolledMachine> uncontrolled_machines;  ///< every machine that can tip, watched while no program drives it
   std::vector<bool> off_site;         ///< by machine: that it was beyond the site's border has been told
   // What programs came to.
   std::vector<Cycle> cycles;
@@ -67,7 +67,7 @@ struct Session::State {
 
   /// Of the machine's program; null without one.
   const OperatedMachine* operated_by_program(int machine) const;
-  void watch_bystanders();
+  void watch_uncontrolled_machines();
   void watch_border();
   void take_over(int machine);
   void note_forces();
@@ -105,8 +105,8 @@ const OperatedMachine* Session::State::operated_by_program(int machine) const {
 }
 
 /// Operators watch over their own machines, also when their programs are done.
-void Session::State::watch_bystanders() {
-  for (Bystander& one : bystanders) {
+void Session::State::watch_uncontrolled_machines() {
+  for (UncontrolledMachine& one : uncontrolled_machines) {
     const OperatedMachine* program = operated_by_program(one.index());
     if (program == nullptr || program->taken()) one.look(program != nullptr);
   }
@@ -161,7 +161,7 @@ void Session::State::visit(Archive& a) {
     a.constant("programs", operated.size(),
                "the snapshot has another number of programs than the scene; use the scene it was made with");
     for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
-    for (std::size_t i = 0; i < bystanders.size(); ++i) a.item(i, [&] { bystanders[i].visit(a); });
+    for (std::size_t i = 0; i < uncontrolled_machines.size(); ++i) a.item(i, [&] { uncontrolled_machines[i].visit(a); });
   });
 }
 
@@ -185,7 +185,7 @@ Session::Session(scene::Scene description, device::Device& device, const control
   for (const Fault& fault : faults) log_warning(fault.text());
   // Only sound programs get their operators. Machines without a program have none; inputs drive them, or nobody.
   for (int m = 0; m < s.world.machine_count(); ++m)
-    if (s.world.machine(m).stability().free) s.bystanders.emplace_back(s.world, m);
+    if (s.world.machine(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machine_count(); ++m)
     if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
       s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
@@ -206,7 +206,7 @@ void Session::step() {
       busy = busy || one.taken() || one.busy();
       one.step(s.cycles, s.tips);
     }
-    s.watch_bystanders();
+    s.watch_uncontrolled_machines();
     s.watch_border();
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
     if (s.energy_at_ends.size() < s.cycles.size()) s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
@@ -273,15 +273,15 @@ bool Session::time_is_over() const {
 }
 
 bool Session::complete() const {
-  const auto stands = [](const Bystander& one) { return !one.fall(); };
-  return std::all_of(state_->bystanders.begin(), state_->bystanders.end(), stands) &&
+  const auto stands = [](const UncontrolledMachine& one) { return !one.fall(); };
+  return std::all_of(state_->uncontrolled_machines.begin(), state_->uncontrolled_machines.end(), stands) &&
          std::all_of(state_->operated.begin(), state_->operated.end(),
                      [](const OperatedMachine& one) { return one.taken() || one.op().done(); });
 }
 
 bool Session::fell_short() const {
-  const auto fell = [](const Bystander& one) { return one.fall().has_value(); };
-  return std::any_of(state_->bystanders.begin(), state_->bystanders.end(), fell) ||
+  const auto fell = [](const UncontrolledMachine& one) { return one.fall().has_value(); };
+  return std::any_of(state_->uncontrolled_machines.begin(), state_->uncontrolled_machines.end(), fell) ||
          std::any_of(state_->operated.begin(), state_->operated.end(),
                      [](const OperatedMachine& one) { return one.op().ended() && !one.op().done(); });
 }
@@ -292,7 +292,7 @@ const heightfield::DesignSurface* Session::design() const { return state_->desig
 
 /// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {
-  for (const Bystander& one : state_->bystanders)
+  for (const UncontrolledMachine& one : state_->uncontrolled_machines)
     if (one.index() == machine && one.fall()) return control::name_of(one.fall()->state);
   const OperatedMachine* program = state_->operated_by_program(machine);
   if (program == nullptr) return "idle";
@@ -312,7 +312,7 @@ std::vector<ProgramReport> Session::programs() const {
     std::snprintf(text.data(), text.size(), "the run's duration of %g s was over first", duration);
     last.reason = text.data() + (last.reason.empty() ? "" : "; " + last.reason);
   }
-  for (const Bystander& one : state_->bystanders) {
+  for (const UncontrolledMachine& one : state_->uncontrolled_machines) {
     if (!one.fall()) continue;
     const auto own =
         std::find_if(out.begin(), out.end(), [&](const ProgramReport& r) { return r.machine == one.index(); });

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "sim/plate_room.h"
-#include "sim/terrain_view.h"
+#include "sim/particle_clipper.h"
+#include "sim/world_terrain.h"
 #include "sim/world_parts.h"
 #include "vehicle/kinematics.h"
 
@@ -41,7 +41,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const World& world) : world_(world), plates_(std::make_unique<PlateRoom>(world)) {
+FrameBuilder::FrameBuilder(const World& world) : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
   // What does not change with time is filled in once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});

@@ -159,7 +159,7 @@ ToolHandle MachineHandle::tool(int index) const {
 vehicle::PumpState MachineHandle::pump() const {
   return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
 }
-vehicle::EngineState MachineHandle::engine() const {
+vehicle::CombustionEngineState MachineHandle::engine() const {
   return parts_->coupling.engine(machine_).drive_engine(parts_->coupling.index(machine_));
 }
 vehicle::DriveInput MachineHandle::drive() const {

@@ -14,12 +14,12 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "sim/world_figures.h"
+#include "sim/world_measurements.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
 // Named only: a client reads through handles and sees no engine.
-class Engine;
+class PhysicsEngine;
 class JointEncoder;
 }  // namespace navvy::vehicle
 
@@ -43,7 +43,7 @@ class LinkHandle {
  private:
   friend class MachineHandle;
   const scene::Link* link_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
@@ -68,7 +68,7 @@ class JointHandle {
  private:
   friend class MachineHandle;
   const scene::Joint* joint_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   const vehicle::JointEncoder* encoder_ = nullptr;
   int machine_ = -1, body_ = -1, index_ = -1;
 };
@@ -84,7 +84,7 @@ class WheelHandle {
  private:
   friend class MachineHandle;
   const scene::Wheel* wheel_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
@@ -108,7 +108,7 @@ class ToolHandle {
   Vec3 rock_force() const;
   /// Soil inside [kg]; of a bed without what a bucket holds in it. Costs a pass over the particles.
   double payload() const;
-  /// Of the last step, see world_figures.h; scale 0 without contact.
+  /// Of the last step, see world_measurements.h; scale 0 without contact.
   MomentumBalance momentum_balance() const;
 
  private:
@@ -142,7 +142,7 @@ class MachineHandle {
   /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
   /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a drive without one.
-  vehicle::EngineState engine() const;
+  vehicle::CombustionEngineState engine() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;
   /// Where a kinematic machine's base is on its way to; of others where it is.

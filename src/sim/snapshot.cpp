@@ -9,7 +9,7 @@
 #include "core/log.h"
 #include "core/saved_state.h"
 #include "core/sealed.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 
 namespace navvy::sim {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "coupling/settling.h"
 #include "geometry/oriented_box.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/make_ground.h"
 #include "sim/collision_box.h"
-#include "sim/placing.h"
+#include "sim/start_placing.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
@@ -27,12 +27,12 @@ constexpr double kTipped = radians(45);
 struct LinkBox {
   geometry::OrientedBox box;
   const scene::Link* link = nullptr;
-  bool as_told = false, stands = false;  // of a kinematic machine; a base that is held
+  bool as_commanded = false, stands = false;  // of a kinematic machine; a base that is held
 };
 
 /// What moves as told goes through its like and through what stands.
 bool may_meet(const LinkBox& a, const LinkBox& b) {
-  return !(a.as_told && (b.as_told || b.stands)) && !(b.as_told && a.stands);
+  return !(a.as_commanded && (b.as_commanded || b.stands)) && !(b.as_commanded && a.stands);
 }
 
 /// Hook and eye reach into each other, and so do the bodies around them.
@@ -132,10 +132,10 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
 namespace {
 
 /// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
-std::string told_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
+std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
-  const heightfield::DesignFigures figures = heightfield::against_design(ground, *design);
+  const heightfield::DesignComparison figures = heightfield::against_design(ground, *design);
   double least = INFINITY, most = -INFINITY;
   for (const float z : design->z) {
     least = std::fmin(least, static_cast<double>(z));
@@ -160,7 +160,7 @@ StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, &out.terrain);
-    out.design = told_design(scene, ground);
+    out.design = reported_design(scene, ground);
     const std::vector<Pose> X_WB = starting_poses(scene, ground);
     out.faults = check_overlaps(scene, X_WB);
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);

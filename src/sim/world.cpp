@@ -157,7 +157,7 @@ void World::require_valid(const MachineHandle& machine, const vehicle::DriveInpu
   require_machine(machine.index(), machine_count());
   require_finite("speed of the drive", input.speed);
   require_finite("steering of the drive", input.steer);
-  const scene::DriveEngine* engine = scene::drive_engine(machine.description().drive);
+  const scene::CombustionEngine* engine = scene::drive_engine(machine.description().drive);
   const int gears = engine == nullptr ? 0 : static_cast<int>(engine->gears.size());
   if (input.gear < 0 || input.gear > gears)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "gear of " + machine.name(), std::to_string(input.gear),
@@ -233,21 +233,21 @@ SoilCounts World::soil_counts() const {
   out.particles = stats.particles;
   out.particles_peak = stats.particles_peak;
   out.rebins = stats.rebins;
-  out.woken_columns = stats.wakes;
+  out.activated_columns = stats.wakes;
   out.deposited_blocks = stats.deposits;
   out.shell_crossings = stats.shell_crossings;
   return out;
 }
 
 void World::keep_soil_energy() {
-  if (parts_->soil.energy() == nullptr) parts_->soil.keep_energy(true);
+  if (parts_->soil.energy() == nullptr) parts_->soil.record_energy(true);
 }
 
 std::optional<SoilEnergy> World::soil_energy() const {
   const soil::EnergyAccount* account = parts_->soil.energy();
   if (account == nullptr) return std::nullopt;
   SoilEnergy out;
-  soil::tell_energy(*account, [&](const char* name, double joule) { out.push_back({name, joule}); });
+  soil::report_energy(*account, [&](const char* name, double joule) { out.push_back({name, joule}); });
   return out;
 }
 
@@ -261,8 +261,8 @@ MassLedger World::mass_ledger() const {
 }
 
 /// By the particles' ids, so that sums over it are repeatable to the bit.
-std::vector<LooseSoil> World::loose_soil() const {
-  std::vector<LooseSoil> out;
+std::vector<ActiveParticle> World::loose_soil() const {
+  std::vector<ActiveParticle> out;
   for (const soil::Particle& p : parts_->soil.particles()) {
     // Particles know their block; where blocks begin on the site is the grid's to know.
     const auto [ix, iy] = parts_->soil.grid().column_of(p);

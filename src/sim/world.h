@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
 #include "sim/handles.h"
 #include "sim/sampler.h"
-#include "sim/world_figures.h"
+#include "sim/world_measurements.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::device {
@@ -110,7 +110,7 @@ class World {
   /// The resting ground.
   const heightfield::Ground& ground() const;
   /// Copies; the ledger and the loose soil cost a pass over the particles.
-  /// What world_figures.h explains.
+  /// What world_measurements.h explains.
   SoilCounts soil_counts() const;
   MassLedger mass_ledger() const;
   /// Opens the account of the soil's energy, if none is open: it changes no bit and takes longer than the soil itself.
@@ -118,7 +118,7 @@ class World {
   /// Since it was opened, or since a snapshot was loaded; none when it was not.
   std::optional<SoilEnergy> soil_energy() const;
   /// Awake soil, one entry a particle, in a repeatable order.
-  std::vector<LooseSoil> loose_soil() const;
+  std::vector<ActiveParticle> loose_soil() const;
   WallTimes wall_times() const;
   /// Wall time of the soil by stage [s]: "p2g", "grid", "exchange", ...
   std::vector<std::pair<std::string, double>> soil_stage_times() const;

@@ -154,9 +154,9 @@ void add_drive(World& world, const MachineHandle& machine, const scene::Drive& a
              [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
   inputs.add({prefix + "drive/brake", "1", "1 holds the place, 0 releases", machine.index()},
              [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
-  const scene::DriveEngine* engine = scene::drive_engine(about);
+  const scene::CombustionEngine* engine = scene::drive_engine(about);
   if (engine == nullptr) return;
-  const bool source = engine->kind == scene::DriveEngine::Kind::kSpeedSource;
+  const bool source = engine->kind == scene::CombustionEngine::Kind::kSpeedSource;
   const std::string gears = "1 to " + std::to_string(engine->gears.size());
   inputs.add({prefix + "drive/gear", "1", gears + (source ? ", 0: the first" : ", 0: it chooses"), machine.index()},
              [change, name = prefix + "drive/gear"](double v) {

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "heightfield/make_ground.h"
+#include "sim/start_placing.h"
 #include "sim/snapshot.h"
 #include "sim/timing.h"
 
@@ -53,8 +53,8 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
     encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine, coupling.engine(m),
                           coupling.index(m), seeds.next());
   // Soil that starts awake before loads are filled in: beds stand where machines stand now.
-  check_awake(description, ground);
-  for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+  check_active(description, ground);
+  for (const scene::ActiveSoil& active : description.ground.active) wake(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
 }
 
@@ -85,6 +85,6 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
-void WorldParts::wake(const scene::AwakeSoil& awake) { soil.wake(awake_columns(awake, ground), awake.bottom); }
+void WorldParts::wake(const scene::ActiveSoil& active) { soil.wake(active_columns(active, ground), active.bottom); }
 
 }  // namespace navvy::sim

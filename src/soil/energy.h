@@ -50,7 +50,7 @@ void each_energy(const Visit& visit) {
 
 /// The account as people and files get it: tell(name, [J]) for every member, then for the residual.
 template <class Tell>
-void tell_energy(const EnergyAccount& account, const Tell& tell) {
+void report_energy(const EnergyAccount& account, const Tell& tell) {
   each_energy([&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
   tell("residual", account.residual());
 }

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
@@ -91,13 +91,13 @@ Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::G
 Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) {
-  state_->seats.emplace_back();
+  state_->resting_contacts.emplace_back();
   return state_->contact.add_tool(shell);
 }
 
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
-void Solver::keep_energy(bool on) {
+void Solver::record_energy(bool on) {
   state_->energy.reset();
   if (on) state_->open_energy();
 }
@@ -119,8 +119,8 @@ double Solver::State::tool_speed(const ToolMotion& motion) const {
 }
 
 void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
-                  std::span<const Footing> footings) {
-  state_->footings = footings;
+                  std::span<const SupportArea> support_areas) {
+  state_->support_areas = support_areas;
   double fastest = 0;
   for (const ToolMotion& motion : motions) {
     state_->check_motion(motion);
@@ -185,7 +185,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     Transfer::Largest report;
     {
       StageClock clock(times, "particles");
-      report = transfer.read_report(store.homes().size());
+      report = transfer.read_report(store.particle_blocks().size());
     }
     if (!(report.speed * dt / cell < 1 - kMostDrift / 4)) fail(report.speed);
     interval.book(dt, cell, report.speed, tools);
@@ -196,12 +196,12 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     }
     StageClock clock(times, "books");
     contact.book(impulses);
-    hold_tools(dt, motions, impulses);
+    apply_resting_contacts(dt, motions, impulses);
     contact.feel(dt, impulses);
     if (!hold) check_masses();
     if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
   } else {
-    hold_tools(dt, motions, impulses);
+    apply_resting_contacts(dt, motions, impulses);
     for (ToolImpulse& impulse : impulses) {
       impulse.force_W = impulse.J_W / dt;
       impulse.moment_W = impulse.L_W / dt;
@@ -212,7 +212,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
   stats.particle_steps += static_cast<std::uint64_t>(store.count());
   stats.particles = store.count();
   stats.particles_peak = std::max(stats.particles_peak, stats.particles);
-  stats.blocks = static_cast<int>(store.homes().size());
+  stats.blocks = static_cast<int>(store.particle_blocks().size());
 }
 
 bool Solver::State::holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const {
@@ -269,13 +269,13 @@ void Solver::State::check_exchange(double elapsed, double dt, std::span<const To
   std::vector<Particle> all = store.records();
   for (Particle& p : all) p = in_cell_block(p);
   settle_tools(elapsed, motions, regions, all);
-  for (ToolRegion& region : regions) region.seated = seats[static_cast<std::size_t>(region.tool)].taken;
+  for (ToolRegion& region : regions) region.supported = resting_contacts[static_cast<std::size_t>(region.tool)].taken;
   // The next check waits for the end of a transfer.
   const double until_next = (kCheckSteps + 1) * dt + transfer_length;
-  Exchange::Result result = exchange.check(all, regions, time, elapsed, {footings, until_next});
-  stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
+  Exchange::Result result = exchange.check(all, regions, time, elapsed, {support_areas, until_next});
+  stats.wakes += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
-  unseat(regions, result.born);
+  release_contacts(regions, result.born);
   const bool removed = std::any_of(result.removed.begin(), result.removed.end(), [](std::uint8_t r) { return r != 0; });
   if (removed || !result.born.empty()) {
     std::vector<Particle> stay;
@@ -325,7 +325,7 @@ void Solver::State::add(std::vector<Particle> particles) {
   assign(all);
 }
 
-void Solver::State::book_left(const std::vector<Particle>& left) {
+void Solver::State::record_left_site(const std::vector<Particle>& left) {
   for (const Particle& p : left) {
     left_site[p.soil] += p.mass;
     in_particles[p.soil] -= p.mass;
@@ -335,7 +335,7 @@ void Solver::State::book_left(const std::vector<Particle>& left) {
 void Solver::State::rebin_if_due() {
   if (drift <= kMostDrift) return;
   StageClock clock(times, "rebin");
-  book_left(store.rebin());
+  record_left_site(store.rebin());
   ++stats.rebins;
   drift = 0;
   blocks_changed = true;
@@ -345,9 +345,9 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
   StageClock clock(times, "lists");
   const bool lists = contact.set_motions(motions, store.table(), blocks_changed);
   if (lists || blocks_changed) {
-    const int tiles = store.set_near(contact.near_homes());
+    const int tiles = store.set_near(contact.near_particle_blocks());
     transfer.set_blocks(store, contact.near_slot(), tiles);
-    mass_count.make_room(store.homes().size());
+    mass_count.reserve(store.particle_blocks().size());
   }
   update_floor();
   blocks_changed = false;

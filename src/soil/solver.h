@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/machine.h"
 #include "scene/scene.h"
 #include "soil/energy.h"
-#include "soil/exchange/footing.h"
+#include "soil/exchange/support_area.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 #include "soil/tools/tool_motion.h"
@@ -66,7 +66,7 @@ class Solver {
 
   /// Opens an account of energy, or closes it. It changes no bit of the soil, costs more than the steps themselves, and
   /// is not part of the state: with one that is loaded it begins anew, with the next transfer.
-  void keep_energy(bool on);
+  void record_energy(bool on);
   /// Since it was opened; null when none is kept.
   const EnergyAccount* energy() const;
 
@@ -77,7 +77,7 @@ class Solver {
   /// the next check of the exchange, is booked into the columns, which bear them [docs/exchange.md, footings].
   /// @throws SimulationError with step and cause when a value is not finite or the ledger opens.
   void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
-            std::span<const Footing> footings = {});
+            std::span<const SupportArea> support_areas = {});
 
   /// Turns every column of the rectangle, from W height z_bottom up, into particles now (tests, rigs, first pictures).
   void wake(const heightfield::CellRect& rect, double z_bottom);

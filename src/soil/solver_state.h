@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "device/device.h"
-#include "soil/energy_book.h"
+#include "soil/energy_ledger.h"
 #include "soil/exchange/exchange.h"
 #include "soil/particles/floor.h"
 #include "soil/particles/interval.h"
@@ -17,7 +17,7 @@
 #include "soil/particles/transfer.h"
 #include "soil/solver.h"
 #include "soil/tools/contact.h"
-#include "soil/tools/seat.h"
+#include "soil/tools/resting_contact.h"
 
 namespace navvy::soil {
 
@@ -37,9 +37,9 @@ struct Solver::State {
   /// Of the plane that fits it best in a rectangle of the plan.
   Vec2 gradient_of_ground(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
   /// Ground that wakes under a tool no longer bears it.
-  void unseat(std::span<const ToolRegion> regions, std::span<const Particle> born);
+  void release_contacts(std::span<const ToolRegion> regions, std::span<const Particle> born);
   /// What seats give.
-  void hold_tools(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+  void apply_resting_contacts(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   Vec3 place_of(const Particle& p) const;  ///< in W [m]
   void rebin_if_due();
   void lay_out(std::span<const ToolMotion> motions);
@@ -56,7 +56,7 @@ struct Solver::State {
   /// What there is, on the device or because the device had no room on the host.
   std::vector<Particle> records() const { return unplaced.empty() ? store.records() : unplaced; }
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
-  void book_left(const std::vector<Particle>& left);
+  void record_left_site(const std::vector<Particle>& left);
   double tool_speed(const ToolMotion& motion) const;
   Ledger ledger() const;
   /// With these masses of particles instead of a count on the device.
@@ -88,13 +88,13 @@ struct Solver::State {
   Exchange exchange;
   MassCount mass_count;
 
-  std::vector<Seat> seats;             ///< by tool
-  std::span<const Footing> footings;   ///< of the step under way
+  std::vector<RestingContact> resting_contacts;             ///< by tool
+  std::span<const SupportArea> support_areas;   ///< of the step under way
   std::vector<Particle> unplaced;      ///< all particles, once the device could not take them: the run is over
   TransferInterval interval;           ///< the transfer under way; the next step ends it where it cannot go on
   std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
   bool blocks_changed = true;
-  std::optional<EnergyBook> energy;  ///< only when asked for
+  std::optional<EnergyLedger> energy;  ///< only when asked for
   bool crowding = true;              ///< particles are moved apart where they crowd
   bool over_budget = false;          ///< said so already
   double drift = 0;                  ///< cells particles may have moved since the last re-bin

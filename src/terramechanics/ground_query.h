@@ -24,7 +24,7 @@ struct SoilState {
 
 /// How far a tyre has pressed the ground since it came there. Rolling on, it does that again on each new square metre;
 /// nothing where the ground bore as much before.
-struct Sinking {
+struct Sinkage {
   double work = 0;   ///< [J/m2]
   double depth = 0;  ///< [m]
 };
@@ -66,7 +66,7 @@ class GroundQuery {
   }
 
   /// What sinking took here since the tyre that stands on it came.
-  virtual Sinking sinking(double x, double y) const {
+  virtual Sinkage sinking(double x, double y) const {
     (void)x, (void)y;
     return {};
   }

@@ -20,7 +20,7 @@ struct Arc {
 };
 
 /// Way of the rim against the soil since it entered, ahead and to the side [m].
-Vec2 rim_way(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
+Vec2 rim_displacement(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
   // Ways against the soil depend on the ratio of speeds alone.
   const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
   const double aside = std::tan(wheel.slip_angle);
@@ -41,7 +41,7 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
     // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has its corner.
     const double at = (i + 0.5) * slice;
     const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
-    const Vec2 way = rim_way(wheel, soil, entry, at);
+    const Vec2 way = rim_displacement(wheel, soil, entry, at);
     const double moved = way.norm();
     const double stress = shear_stress(strength, pressure, moved, soil.janosi_k);
     const double shear = moved > 0 ? stress * way.x() / moved : 0;

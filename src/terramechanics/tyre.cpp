@@ -7,7 +7,7 @@
 #include "terramechanics/bearing.h"
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre_patch.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 namespace {
@@ -115,7 +115,7 @@ double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const 
 /// further, and what the rim pushes ahead of it (bulldozing). Smooth through zero, within what the step can bear.
 double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground, double normal_force,
                        double rim_mass, double dt) {
-  const Sinking sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
+  const Sinkage sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
   if (!(sunk.work > 0)) return 0;
   const double width = tyre.twin_spacing > 0 ? tyre.width : 0.5 * tyre.width;
   SoilState met;

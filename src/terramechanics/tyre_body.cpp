@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 

@@ -62,7 +62,7 @@ void JointEncoder::visit(Archive& a) {
   a("dice", dice_);
 }
 
-Encoders::Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed) {
+Encoders::Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index, std::uint64_t seed) {
   Random seeds(seed);
   for (const scene::Encoder& about : machine.encoders) {
     const int joint = machine.joint_index(about.joint);
@@ -72,7 +72,7 @@ Encoders::Encoders(const scene::Machine& machine, const Engine& engine, int inde
   }
 }
 
-void Encoders::advance(const Engine& engine, int index) {
+void Encoders::advance(const PhysicsEngine& engine, int index) {
   for (std::size_t e = 0; e < encoders_.size(); ++e)
     if (joints_[e] >= 0) encoders_[e].advance(engine.joint(index, joints_[e]).position);
 }

@@ -9,7 +9,7 @@
 #include "core/archive.h"
 #include "core/random.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -56,10 +56,10 @@ class JointEncoder {
 class Encoders {
  public:
   /// The machine is number `index` of the engine; `seed` is this machine's alone.
-  Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed);
+  Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index, std::uint64_t seed);
 
   /// After every step of the engine.
-  void advance(const Engine& engine, int index);
+  void advance(const PhysicsEngine& engine, int index);
   std::size_t size() const { return encoders_.size(); }
   /// Stays at its address as long as this lives.
   JointEncoder& operator[](std::size_t i) { return encoders_[i]; }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/archive.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 

@@ -48,7 +48,7 @@ struct PumpState {
 };
 
 /// What drives a machine, after the last step.
-struct EngineState {
+struct CombustionEngineState {
   double speed = 0;   ///< of its shaft, gears or not [rad/s]; 0 of a drive without an engine of its own
   double torque = 0;  ///< at its shaft, for drive and pump together [N m]
   double power = 0;   ///< for both [W]

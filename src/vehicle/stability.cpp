@@ -43,7 +43,7 @@ Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
 }
 
 /// The feet of wheel `w`: one, or the ends of its belt's lower run.
-std::vector<Vec3> feet_of(const scene::Machine& machine, const Engine& engine, int index, std::size_t w) {
+std::vector<Vec3> feet_of(const scene::Machine& machine, const PhysicsEngine& engine, int index, std::size_t w) {
   const scene::Wheel& wheel = machine.wheels[w];
   if (!wheel.track) return {foot_of(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
   const int joint = machine.joint_index(wheel.joint);
@@ -53,7 +53,7 @@ std::vector<Vec3> feet_of(const scene::Machine& machine, const Engine& engine, i
 }
 
 /// A belt's force is shared out as its rollers press.
-std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engine, int index) {
+std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   std::vector<Bearing> out;
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
     const WheelState wheel = engine.wheel(index, static_cast<int>(w));
@@ -61,10 +61,10 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engin
       out.push_back({foot_of(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
       continue;
     }
-    const std::vector<terramechanics::BeltPatch> patches = engine.belt_patches(index, static_cast<int>(w));
+    const std::vector<terramechanics::TrackPatch> patches = engine.track_patches(index, static_cast<int>(w));
     double load = 0;
-    for (const terramechanics::BeltPatch& patch : patches) load += patch.load;
-    for (const terramechanics::BeltPatch& patch : patches)
+    for (const terramechanics::TrackPatch& patch : patches) load += patch.load;
+    for (const terramechanics::TrackPatch& patch : patches)
       out.push_back({patch.p_W, patch.load / load * (wheel.force_W - wheel.body_W)});
     if (!wheel.body_W.isZero(0)) out.push_back({wheel.body_p_W, wheel.body_W});
   }
@@ -117,7 +117,7 @@ bool goes_with_base(const scene::Machine& machine, int link) {
 
 /// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or slides along.
 /// @param feet mean height of the wheels' feet along the base's z axis; `radius` of the smallest wheel [m]
-std::vector<Vec3> skids(const scene::Machine& machine, const Engine& engine, int index, double feet, double radius) {
+std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engine, int index, double feet, double radius) {
   using Kind = scene::Geometry::Kind;
   const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
   std::vector<Vec3> out;
@@ -168,7 +168,7 @@ TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass
   return out;
 }
 
-Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index) {
+Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
@@ -179,7 +179,7 @@ Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int ind
   return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
 }
 
-Stability stability(const scene::Machine& machine, const Engine& engine, int index) {
+Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Stability out;
   out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();
   if (!out.free) return out;

@@ -6,7 +6,7 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -26,12 +26,12 @@ struct TippingLoad {
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass, const Vec2& load_point);
 
 /// Centre of mass of all links of machine `index` of the engine [m] in W; soil that it carries does not count.
-Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index);
+Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 /// How it stands after the last step. A foot is the lowest point of a wheel, whether it touches the ground or not, an
 /// end of a crawler's lower run, or the lowest point of a collision shape of the base that reaches as far down: a
 /// castor's ball, a skid. An axle that oscillates counts as locked, or at its stop: before, the machine leans to it.
 /// The load hangs on the joint of the bucket.
-Stability stability(const scene::Machine& machine, const Engine& engine, int index);
+Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 }  // namespace navvy::vehicle

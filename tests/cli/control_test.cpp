@@ -127,7 +127,7 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
   EXPECT_EQ(lines[14], lines[0]);
 }
 
-TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
+TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   // The bucket goes down at 1 m/s from 0.2 m above the ground and asks before it is there, and in the ground.
   std::string down = "{\"inputs\": {\"bucket/slide_z/velocity\": -1}}\n",
               input = "{\"heights\": {\"cell_m\": 1}}\n" + down;
@@ -266,7 +266,7 @@ TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
   std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n", spent.count());
 }
 
-TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAnInput) {
+TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
   const std::string beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
                     other = R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})",
                     fast =

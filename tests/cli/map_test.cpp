@@ -62,7 +62,7 @@ TEST_F(Map, OfASceneIsItsUntouchedSite) {
   EXPECT_NE(said().find("48 x 32 columns of 0.1 m"), std::string::npos) << said();
 }
 
-TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsAwakeSoilToo) {
+TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
   ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot", path("half.snapshot"),
                  "--snapshot-at", "0.1", "--out", out()}),
             0)
@@ -215,7 +215,7 @@ TEST_F(Map, ReplacesItsOwnFoldersAndNoOthers) {
   }
 }
 
-TEST_F(Map, TellsLayersAndFormatsInItsHelp) {
+TEST_F(Map, ReportsLayersAndFormatsInItsHelp) {
   EXPECT_EQ(run({"map", "--help"}), 0);
   for (const char* part : {"traversability", "nav2-scale", "--slope-limit-deg", "Examples: navvy map"})
     EXPECT_NE(said().find(part), std::string::npos) << part << "\n" << said();

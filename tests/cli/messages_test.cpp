@@ -46,7 +46,7 @@ TEST_F(Messages, ListWhatIsShippedOneLineEach) {
   expect_said("loam");
 }
 
-TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
+TEST_F(Messages, ReportEveryValueOfASoilWithItsUnit) {
   EXPECT_EQ(run({"soils", "loam"}), 0);
   expect_said("bank_density_kg_per_m3");
   expect_said("friction_angle_deg");
@@ -57,7 +57,7 @@ TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
   expect_complained("did you mean 'sand_dry'?");
 }
 
-TEST_F(Messages, TellWhatAMachineIsMadeOf) {
+TEST_F(Messages, ReportWhatAMachineIsMadeOf) {
   EXPECT_EQ(run({"machines", "ew180"}), 0) << complained();
   expect_said("Wheeled excavator of the 18 t class.");
   expect_said("vehicles/ew180/model.sdf\n");
@@ -183,7 +183,7 @@ TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
 }
 
-TEST_F(Messages, CheckTellsWhatFollowsFromAMachinesFile) {
+TEST_F(Messages, CheckReportsWhatFollowsFromAMachinesFile) {
   const std::string crate =
       "<model name=\"crate\"><pose>3 0 0.5 0 0 0</pose><link name=\"a\">"
       "<navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><visual name=\"body\"><geometry><box><size>0.5 0.4 0.2"

@@ -123,7 +123,7 @@ TEST_F(Program, KeepsAnEarlierRunAsPrevious) {
   EXPECT_TRUE(fs::exists(out() + "/summary.json"));
 }
 
-TEST_F(Program, TellsBadInputByStatusAndMessage) {
+TEST_F(Program, ReportsBadInputByStatusAndMessage) {
   EXPECT_EQ(run({"run", "no_such_scene.sdf"}), 2);
   EXPECT_NE(complained().find("no_such_scene.sdf"), std::string::npos) << complained();
   EXPECT_EQ(run({"run", scene("trench.sdf"), "--set", "solver.cell_m=0"}), 2);
@@ -160,7 +160,7 @@ TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   EXPECT_NE(checked.find(complained()), std::string::npos) << "check:\n" << checked << "run:\n" << complained();
 }
 
-TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
+TEST_F(Program, ReportsBadFilesAndNumbersShortlyAndBeforeTheRun) {
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--resume", "no_such.snapshot", "--out", out()}), 2);
   EXPECT_NE(complained().find("--resume: 'no_such.snapshot': no such snapshot"), std::string::npos) << complained();
   EXPECT_EQ(run({"run", scene("trench.sdf"), "--terrain", "no_such.tif"}), 2);
@@ -181,7 +181,7 @@ TEST_F(Program, TellsBadFilesAndNumbersShortlyAndBeforeTheRun) {
   EXPECT_EQ(said(), "") << "the rig ran";
 }
 
-TEST_F(Program, LabEndsWithAStatusOfItsOwnWhenItMissesAGate) {
+TEST_F(Program, LabHasItsOwnExitStatusForResultsOutsideTolerance) {
   // Seen while it still settles, the plate neither rests nor lies on the soil.
   const std::string json = (directory_ / "light.json").string();
   ASSERT_EQ(run({"lab", "light-tool", "--height", "0.2", "--time", "0.4", "--quiet", "--json", json}), 7)
@@ -190,7 +190,7 @@ TEST_F(Program, LabEndsWithAStatusOfItsOwnWhenItMissesAGate) {
   EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 2u);
 }
 
-TEST_F(Program, LabJudgesNothingByAGateThatHoldsForOtherSetups) {
+TEST_F(Program, LabJudgesNothingByAToleranceForOtherSetups) {
   // A plane less steep than the soil's friction on it: nothing slides, and there is no acceleration to hold it against.
   const std::string json = (directory_ / "slide.json").string();
   run({"lab", "slide", "--tilt-deg", "10", "--time", "0.1", "--quiet", "--json", json});

@@ -29,10 +29,10 @@ using nlohmann::json;
 using test::text_of;
 
 /// A machine that waits for 0.3 s beside a pit that nobody digs: 2 m x 2 m x 0.5 m.
-std::string scene(const std::string& records, const std::string& awake = "") {
+std::string scene(const std::string& records, const std::string& active = "") {
   return R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>6 4</size_m><depth_m>1</depth_m>)" +
-         awake + R"(</navvy:ground>
+         active + R"(</navvy:ground>
 <navvy:solver><cell_m>0.2</cell_m><max_particles>20000</max_particles></navvy:solver>
 <navvy:design><area><polygon_m>-1 -1 1 -1 1 1 -1 1</polygon_m><depth_m>0.5</depth_m></area></navvy:design>
 <navvy:recording><duration_s>0.4</duration_s><render>false</render></navvy:recording>
@@ -73,9 +73,9 @@ const char* const kHeap =
 
 class Record : public testing::Test {
  protected:
-  int navvy(std::vector<std::string> arguments, const std::string& records, const std::string& awake = "",
+  int navvy(std::vector<std::string> arguments, const std::string& records, const std::string& active = "",
             const std::string& input = "") {
-    std::ofstream(folder_ / "s.sdf") << scene(records, awake);
+    std::ofstream(folder_ / "s.sdf") << scene(records, active);
     std::ofstream(folder_ / "in") << input;
     arguments.insert(arguments.begin() + 1, folder_ / "s.sdf");
     return test::wait_for(
@@ -182,7 +182,7 @@ TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
 }
 
-TEST_F(Record, AResetBeginsNewFilesAndTellsReadersThatTimeWentBack) {
+TEST_F(Record, AResetBeginsNewFilesAndReportsReadersThatTimeWentBack) {
   const std::string records = R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
 <navvy:record name="all"><format>mcap</format><layers>elevation</layers></navvy:record>
 <navvy:record name="all_2"><format>npz</format><layers>elevation</layers><rate_hz>10</rate_hz></navvy:record>
@@ -258,7 +258,7 @@ TEST_F(Record, OfABagHasItsMachinesAtTheirOwnRate) {
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
-TEST_F(Record, OfAnUnknownFormatOrLayerIsToldWithItsLineBeforeTheRun) {
+TEST_F(Record, OfAnUnknownFormatOrLayerIsReportedWithItsLineBeforeTheRun) {
   const std::string records = R"(<navvy:record name="a"><format>npzz</format></navvy:record>
 <navvy:record name="b"><format>npz</format><layers>slop</layers></navvy:record>
 )";

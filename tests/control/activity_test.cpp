@@ -25,7 +25,7 @@
 #include "control/ew180_like.h"
 #include "control/operator.h"
 #include "control/stance.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "control/step_kinds.h"
 #include "control/tip_path.h"
 #include "core/error.h"
@@ -108,7 +108,7 @@ class Alone {
   }
 
   const scene::ProgramStep step;
-  Workplace place;
+  OperatorContext place;
   Observation seen;
   std::map<std::string, ProgramProgress> programs;
   std::unique_ptr<Activity> activity;
@@ -238,7 +238,7 @@ TEST(Activity, TrajectoryNamesTheJointThatIsHeld) {
             "joint 'boom_joint' stopped 8.57 deg short of its last position, at its effort limit: something holds it");
 }
 
-TEST(Activity, TrajectoryWaitsForAJointThatIsOnItsWayButNotForEver) {
+TEST(Activity, TrajectoryWaitsForAMovingJointButNotForEver) {
   Alone late(path());
   late.slow = "boom_joint";
   late.pace = 0.1;
@@ -273,7 +273,7 @@ TEST(Activity, DumpNamesTheBucketWhenItIsHeld) {
   }
 }
 
-TEST(Activity, TellsItsEventsOnceEach) {
+TEST(Activity, ReportsItsEventsOnceEach) {
   Alone alone(Tip(-1, 0.5));
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kTipStart);
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kNone);
@@ -318,7 +318,7 @@ TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
 TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
   Stance stance;
   stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
-  const Arm arm(able_machine());
+  const ArmKinematics arm(able_machine());
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
   // One and a half degrees are the tyres', at three the bucket tips it.
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
@@ -329,8 +329,8 @@ TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
   EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)), 1e-12);
 }
 
-TEST(Stance, SettlesWithItsGroundAndTellsWhichWayItTips) {
-  const Arm arm(able_machine());
+TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
+  const ArmKinematics arm(able_machine());
   const auto pitched = [](double nose_up_deg) { return make_pose(1, 2, 0, 0, -radians(nose_up_deg), 0.3); };
   Stance stance;
   stance.begin(pitched(0));

@@ -90,7 +90,7 @@ bool DigRig::against_rock(const Command& command) const {
   const bool strong = ground.sample(tip.x() - 0.2, tip.y()) - tip.z() > thickest_slice;
   if (!rock && !strong) return false;
   // Up is free, anything else is held.
-  const Arm arm(machine_);
+  const ArmKinematics arm(machine_);
   ArmAngles q;
   for (std::size_t i = 0; i < 3; ++i) q[i] = command.joints[static_cast<std::size_t>(arm.joints()[i])]->target;
   const Pose X_WS = engine->link(0, 0).X_WL * arm.X_BS();
@@ -155,7 +155,7 @@ void DigRig::note(CycleEvent event, const Observation& seen) {
 void DigRig::sweep(const Pose& X_WB) {
   const Pose X_BW = X_WB.inverse();
   const auto& v = machine_.shells[0].vertices;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   double surplus = 0;
   for (std::size_t k = 0; k + 1 < 9; ++k) {
     const int n = static_cast<int>(std::ceil((v[k + 1] - v[k]).norm() / kAlong));
@@ -171,7 +171,7 @@ void DigRig::sweep(const Pose& X_WB) {
         if (std::abs((X_BW * Vec3(center.x(), center.y(), p_W.z())).y()) > kHalfCut) continue;
         taken.clear();
         ground.take_above(c.x(), c.y(), p_W.z(), taken);
-        for (const heightfield::Layer& layer : taken) payload_ += kilograms(layer.mass);
+        for (const heightfield::SoilLayer& layer : taken) payload_ += kilograms(layer.mass);
       }
   }
   surplus = payload_ - capacity_;
@@ -209,7 +209,7 @@ void DigRig::drop(const Vec2& around, double radius, double mass) {
     for (int x = -reach; x <= reach; ++x)
       if (x * x + y * y <= reach * reach && ground.contains(c.x() + x, c.y() + y))
         columns.push_back({c.x() + x, c.y() + y});
-  heightfield::Layer layer;
+  heightfield::SoilLayer layer;
   layer.specific_volume = static_cast<float>(ground.setup().soils[0].swell);
   layer.mass = mass_units(mass / static_cast<double>(columns.size()));
   for (const Vec2i& p : columns) ground.put(p.x(), p.y(), layer);

@@ -10,7 +10,7 @@
 #include "control/activities/dig/dig.h"
 #include "control/operator.h"
 #include "core/saved_state.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::control::testing {
 
@@ -39,7 +39,7 @@ class DigRig {
   double fastest_jump = 0;  ///< largest change of a joint's target in a step / its speed limit x step
   double worst_tilt = 0;    ///< of the bucket from its carrying angle between lift-out and dump [rad]
   heightfield::Ground ground;
-  std::unique_ptr<vehicle::Engine> engine;
+  std::unique_ptr<vehicle::PhysicsEngine> engine;
   Operator op;
   /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
   double rock_from = 0, rock_to = 0, rock_top = -100;

@@ -26,7 +26,7 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
 
 /// A figure of a step's account by name.
 double figure(const StepReport& step, const std::string& name) {
-  for (const Figure& one : step.figures)
+  for (const Measurement& one : step.figures)
     if (one.name == name) return one.value;
   ADD_FAILURE() << "no figure " << name;
   return std::nan("");
@@ -96,7 +96,7 @@ TEST(Dig, CurlsOnlyABucketThatHasTurnedIn) {
   rig.in_mouth = 1000;
   ASSERT_TRUE(rig.run(60)) << rig.op.phase();
   // Within 5 deg of its digging angle, and a control step.
-  EXPECT_LT(rig.steepest_curl, with_cut(Arm(ew180_like()), -kPi + kAttack) + radians(6));
+  EXPECT_LT(rig.steepest_curl, with_cut(ArmKinematics(ew180_like()), -kPi + kAttack) + radians(6));
 }
 
 TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
@@ -110,7 +110,7 @@ TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
   EXPECT_LE(rig.cycles.size(), 9u);  // as many as a level machine may take
 }
 
-TEST(Dig, GivesWayToRockAndFinishesTheRest) {
+TEST(Dig, YieldsToRockAndFinishesTheRest) {
   // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));

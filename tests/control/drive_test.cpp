@@ -139,7 +139,7 @@ TEST(Drive, ThatDoesNotTurnItsWheelsIsStalled) {
   EXPECT_NE(report.reason.find("does not turn its wheels"), std::string::npos) << report.reason;
 }
 
-TEST(Drive, ThatIsToldToCreepIsGivenTimeForIt) {
+TEST(Drive, ThatIsCommandedToCreepGetsEnoughTime) {
   // At 5 mm/s the 5 cm that count as motion take 10 s.
   EXPECT_NEAR(stuck(0, Vec3::Zero(), 0.005).end, 40, 0.1);
 }

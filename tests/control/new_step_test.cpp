@@ -12,7 +12,7 @@
 #include "control/dig_rig.h"
 #include "control/operator.h"
 #include "control/reach.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/saved_state.h"
@@ -25,7 +25,7 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Nod with the boom a number of times, after another machine has done its program if one is named.
-struct Nod final : Step {
+struct Nod final : ProgramStep {
   static constexpr const char* kElement = "nod";
   int times = 1;
   std::string after;
@@ -41,7 +41,7 @@ struct Nod final : Step {
   std::optional<scene::Waiting> waits_for() const override {
     return after.empty() ? std::nullopt : std::optional<scene::Waiting>({after, 0});
   }
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override {
     if (times > 5) check.fault("nod/times", std::to_string(times), "a machine nods at most five times", "nod less");
   }
@@ -61,7 +61,7 @@ struct NodMemory {
 
 class Nodding final : public ActivityWith<NodMemory> {
  public:
-  Nodding(Workplace& place, const Nod& step) : ActivityWith(place), step_(step) {}
+  Nodding(OperatorContext& place, const Nod& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return m.left % 2 == 0 ? "down" : "up"; }
   void begin(const Observation& seen) override {
     m.left = 2 * step_.times;
@@ -85,7 +85,7 @@ class Nodding final : public ActivityWith<NodMemory> {
   const Nod& step_;
 };
 
-std::unique_ptr<Activity> Nod::activity(Workplace& place) const { return std::make_unique<Nodding>(place, *this); }
+std::unique_ptr<Activity> Nod::activity(OperatorContext& place) const { return std::make_unique<Nodding>(place, *this); }
 
 scene::StepKinds kinds_with_nod() {
   scene::StepKinds kinds = step_kinds();
@@ -180,7 +180,7 @@ TEST(NewStep, ResumesFromASnapshotBitForBit) {
   EXPECT_TRUE(resumed.op.done());
 }
 
-TEST(NewStep, TellsItsFaultsWithLineAndElement) {
+TEST(NewStep, ReportsItsFaultsWithLineAndElement) {
   const std::string text = failure(std::string(kWait) + "\n<nod><times>20</times></nod>", kWait, kinds_with_nod());
   expect_in("mine.sdf:4", text);
   expect_in("navvy:program/nod/times", text);
@@ -193,7 +193,7 @@ TEST(NewStep, IsAskedWhatItCanReach) {
   const scene::MachineInWorld& placed = world.machines[0];
   const heightfield::Ground ground = flat_ground();
   const std::vector<Fault> faults =
-      check_reach(placed.machine, placed.program, Pose::Identity(), GroundSurface(ground), "mine.sdf");
+      check_reach(placed.machine, placed.program, Pose::Identity(), GroundSurfaceView(ground), "mine.sdf");
   ASSERT_EQ(faults.size(), 1u);
   expect_in("step 2/nod/times", faults[0].text());
 }

@@ -15,7 +15,7 @@
 #include "terramechanics/grounds.h"
 #include "values.h"
 #include "vehicle/encoder.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::control {
 namespace {
@@ -24,7 +24,7 @@ scene::Machine shipped_robot() {
   return scene_io::load_machine(std::string(navvy::source_dir()) + "/vehicles/robot/model.sdf");
 }
 
-TEST(CountsBetween, GoTheShortWayRound) {
+TEST(CountsBetween, TakeTheShorterArc) {
   EXPECT_EQ(counts_between(10, 15, 16), 5);
   EXPECT_EQ(counts_between(15, 10, 16), -5);
   EXPECT_EQ(counts_between(65530, 4, 16), 10);
@@ -55,7 +55,7 @@ TEST(DifferentialOdometry, RollsTheArcOfBothSides) {
   EXPECT_NEAR(odometry.pose().p.y(), 2 - radius * (std::cos(end) - std::cos(0.3)), 1e-4);
 }
 
-TEST(DifferentialOdometry, EqualsAPlainSumOfSmallStepsOnAPathThatTurnsBothWays) {
+TEST(DifferentialOdometry, EqualsAPlainSumOfSmallStepsOnAPathThatTurnsLeftAndRight) {
   const double track = 0.4, per_metre = 1e6;
   DifferentialOdometry odometry(track, {per_metre, 32}, {per_metre, 32});
   odometry.reset({}, 0, 0);
@@ -152,7 +152,7 @@ struct Drive {
 };
 
 /// The whole square in an engine; the kinematic one may have its encoders falsified by `slip`.
-Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::Engine> engine, double slip = 0) {
+Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::PhysicsEngine> engine, double slip = 0) {
   constexpr double kStep = SquareDriver::kPeriod / 16;
   engine->add_machine(robot, Pose::Identity());
   vehicle::Encoders encoders(robot, *engine, 0, 1);
@@ -186,7 +186,7 @@ double largest_difference(const std::vector<PlanePose>& a, const std::vector<Pla
   return most;
 }
 
-TEST(OneController, DrivesBothEnginesAndTellsThemApartBySlipOnly) {
+TEST(OneController, DrivesBothPhysicsEnginesAndOnlySlipDiffers) {
   const scene::Machine robot = shipped_robot();
   const Drive exact = drive_square(robot, vehicle::make_kinematic_engine());
   const Drive rolling = drive_square(robot, vehicle::make_bullet_engine(Vec3(0, 0, -kGravity)));

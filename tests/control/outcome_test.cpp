@@ -13,7 +13,7 @@
 #include "control/activity.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "flip_bytes.h"
@@ -24,18 +24,18 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Turns the boom and drives, gives an account, and falls short after a while if it is told to.
-struct Trying final : Step {
+struct Trying final : ProgramStep {
   StepState end = StepState::kDone;
   const char* element() const override { return "trying"; }
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
 class TryingHard final : public Activity {
  public:
-  TryingHard(Workplace& place, const Trying& step) : Activity(place), step_(step) {}
+  TryingHard(OperatorContext& place, const Trying& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "try"; }
   void begin(const Observation&) override {}
-  std::vector<Figure> account(const Observation& seen) const override {
+  std::vector<Measurement> account(const Observation& seen) const override {
     return {{"way_m", seen.X_WB.translation().x()}, {"tried_s", phase_time()}};
   }
 
@@ -50,7 +50,7 @@ class TryingHard final : public Activity {
   const Trying& step_;
 };
 
-std::unique_ptr<Activity> Trying::activity(Workplace& place) const {
+std::unique_ptr<Activity> Trying::activity(OperatorContext& place) const {
   return std::make_unique<TryingHard>(place, *this);
 }
 
@@ -130,7 +130,7 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   for (const auto& joint : after.joints) EXPECT_FALSE(joint.has_value());
 }
 
-TEST(Outcome, OfARunningStepIsToldWithoutChangingIt) {
+TEST(Outcome, OfARunningStepIsReportedWithoutChangingIt) {
   Trial trial(StepState::kDone);
   trial.run(0.4);
   const std::uint64_t before = hash_of(trial.op).digest();
@@ -164,7 +164,7 @@ TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
   EXPECT_NEAR(over.end, 0.2, 2 * kStep);
 }
 
-TEST(Watch, TellsOfAMachineThatTipsOverAfterItsProgram) {
+TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
   Trial trial(StepState::kDone);
   trial.run(5);
   ASSERT_TRUE(trial.op.done());

@@ -60,7 +60,7 @@ Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
 
 scene::Program program(std::vector<scene::ProgramStep> steps) { return {std::move(steps), {}}; }
 
-TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
+TEST(Truck, TipsToTheAngleHoldsItAndReportsWhen) {
   Operator op(truck(), program({Tip{1.2, 2.0}}));
   const Trial tip = run(op, 0.1, 10);
   EXPECT_TRUE(op.done());
@@ -101,7 +101,7 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   }
 }
 
-TEST(Truck, WaitsAsLongAsItIsToldAndSaysForWhat) {
+TEST(Truck, WaitsForTheCommandedTimeAndNamesTheReason) {
   Operator op(truck(), program({WaitFor{"digger", 0, 3}}), "dumper 7");
   std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;

@@ -70,7 +70,7 @@ TEST(Sealed, EveryFlippedBitIsRefused) {
   }
 }
 
-TEST(Sealed, ADamagedSectionIsToldByPlaceAndName) {
+TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
   const std::vector<char> content = seal(saved(State()));
   const auto told = [&](std::size_t byte) {
     std::vector<char> flipped = content;

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "coupling/ground_view.h"
-#include "coupling/placing.h"
+#include "coupling/machine_placing.h"
 #include "coupling/ruts.h"
 #include "paths.h"
 #include "scene_io/loader.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling::testing {
 
@@ -58,7 +58,7 @@ class Ride {
     }
   }
 
-  vehicle::Engine& engine() { return *engine_; }
+  vehicle::PhysicsEngine& engine() { return *engine_; }
   vehicle::WheelState wheel(int w) const { return engine_->wheel(0, w); }
   Vec3 place_of_base() const { return engine_->link(0, 0).X_WL.translation(); }
 
@@ -84,7 +84,7 @@ class Ride {
   GroundView view_;
   bool firm_;
   Floor floor_;
-  std::unique_ptr<vehicle::Engine> engine_;
+  std::unique_ptr<vehicle::PhysicsEngine> engine_;
   int steps_ = 0;
 };
 

@@ -190,7 +190,7 @@ TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
   EXPECT_LT(ride.wheel(2).slip, 0.2);
 }
 
-TEST(Ride, ChassisComesToBearOnWhatSlippingWheelsPushUp) {
+TEST(Ride, ChassisBottomsOutOnSoilThatSlippingWheelsPushUp) {
   // Pulled back until its wheels dig themselves in.
   const scene::Soil soil = shipped_soil("loam");
   scene::Machine machine = shipped_machine("ew180");

@@ -32,7 +32,7 @@ class NotSunk final : public terramechanics::GroundQuery {
   Vec3 normal(double x, double y) const override { return ground_.normal(x, y); }
   terramechanics::SoilState soil(double x, double y) const override { return ground_.soil(x, y); }
   terramechanics::GroundLattice lattice() const override { return ground_.lattice(); }
-  terramechanics::Sinking sinking(double x, double y) const override { return {ground_.sinking(x, y).work, 0}; }
+  terramechanics::Sinkage sinking(double x, double y) const override { return {ground_.sinking(x, y).work, 0}; }
 
  private:
   const GroundView& ground_;

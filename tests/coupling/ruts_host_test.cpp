@@ -125,7 +125,7 @@ TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
   const double floor = ground.height(at.x(), at.y());
   // 15 mm slid in, as a wheel presses it out in many steps.
   const auto fill = [&](double depth) {
-    heightfield::Layer loose = ground.layers(at.x(), at.y()).back();
+    heightfield::SoilLayer loose = ground.layers(at.x(), at.y()).back();
     loose.specific_volume = 1.2f;
     const double area = ground.cell() * ground.cell();
     loose.mass = std::llround(depth * area * ground.setup().soils[0].bank_density / 1.2 / kMassQuantum);
@@ -154,7 +154,7 @@ TEST(Ruts, PressedOverTimeEndsWhereOnePressDoes) {
   EXPECT_NEAR(deepest(slowly), deepest(once), 5e-5);
 }
 
-TEST(Ruts, TellTheWorkAndTheDepthOfSinkingWhereATyreStands) {
+TEST(Ruts, ReportTheWorkAndTheSinkageWhereATyreStands) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
@@ -266,17 +266,17 @@ Edges edges(const heightfield::Ground& ground) {
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       std::int64_t mass = 0;
-      std::vector<heightfield::Layer> start;
-      for (const heightfield::Layer& layer : ground.layers(ix, iy)) mass += layer.mass;
+      std::vector<heightfield::SoilLayer> start;
+      for (const heightfield::SoilLayer& layer : ground.layers(ix, iy)) mass += layer.mass;
       ground.start_column(ix, iy, start);
-      for (const heightfield::Layer& layer : start) mass -= layer.mass;
+      for (const heightfield::SoilLayer& layer : start) mass -= layer.mass;
       out.volume += std::max(0.0, kilograms(mass)) / ground.setup().soils[0].bank_density;
       out.height = std::max(out.height, ground.height(ix, iy) - ground.start_height(ix, iy));
     }
   return out;
 }
 
-TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
+TEST(Ruts, EdgesRiseByTheLoadTheGroundCannotSupport) {
   std::vector<double> volume;
   for (const double cell : {0.2, 0.1, 0.05}) {
     heightfield::Ground ground = flat(dry_sand(), static_cast<int>(std::lround(6.4 / cell)), cell);
@@ -304,7 +304,7 @@ TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
   for (const double one : volume) EXPECT_NEAR(one / volume[1], 1, 0.2);
 }
 
-TEST(Ruts, EdgesOfGroundThatBearsTheTyreStay) {
+TEST(Ruts, EdgesOfGroundThatSupportsTheTyreStay) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
@@ -312,7 +312,7 @@ TEST(Ruts, EdgesOfGroundThatBearsTheTyreStay) {
   EXPECT_EQ(edges(ground).volume, 0);
 }
 
-TEST(Ruts, WhereNothingCanBeLaidDownItIsPressed) {
+TEST(Ruts, PressesWhereNothingCanBeDeposited) {
   // A site no wider than the wheel.
   heightfield::Ground ground = flat(dry_sand(), 6);
   Ruts ruts(ground);

@@ -82,9 +82,9 @@ class Layer {
     const auto swell = static_cast<float>(ground.setup().soils[ground.surface_soil(ix, iy)].swell);
     foot_ = ground.height(ix, iy) - kLayer / static_cast<double>(swell);
     rise_ = kLayer - kLayer / static_cast<double>(swell);
-    std::vector<heightfield::Layer> taken;
+    std::vector<heightfield::SoilLayer> taken;
     ground.take_above(ix, iy, foot_, taken);
-    for (heightfield::Layer& layer : taken) {
+    for (heightfield::SoilLayer& layer : taken) {
       layer.specific_volume = swell;
       layer.plastic_shear = 2;
       ground.put(ix, iy, layer);
@@ -106,60 +106,60 @@ void run(
   }
 }
 
-std::string kind(bool awake) { return awake ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "awake" : "columns"; }
 
 /// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface [m].
-double sinks_where_it_stands(const std::string& soil, bool awake) {
+double sinks_where_it_stands(const std::string& soil, bool active) {
   sim::World world(yard("ew180", soil), shared_device());
   const Vec3 front = wheel_place(world, 0);
   Layer layer(world, {front.x() - 0.9, -1.9}, {front.x() + 0.9, 1.9});
-  if (awake) layer.wake();
+  if (active) layer.wake();
   int most = 0;
   run(world, 2.5, [&] {
-    if (awake) layer.keep_awake(0.7);
+    if (active) layer.keep_awake(0.7);
     most = std::max(most, layer.particles());
   });
-  EXPECT_EQ(most > 5000, awake);
+  EXPECT_EQ(most > 5000, active);
   EXPECT_EQ(world.mass_ledger().error, 0);
   // The machine is alike on both sides, and so is the ground.
   EXPECT_NEAR(wheel_place(world, 0).z(), wheel_place(world, 1).z(), 0.005);
   return front.z() - kLifted + layer.rise() - wheel_place(world, 0).z();
 }
 
-TEST(Spoil, AnExcavatorStandsOnAwakeSoilAsOnColumns) {
+TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
-    const double columns = sinks_where_it_stands(soil, false), awake = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]", awake,
+    const double columns = sinks_where_it_stands(soil, false), active = sinks_where_it_stands(soil, true);
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]", active,
                 std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a cell.
-    EXPECT_NEAR(awake, columns, 0.005);
+    EXPECT_NEAR(active, columns, 0.005);
   }
 }
 
-TEST(Spoil, AnExcavatorDrivesOverAwakeSoilAsOverColumns) {
+TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
   double mean[2] = {}, lowest[2] = {1, 1};
-  for (const bool awake : {false, true}) {
+  for (const bool active : {false, true}) {
     sim::World world(yard("ew180"), shared_device());
     const double x = wheel_place(world, 0).x();
     Layer layer(world, {x + 1.0, -1.9}, {x + 2.2, 1.9});
     world.command(world.machine(0), {1.0, 0, false});
     while (wheel_place(world, 0).x() < x + 0.5) world.step();
-    if (awake) layer.wake();
-    int count = 0, over_awake = 0;
+    if (active) layer.wake();
+    int count = 0, over_active = 0;
     while (wheel_place(world, 0).x() < x + 2.0) {
       world.step();
-      if (awake) layer.keep_awake(0.9);
+      if (active) layer.keep_awake(0.9);
       if (wheel_place(world, 0).x() < x + 1.2) continue;
-      mean[awake] += wheel_place(world, 0).z();
-      lowest[awake] = std::min(lowest[awake], wheel_place(world, 0).z());
-      over_awake += layer.particles() > 500 ? 1 : 0;
+      mean[active] += wheel_place(world, 0).z();
+      lowest[active] = std::min(lowest[active], wheel_place(world, 0).z());
+      over_active += layer.particles() > 500 ? 1 : 0;
       ++count;
     }
-    mean[awake] /= count;
-    EXPECT_EQ(2 * over_awake > count, awake);
-    print_value("EW180 drives over 0.15 m of loose loam, " + kind(awake) + ": its axle, mean [m]", mean[awake],
+    mean[active] /= count;
+    EXPECT_EQ(2 * over_active > count, active);
+    print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]", mean[active],
                 std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
-    print_value("lowest [m]", lowest[awake], std::to_string(lowest[0]) + " +-0.01", "the same");
+    print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.mass_ledger().error, 0);
   }
   // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm, which the tread evens
@@ -168,18 +168,18 @@ TEST(Spoil, AnExcavatorDrivesOverAwakeSoilAsOverColumns) {
   EXPECT_NEAR(lowest[1], lowest[0], 0.01);
 }
 
-TEST(Spoil, ACrawlerStandsOnAwakeSoilAsOnColumns) {
+TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
   double sinks[2];
-  for (const bool awake : {false, true}) {
+  for (const bool active : {false, true}) {
     sim::World world(yard("ex180_tracked"), shared_device());
     const Vec3 base = base_place(world);
     Layer layer(world, {base.x() - 2.6, -1.8}, {base.x() + 2.6, 1.8});
-    if (awake) layer.wake();
+    if (active) layer.wake();
     int most = 0;
     run(world, 1.0, [&] { most = std::max(most, layer.particles()); });
-    EXPECT_EQ(most > 5000, awake);
-    sinks[awake] = base.z() - kLifted + layer.rise() - base_place(world).z();
-    print_value("EX180 on 0.15 m of loose loam, " + kind(awake) + ": it sinks [m]", sinks[awake],
+    EXPECT_EQ(most > 5000, active);
+    sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
+    print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
                 std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
     EXPECT_EQ(world.mass_ledger().error, 0);
   }

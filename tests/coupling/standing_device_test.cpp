@@ -42,9 +42,9 @@ TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
     // Its soil is awake at first: it must stand on that, too. It fell by the weight of a step in every step once,
     // 16 mm/s.
     while (world.time() < 1) world.step();
-    const double awake = height();
+    const double active = height();
     while (world.time() < 1.5) world.step();
-    EXPECT_NEAR(height(), awake, 5e-4) << "[m] in half a second";
+    EXPECT_NEAR(height(), active, 5e-4) << "[m] in half a second";
     while (world.time() < 15) world.step();
     const double before = height();
     while (world.time() < 25) world.step();

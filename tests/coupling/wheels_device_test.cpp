@@ -110,8 +110,8 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
     scene::Scene lifted = yard(features);
     lifted.machines[0].X_WM.translation().z() += 1.0;
     lifted.machines[0].X_WM.linear() = make_pose(0, 0, 0, 0.1, 0.2, 0).linear();
-    const sim::World as_it_is(yard(features), shared_device()), as_told(lifted, shared_device());
-    const Pose a = as_it_is.machine(0).link(0).pose(), b = as_told.machine(0).link(0).pose();
+    const sim::World as_it_is(yard(features), shared_device()), as_commanded(lifted, shared_device());
+    const Pose a = as_it_is.machine(0).link(0).pose(), b = as_commanded.machine(0).link(0).pose();
     EXPECT_NEAR(b.translation().z() - a.translation().z(), 1.0, 1e-6);
     const Mat3 turn = a.linear().transpose() * b.linear();
     EXPECT_NEAR((turn - make_pose(0, 0, 0, 0.1, 0.2, 0).linear()).norm(), 0, 1e-9);

@@ -33,7 +33,7 @@ TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
 }
 
 /// Wheels on soil that is awake, which becomes columns under them.
-TEST(Threads, OneAndTwoThreadsBearAWheelOnAwakeSoilWithTheSameBits) {
+TEST(Threads, OneAndTwoThreadsGiveBitIdenticalWheelsOnActiveSoil) {
   const std::string scene = navvy::source_dir() + "/tests/determinism/spoil.sdf";
   const std::string snapshot = (run_folder("snapshot") / "spoil.snapshot").string();
   std::filesystem::create_directories(run_folder("snapshot"));

@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "device/slow_call.h"
 #include "folder.h"
 #include "process.h"

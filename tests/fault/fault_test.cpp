@@ -22,7 +22,7 @@ Attack with(const test::Folder& folder, const std::string& fault) {
   return out;
 }
 
-TEST(Fault, OneCallInManyFailsAndTheRunTellsOrGoesOn) {
+TEST(Fault, OneCallInManyFailsAndTheRunReportsOrGoesOn) {
   const test::Folder folder;
   const auto arguments = small_run(false);
   const Outcome sound = attack(folder.path().string(), arguments, with(folder, ""));

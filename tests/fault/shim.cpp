@@ -79,7 +79,7 @@ __attribute__((constructor)) void read_environment() {
     if (std::strcmp(name, one.name) == 0) code = one.value;
 }
 
-__attribute__((destructor)) void tell_counts() {
+__attribute__((destructor)) void print_counts() {
   const char* path = getenv("NAVVY_FAULT_COUNT");
   if (path == nullptr) return;
   const int file = static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND, 0644));

@@ -64,7 +64,7 @@ NAVVY_FUZZ_TARGET(control) {
   fuzz::hold(::pwrite(STDIN_FILENO, data, size, 0) == static_cast<ssize_t>(size));
   fuzz::hold(::lseek(STDIN_FILENO, 0, SEEK_SET) == 0);
   cli::ControlStdio controller(
-      driven.session, 1, [] { return false; }, cli::ControlDesk{{}, false});
+      driven.session, 1, [] { return false; }, cli::ControlServices{{}, false});
   while (controller.exchange()) {
   }
   // Only a line that names inputs changes something; the others cost no step.

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/landxml.h"
 #include "target.h"
 

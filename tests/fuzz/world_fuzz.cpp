@@ -6,7 +6,7 @@
 
 #include "control/step_kinds.h"
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "paths.h"
 #include "scene/parameters.h"
 #include "scene_io/resolved.h"

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/bodies.h"
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 #include "geometry/topology.h"
 
 namespace navvy::geometry {

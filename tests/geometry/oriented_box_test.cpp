@@ -8,7 +8,7 @@
 namespace navvy::geometry {
 namespace {
 
-TEST(OrientedBox, TellsHowFarTwoReachIntoEachOtherAndTheirGap) {
+TEST(OrientedBox, ReportsHowFarTwoReachIntoEachOtherAndTheirGap) {
   const OrientedBox unit{Pose::Identity(), Vec3(0.5, 0.5, 0.5)};
   EXPECT_NEAR(penetration(unit, {make_pose(0.8, 0, 0, 0, 0, 0), Vec3(0.5, 2, 2)}), 0.2, 1e-12);
   EXPECT_NEAR(penetration(unit, {make_pose(1.5, 0, 0, 0, 0, 0), unit.half}), -0.5, 1e-12);

@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 #include "core/saved_state.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/grounds.h"
 
 namespace navvy::heightfield {
@@ -48,7 +48,7 @@ std::int64_t area(const std::vector<CellRect>& rects) {
 }
 
 void edit(Ground& ground, Random& random, int count, const CellRect& where) {
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   for (int n = 0; n < count; ++n) {
     const int ix = static_cast<int>(random.uniform(where.x0, where.x1));
     const int iy = static_cast<int>(random.uniform(where.y0, where.y1));
@@ -65,7 +65,7 @@ void edit(Ground& ground, Random& random, int count, const CellRect& where) {
   }
 }
 
-TEST(ChangeFollower, TellsTheWholeSiteFirstAndThenNothing) {
+TEST(ChangeFollower, ReportsTheWholeSiteFirstAndThenNothing) {
   Ground ground(wavy_setup());
   ChangeFollower follower;
   EXPECT_EQ(covered(follower.take(ground.view())).size(), 77u * 45u);
@@ -74,7 +74,7 @@ TEST(ChangeFollower, TellsTheWholeSiteFirstAndThenNothing) {
   EXPECT_EQ(covered(follower.take(ground.view())).size(), 77u * 45u);
 }
 
-TEST(ChangeFollower, TellsFewChangesExactly) {
+TEST(ChangeFollower, ReportsFewChangesExactly) {
   Ground ground(wavy_setup());
   ChangeFollower follower;
   follower.take(ground.view());
@@ -84,9 +84,9 @@ TEST(ChangeFollower, TellsFewChangesExactly) {
   EXPECT_EQ(area(rects), 5);
   // What was put back is no change, although it was announced as two.
   const double before = ground.height(70, 40);
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(70, 40, before - 0.1, taken);
-  for (const Layer& layer : taken) ground.put(70, 40, layer);
+  for (const SoilLayer& layer : taken) ground.put(70, 40, layer);
   ASSERT_EQ(ground.height(70, 40), before);
   EXPECT_TRUE(follower.take(ground.view()).empty());
 }

@@ -10,7 +10,7 @@
 #include "heightfield/grounds.h"
 #include "heightfield/loose_soil.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/terrain_view.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
@@ -31,7 +31,7 @@ Ground marked(double easting, double northing, double offset) {
   setup.northing = northing;
   setup.height_offset = offset;
   Ground ground(std::move(setup));
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(70, 3, -1, taken);
   return ground;
 }
@@ -112,7 +112,7 @@ TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
 }
 
-TEST(Export, KeepsTheUnitOfHeightsWhoeverToldIt) {
+TEST(Export, KeepsTheUnitOfHeightsWhereverItCameFrom) {
   for (const char* tool : {"gdal_translate", "gdal_edit.py", "gdalinfo"})
     if (!testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = folder();

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::heightfield::testing {
 
@@ -31,9 +31,9 @@ inline Ground::Setup wavy_setup(int nx = 77, int ny = 45) {
   return setup;
 }
 
-inline std::int64_t total(const std::vector<Layer>& layers) {
+inline std::int64_t total(const std::vector<SoilLayer>& layers) {
   std::int64_t mass = 0;
-  for (const Layer& layer : layers) mass += layer.mass;
+  for (const SoilLayer& layer : layers) mass += layer.mass;
   return mass;
 }
 

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/limits.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -215,7 +215,7 @@ bool notes(const TerrainReport& report, const std::string& part) {
                      [&](const std::string& note) { return contains(note, part); });
 }
 
-TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
+TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
   const std::string dir = folder(), header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
   const auto plane = [](int c, int r) { return std::to_string(100.125 + 0.5 * c + 0.25 * r); };
   // A hole of 7 x 7 cells: its middle is the fourth from any height.

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 
 namespace navvy::heightfield {
 namespace {

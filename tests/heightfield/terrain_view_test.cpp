@@ -15,7 +15,7 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/saved_state.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/grounds.h"
 
 namespace navvy::heightfield {
@@ -25,14 +25,14 @@ using testing::wavy_setup;
 
 /// Digs and fills `count` random columns of the rectangle; layers that were dug are put down elsewhere.
 void work(Ground& ground, Random& random, int count, const CellRect& where) {
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   for (int n = 0; n < count; ++n) {
     const int ix = static_cast<int>(random.uniform(where.x0, where.x1));
     const int iy = static_cast<int>(random.uniform(where.y0, where.y1));
     if (n % 2 == 0) {
       ground.take_above(ix, iy, ground.height(ix, iy) - random.uniform(0, 0.3), taken);
     } else if (!taken.empty()) {
-      Layer layer = taken.back();
+      SoilLayer layer = taken.back();
       layer.specific_volume = 1.2f;
       ground.put(ix, iy, layer);
       taken.pop_back();
@@ -90,7 +90,7 @@ TEST(TerrainView, StaysWhatItWasWhileTheGroundChanges) {
 
 TEST(TerrainView, ShowsSoilAndDensityStateOfTheSurface) {
   Ground ground(wavy_setup());
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(20, 20, ground.height(20, 20) - 0.5, taken);  // through 0.3 m of topsoil
   ground.put(21, 20, {0, 1000000, 1.25f, 0.0f});
   ground.take_above(22, 20, -10, taken);  // down to bedrock
@@ -117,13 +117,13 @@ TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
   // Two litres on 0.01 m2.
   EXPECT_NEAR(seen.height(33, 20), top + 0.2, 1e-12);
   EXPECT_NEAR(seen.loose_depth(33, 20), 0.2, 1e-7);  // float
-  EXPECT_TRUE(seen.awake(33, 20));
+  EXPECT_TRUE(seen.active(33, 20));
   EXPECT_EQ(seen.surface_soil(33, 20), 1);
   EXPECT_EQ(seen.specific_volume(33, 20), 1.3f);
-  EXPECT_FALSE(seen.awake(34, 20));
-  EXPECT_FALSE(columns.awake(33, 20));
+  EXPECT_FALSE(seen.active(34, 20));
+  EXPECT_FALSE(columns.active(33, 20));
   EXPECT_EQ(seen.height(60, 40), below);  // the third is in the air
-  EXPECT_FALSE(seen.awake(60, 40));
+  EXPECT_FALSE(seen.active(60, 40));
   // Halfway between two centres.
   EXPECT_NEAR(seen.sample(-3.3 + 3.4, 1.7 + 2.05), 0.5 * (top + 0.2 + ground.height(34, 20)), 1e-12);
   EXPECT_EQ(seen.start_height(33, 20), ground.start_height(33, 20));

@@ -13,7 +13,7 @@
 #include "core/hash.h"
 #include "heightfield/grounds.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #include "heightfield/gdal/import.h"
@@ -90,7 +90,7 @@ TEST(WindowedRaster, FillsGapsAsAWholeOne) {
   }
 }
 
-TEST(WindowedRaster, TellsOfAllCellsWhatAWholeOneTells) {
+TEST(WindowedRaster, ReportsTheSameCellsAsAWholeRaster) {
   const HeightRaster broken = bumpy(true);
   HeightRaster whole = broken;
   fill_gaps(whole);

@@ -46,7 +46,7 @@ TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
   }
 }
 
-TEST(Rig, TextsAreLaidOutByTheProgramNotByTheRig) {
+TEST(Rig, TheProgramFormatsTextsNotTheRig) {
   for (const Rig& rig : rigs())
     for (const std::string& text : {rig.summary, rig.drawing}) {
       EXPECT_EQ(text.find('\n'), std::string::npos) << rig.name;
@@ -125,7 +125,7 @@ TEST(Rig, UnknownNamesNameTheNearest) {
   EXPECT_TRUE(holds(refusal([&] { setup["dept"]; }), "'depth'"));
 }
 
-TEST(Quantity, MissesOutsideItsGateAndWhenItIsNoNumber) {
+TEST(Quantity, FailsOutsideItsToleranceAndWhenItIsNotANumber) {
   EXPECT_FALSE((Quantity{"a", 2, "", kNone, kNone, kNone, ""}.missed()));
   EXPECT_FALSE((Quantity{"a", 2, "", 2, 1.9, 2.1, ""}.missed()));
   EXPECT_TRUE((Quantity{"a", 2.2, "", 2, 1.9, 2.1, ""}.missed()));
@@ -134,7 +134,7 @@ TEST(Quantity, MissesOutsideItsGateAndWhenItIsNoNumber) {
   Report report;
   report.add("a", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", false);
   EXPECT_FALSE(report.missed());
-  EXPECT_TRUE(report.results[0].has_gate());
+  EXPECT_TRUE(report.results[0].has_tolerance());
   EXPECT_FALSE(report.results[0].judged());
   EXPECT_EQ(report.results[0].range, "sand");
   report.add("b", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", true);

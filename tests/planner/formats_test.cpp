@@ -133,7 +133,7 @@ TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
   EXPECT_NE(told["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
 }
 
-TEST(GeoTiff, OfASiteInFeetTellsHeightsInFeet) {
+TEST(GeoTiff, OfASiteInFeetReportsHeightsInFeet) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const test::Folder folder;
   heightfield::GroundSetup s = example().setup();
@@ -485,7 +485,7 @@ TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
   EXPECT_EQ(files_of(format_named("nav2"), "a/map.yaml"), (std::vector<std::string>{"a/map.yaml", "a/map.pgm"}));
 }
 
-TEST(Formats, AreFoundByNameOrTheNearestIsTold) {
+TEST(Formats, AreFoundByNameOrTheNearestIsReported) {
   for (const Format& format : formats()) EXPECT_EQ(&format_named(format.name), &format);
   try {
     format_named("geotif");
@@ -500,7 +500,7 @@ TEST(Formats, AreFoundByNameOrTheNearestIsTold) {
 }
 
 // Two readers that know nothing of each other see the same pixels.
-TEST(Pictures, AreReadByPillowAsTheStandardTells) {
+TEST(Pictures, AreReadByPillowAsTheStandardSays) {
   if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
   const char* const script = R"(

@@ -78,7 +78,7 @@ struct Trip {
     return least;
   }
   double figure(const std::string& name) const {
-    for (const control::Figure& each : op.reports().back().figures)
+    for (const control::Measurement& each : op.reports().back().figures)
       if (each.name == name) return each.value;
     return NAN;
   }
@@ -137,7 +137,7 @@ TEST_F(GoToStep, DrivesRoundATrenchThatWasNotThereWhenItPlanned) {
   }
 }
 
-TEST_F(GoToStep, ArrivesFacingAnyWayOverCusps) {
+TEST_F(GoToStep, ArrivesWithAnyHeadingOverCusps) {
   for (const double yaw : {kPi, -kPi / 2}) {
     const GoTo goal = to(6, 3, yaw);
     Trip trip({goal});
@@ -189,7 +189,7 @@ TEST_F(GoToStep, GoesOnWhenThereIsAPathAgain) {
   expect_arrived(trip, goal);
 }
 
-TEST_F(GoToStep, TellsWhyThereIsNoPath) {
+TEST_F(GoToStep, ReportsWhyThereIsNoPath) {
   GoTo goal = to(9, 0, 0);
   goal.tries = 1;
   Trip stuck({goal});
@@ -237,7 +237,7 @@ TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
 std::vector<Fault> faults_of(const GoTo& step, const control::MakePathPlanner& planners) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(8, -1), Vec2(10, 1));
-  return control::check_reach(excavator(), {{step}, {17}}, make_pose(-8, 0, 0), control::GroundSurface(ground),
+  return control::check_reach(excavator(), {{step}, {17}}, make_pose(-8, 0, 0), control::GroundSurfaceView(ground),
                               "mine.sdf", "digger", planners);
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/terrain_view.h"
 #include "planner/map_maker.h"
 

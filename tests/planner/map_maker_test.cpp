@@ -34,7 +34,7 @@ CellRect edit(Ground& ground, Random& random) {
   const int x0 = within(ground.nx()), y0 = within(ground.ny());
   const CellRect rect = CellRect{x0, y0, x0 + 1 + within(12), y0 + 1 + within(12)}.cut(ground.site_rect());
   const bool dig = random.uniform() < 0.5;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       if (dig)
@@ -131,11 +131,11 @@ TEST(MapMaker, LeavesMapsThatWereTakenAsTheyWere) {
   }
 }
 
-TEST(MapMaker, TellsOfOneBucketOnlyWhatIsRoundIt) {
+TEST(MapMaker, ReportsOnlyTheSoilAroundOneBucket) {
   Ground ground = wavy();
   MapMaker maker({});
   ASSERT_EQ(maker.update(ground.view()).size(), 1u);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 30; iy < 38; ++iy)
     for (int ix = 50; ix < 60; ++ix) ground.take_above(ix, iy, -1, taken);
   const std::vector<CellRect> changed = maker.update(ground.view(1));
@@ -166,7 +166,7 @@ TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
     const TerrainMap map = maker.map();
     for (const LayerInfo& each : layers()) map.copy(each.layer);
   });
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   double update = 0;
   constexpr int kBuckets = 50;
   for (int k = 0; k < kBuckets; ++k) {
@@ -183,7 +183,7 @@ TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
               full / update * kBuckets);
 }
 
-TEST(MapMaker, OfAPlaneTellsItsSlopeNoRoughnessAndItsStep) {
+TEST(MapMaker, OfAPlaneReportsItsSlopeNoRoughnessAndItsStep) {
   const TerrainMap map = map_of(setup(), [](double x, double y) { return 0.3 * x - 0.2 * y; });
   for (const auto& [ix, iy] : {std::pair{0, 0}, std::pair{147, 83}, std::pair{147, 0}, std::pair{60, 40}}) {
     // Float heights of a metre are good to 6e-8 m, which is 6e-7 of a slope over two columns.
@@ -195,7 +195,7 @@ TEST(MapMaker, OfAPlaneTellsItsSlopeNoRoughnessAndItsStep) {
   }
 }
 
-TEST(MapMaker, OfAWallTellsItsHeightAndThatItIsBad) {
+TEST(MapMaker, OfAWallReportsItsHeightAndThatItIsBad) {
   const double wall = 0.4;
   const TerrainMap map = map_of(setup(), [&](double x, double) { return x < 0 ? 0 : wall; });
   // x = 0 lies between columns 32 and 33.
@@ -210,9 +210,9 @@ TEST(MapMaker, OfAWallTellsItsHeightAndThatItIsBad) {
   EXPECT_NEAR(map.at(Layer::kSlope, 32, 40), std::atan(wall / 0.2), 1e-6);
 }
 
-TEST(MapMaker, TellsLayersOfWhatLiesThere) {
+TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   Ground ground{setup()};
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(5, 6, -0.5, taken);
   ground.put(9, 6, {0, mass_units(1.54), 1.25f, 0});
   const TerrainView columns = ground.view(3);

@@ -21,7 +21,7 @@
 namespace navvy::planner {
 namespace {
 
-using control::GroundSurface;
+using control::GroundSurfaceView;
 using control::Path;
 using control::PathQuery;
 using testing::dig;
@@ -110,7 +110,7 @@ class PathPlanner : public ::testing::Test {
   std::unique_ptr<control::PathPlanner> planner_;
 };
 
-TEST_F(PathPlanner, GoesStraightWhereNothingLiesInTheWay) {
+TEST_F(PathPlanner, GoesStraightWhereNothingBlocksThePath) {
   const heightfield::Ground ground = level_site();
   const auto path = plan(ground, query(-8, 9));
   ASSERT_TRUE(path);
@@ -134,7 +134,7 @@ TEST_F(PathPlanner, GoesRoundATrenchAndTurnsInANarrowPlace) {
   }
 }
 
-TEST_F(PathPlanner, AnswersTheSameToTheBitWhateverWasAskedBefore) {
+TEST_F(PathPlanner, AnswersTheSameBitIdenticalWhateverWasAskedBefore) {
   heightfield::Ground ground = level_site();
   const PathQuery asked = query(-8, 9);
   plan(ground, asked);
@@ -170,7 +170,7 @@ TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
   EXPECT_EQ(alone, beside);
 }
 
-TEST_F(PathPlanner, FindsNothingWhereThereIsNoWay) {
+TEST_F(PathPlanner, FindsNothingWhereNoPathExists) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -13), Vec2(1.5, 13));
   PathQuery across = query(-8, 9);

@@ -274,7 +274,7 @@ TEST(Publisher, IntoAFolderIsFollowedWhileItIsWritten) {
   EXPECT_EQ(said, "5 5\n") << "the last number, and how many patches";
 }
 
-TEST(Publisher, TellsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
+TEST(Publisher, ReportsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
   const test::Folder folder;
   Ground ground(testing::setup(20, 20));
   UpdateFeed feed(two_layers());

@@ -165,7 +165,7 @@ TEST(Queries, GiveFourThreadsTheSameAnswersWhileTheMakerGoesOn) {
       for (int k = 0; k < 5; ++k) wrong += sum() == expected ? 0 : 1;
       --running;
     });
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int k = 0; running > 0; ++k) {
     for (int i = 0; i < 30; ++i) ground.take_above((7 * k + i) % 148, (11 * k) % 84, -0.5 - 0.001 * k, taken);
     maker.update(ground.view(k));
@@ -175,7 +175,7 @@ TEST(Queries, GiveFourThreadsTheSameAnswersWhileTheMakerGoesOn) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Queries, TellTheirRates) {
+TEST(Queries, ReportTheirRates) {
   const TerrainMap map =
       map_of(setup(), [](double x, double y) { return 0.3 * std::sin(1.3 * x) + 0.2 * std::cos(1.7 * y); });
   double sum = 0;

@@ -294,7 +294,7 @@ std::uint64_t number_at(const std::vector<char>& bytes, std::size_t at) {
   return out;
 }
 
-TEST(Bags, TellTheLeastAndTheGreatestTimeInWhateverOrderTheyCame) {
+TEST(Bags, ReportTheLeastAndTheGreatestTimeInAnyOrder) {
   const test::Folder folder;
   for (const bool mcap : {true, false}) {
     const std::unique_ptr<ros::Bag> bag =

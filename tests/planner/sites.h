@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "control/surface.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "paths.h"
 #include "planner/grounds.h"
 #include "scene_io/loader.h"
@@ -26,7 +26,7 @@ inline heightfield::Ground level_site() {
 
 /// Takes half a metre off every column whose middle lies in the rectangle.
 inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = centre(ground.setup(), ix, iy);

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "folder.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "planner/grounds.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
@@ -62,7 +62,7 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   heightfield::Ground ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 30; iy < 40; ++iy)
     for (int ix = 28; ix < 50; ++ix) ground.take_above(ix, iy, -0.9 - 0.01 * ix, taken);
   heightfield::write_geotiff(ground, folder / "terrain_end.tif");
@@ -81,7 +81,7 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   EXPECT_FALSE(std::isnan(map.at(Layer::kTraversability, 3, 3)));
 }
 
-TEST(MapOfRun, KnowsWhatLayLooseAndSoAwake) {
+TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   const heightfield::Ground start = heightfield::make_ground(scene);
@@ -98,8 +98,8 @@ TEST(MapOfRun, KnowsWhatLayLooseAndSoAwake) {
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       ASSERT_EQ(map.at(Layer::kLooseDepth, ix, iy), view.loose_depth(ix, iy)) << ix << " " << iy;
-      ASSERT_EQ(map.at(Layer::kAwake, ix, iy), view.awake(ix, iy) ? 1.0f : 0.0f) << ix << " " << iy;
-      lying += view.awake(ix, iy) ? 1 : 0;
+      ASSERT_EQ(map.at(Layer::kAwake, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f) << ix << " " << iy;
+      lying += view.active(ix, iy) ? 1 : 0;
     }
   EXPECT_EQ(lying, 2);
   // Where all soil rests a run writes heights alone: nothing lies loose.
@@ -114,7 +114,7 @@ TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   std::optional<heightfield::Ground> ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground->take_above(33, 44, -2, taken);
   const double dug = ground->height(33, 44);
   heightfield::write_geotiff(*ground, folder / "terrain_end.tif");
@@ -140,7 +140,7 @@ TEST(MapOfRun, OfAMapInFeetHasItsHeights) {
   const scene::Scene scene = heightfield::testing::map_world(dir + "map.tif", 1, Vec2(20, 12));
   const heightfield::Ground start = heightfield::make_ground(scene);
   heightfield::Ground ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(7, 5, ground.height(7, 5) - 0.5, taken);
   heightfield::write_geotiff(ground, dir + "terrain_end.tif");
   const TerrainMap map = map_of_run(scene, start, dir + "terrain_end.tif", {});

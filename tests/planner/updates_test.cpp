@@ -64,7 +64,7 @@ TEST(UpdateFeed, SendsALargeMapInPiecesThatAreItsPatch) {
   EXPECT_EQ(until, 0) << "ends when it is told to";
 }
 
-TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {
+TEST(UpdateFeed, NumbersWhatChangedAndReportsNothingElse) {
   Ground ground(testing::setup(70, 66));
   UpdateFeed feed(two_layers());
   EXPECT_EQ(feed.latest(), nullptr);
@@ -73,7 +73,7 @@ TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {
   EXPECT_EQ(first->sequence, 1u);
   EXPECT_EQ(first->changed, 70 * 66);
   EXPECT_EQ(feed.publish(ground.view(1)), first) << "nothing changed";
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(20, 30, -0.2, taken);
   const UpdateFeed::Update second = feed.publish(ground.view(1.5));
   EXPECT_EQ(second->sequence, 2u);
@@ -110,7 +110,7 @@ TEST(UpdateFeed, GivesMapsTheNumberOfTheirUpdate) {
   EXPECT_GT(next->changed, 0);
 }
 
-TEST(UpdateFeed, CountsFromNothingWhereTimeGoesBackOrItIsToldTo) {
+TEST(UpdateFeed, RestartsItsCountWhenTimeGoesBackOrOnRequest) {
   Ground ground(testing::setup(70, 66));
   MapOptions options = two_layers();
   options.layers.push_back(Layer::kDisturbedAt);
@@ -149,7 +149,7 @@ TEST(UpdateFeed, CountsFromNothingWhereTimeGoesBackOrItIsToldTo) {
   EXPECT_GT(disturbed(), 0);
 }
 
-TEST(UpdateFeed, TellsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
+TEST(UpdateFeed, ReportsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
   Ground ground(testing::setup(340, 260));
   UpdateFeed feed({});
   feed.publish(ground.view(0));
@@ -162,7 +162,7 @@ TEST(UpdateFeed, TellsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
   int number = 0;
   for (int i = 1; i <= 60; ++i) {
     // As many pits as fit into the list, each of its own size and at its own place of a grid.
-    std::vector<heightfield::Layer> taken;
+    std::vector<heightfield::SoilLayer> taken;
     for (int pit = 0; pit < i; ++pit) {
       const int x0 = 10 + 40 * (pit % 8), y0 = 8 + 30 * (pit / 8);
       const int nx = static_cast<int>(random.uniform(1, 12)), ny = static_cast<int>(random.uniform(1, 12));

@@ -60,23 +60,23 @@ TEST(CutAndFill, OfAHeapIsThatOfACone) {
   expect_volume("cone", all.fill, kPi * radius * radius * tall / 3);
   EXPECT_EQ(all.cut, 0);
   EXPECT_NEAR(all.fill_bank, all.fill, 1e-6 * all.fill) << "the map's soil is as dense as bank";
-  EXPECT_EQ(all.awake, 0);
+  EXPECT_EQ(all.active, 0);
   // A sector of it: an eighth.
   const std::vector<Vec2> eighth = {Vec2(3.97, 5.91), Vec2(3.97 + 4, 5.91), Vec2(3.97 + 4, 5.91 + 4)};
   expect_volume("an eighth of a cone", cut_and_fill(map, eighth).fill, kPi * radius * radius * tall / 24);
 }
 
-TEST(CutAndFill, TellsBankAndAwakeSoilApart) {
+TEST(CutAndFill, ReportsBankAndActiveSoilApart) {
   TerrainMap map = map_of(setup(), [](double, double) { return 0.2; });
   map = map.with(Layer::kDensity, std::vector<float>(148 * 84, 880.0f));  // topsoil of 1100 swollen by 1.25
   map = map.with(Layer::kLooseDepth, std::vector<float>(148 * 84, 0.05f));
   const CutFill part = cut_and_fill(map, box(0, 2, 2, 5));
   EXPECT_NEAR(part.fill, 1.2, 1e-6);
   EXPECT_NEAR(part.fill_bank, 0.96, 1e-6);
-  EXPECT_NEAR(part.awake, 0.3, 1e-6);
+  EXPECT_NEAR(part.active, 0.3, 1e-6);
 }
 
-TEST(CutAndFill, AgainstTheTargetTellsWhatTheDesignStillWants) {
+TEST(CutAndFill, AgainstTheTargetReportsWhatTheDesignStillWants) {
   heightfield::GroundSetup s = setup();
   MapOptions options;
   options.target.assign(static_cast<std::size_t>(s.nx) * s.ny, kUnknown);

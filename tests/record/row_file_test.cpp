@@ -104,7 +104,7 @@ TEST(RowFile, HoldsTheRowsInTheirOrder) {
   EXPECT_EQ(text_of(folder / "rows.csv"), "a,b\n1,2\n3,4\n");
 }
 
-TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndGoesOnWhenThereIsRoom) {
+TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndContinuesWhenThereIsSpace) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "header");
   file.add(row_of(0));
@@ -127,7 +127,7 @@ TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndGoesOnWhenThereIsRoom) {
   EXPECT_EQ(text_of(folder / "rows.csv"), before + row_of(1) + "\n");
 }
 
-TEST(RowFile, TellsOfAFolderThatIsNotThere) {
+TEST(RowFile, ReportsAFolderThatIsNotThere) {
   const test::Folder folder;
   RowFile file(folder / "none/rows.csv", "header");
   EXPECT_THROW(file.flush(), FileError);

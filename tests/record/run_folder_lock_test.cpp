@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "folder.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 #include "record/run_folder.h"
 #include "text_of.h"
 
@@ -236,18 +236,18 @@ TEST(RunFolderLock, AMarkerThatGoesUnderAnotherRunIsMadeAnew) {
   EXPECT_TRUE(fs::is_empty(out));
 }
 
-TEST(LastWords, PutStatusAndMessageIntoTheLastSummary) {
+TEST(CrashSummary, PutStatusAndMessageIntoTheLastSummary) {
   const test::Folder folder;
-  LastWords words(folder / "reserve", folder / "summary.json");
+  CrashSummary words(folder / "reserve", folder / "summary.json");
   EXPECT_GE(fs::file_size(folder / "reserve"), 64u << 10);
-  EXPECT_FALSE(leave_last_words("failed", "nothing was kept")) << "and it may be asked once only";
-  LastWords again(folder / "reserve2", folder / "summary.json");
+  EXPECT_FALSE(write_crash_summary("failed", "nothing was kept")) << "and it may be asked once only";
+  CrashSummary again(folder / "reserve2", folder / "summary.json");
   nlohmann::json summary{{"status", "running"}, {"steps", 7}, {"cycles", nlohmann::json::array()}};
   for (int i = 0; i < 5000; ++i) summary["cycles"].push_back("a line a cycle: it grows beyond what was taken at first");
   again.keep(summary.dump(2));
   summary["steps"] = 8;
   again.keep(summary.dump(2));
-  ASSERT_TRUE(leave_last_words("failed", "a \"quote\", a \\ and\na line"));
+  ASSERT_TRUE(write_crash_summary("failed", "a \"quote\", a \\ and\na line"));
   const auto left = nlohmann::json::parse(text_of(folder / "summary.json"));
   EXPECT_EQ(left.at("status"), "failed");
   EXPECT_EQ(left.at("message"), "a 'quote', a   and;a line");

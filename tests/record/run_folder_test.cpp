@@ -26,7 +26,7 @@ std::string text_of(const std::string& file) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-TEST(RunFolder, OfFormat1TellsWhatMadeIt) {
+TEST(RunFolder, OfFormat1ReportsWhatMadeIt) {
   const RunInfo info = read_run_info(kKept);
   EXPECT_EQ(info.format, 1);
   EXPECT_EQ(info.version, "0.1.0");
@@ -66,7 +66,7 @@ TEST(RunFolder, OfFormat1HoldsResultsThatScriptsKnow) {
   EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
-TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsTold) {
+TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsReported) {
   const test::Folder folder;
   write_file_atomically(folder / "run.json", std::string(R"({"format": 2, "navvy": "9.0.0"})"));
   try {

@@ -9,9 +9,9 @@
 
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "device/kernel_program.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 
 namespace {
@@ -57,7 +57,7 @@ bool dig(int steps, bool dilating) {
 
 void read_behind() {
   device::Device device;
-  const auto program = device::Program::from_text(
+  const auto program = device::KernelProgram::from_text(
       device, "behind", "kernel void behind(global const int* in, global int* out) { out[0] = in[4]; }");
   device::Kernel kernel(program, "behind");
   const device::Buffer<int> in(device, std::vector<int>(4, 1));

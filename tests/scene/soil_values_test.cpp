@@ -32,7 +32,7 @@ TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
     }
 }
 
-TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
+TEST(SoilValues, ReportsValuesOutsideByTheirSceneNameAndUnit) {
   Soil soil;
   soil.name = "mud";
   soil.friction_angle = radians(75);
@@ -71,7 +71,7 @@ TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
   EXPECT_EQ(soil.loose_cohesion, 700) << "its own";
 }
 
-TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) {
+TEST(SoilValues, SoilTooSoftForItsCohesionGetsTheRequiredStiffnessAndItsCost) {
   Soil clay;
   clay.name = "clay";
   clay.cohesion = 50e3;

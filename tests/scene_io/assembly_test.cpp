@@ -136,7 +136,7 @@ TEST_F(Assembly, ReadsTheSameFromASceneWrittenOut) {
   }
 }
 
-TEST_F(Assembly, TellsFileAndLineOfThePart) {
+TEST_F(Assembly, ReportsFileAndLineOfThePart) {
   // Of what only the whole can find: a wheel on a joint that is none stands in the part's seventh line.
   std::string cart = kCart;
   cart.replace(cart.find("<joint>spin"), 11, "<joint>spun");

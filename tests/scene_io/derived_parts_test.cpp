@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {

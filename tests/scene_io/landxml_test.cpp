@@ -92,7 +92,7 @@ TEST(LandXml, IsRefusedWithFileLineValueAndRemedy) {
   expect(read(""), {"is empty"});
 }
 
-TEST(LandXml, TellsAFaultyPointOnceAndNotByItsFaces) {
+TEST(LandXml, ReportsAFaultyPointOnceAndNotByItsFaces) {
   const std::string face = "<F>1 2 3</F><F>1 2 4</F>";
   const auto faults = [&](const std::string& point, const std::string& faces) {
     return read(landxml(kMetres, kFour + point, faces)).faults;

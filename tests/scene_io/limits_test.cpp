@@ -70,7 +70,7 @@ TEST(Limits, FortyMachinesOfOneFileAreReadOnce) {
   EXPECT_EQ(faults.work.files, 2u) << "the machine's and the soil's";
 }
 
-TEST(Limits, AFaultInAFileThatManyUseIsToldOnce) {
+TEST(Limits, AFaultInAFileThatManyUseIsReportedOnce) {
   const test::Folder folder;
   const std::string model = folder / "model.sdf";
   write_file_atomically(model, std::string("<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"/></model></sdf>"));
@@ -81,7 +81,7 @@ TEST(Limits, AFaultInAFileThatManyUseIsToldOnce) {
   EXPECT_EQ(faults.error_count(), 1u) << messages(faults);
 }
 
-TEST(Limits, TenThousandUnknownElementsAreToldInAHundredLines) {
+TEST(Limits, TenThousandUnknownElementsAreReportedInAHundredLines) {
   const Faults faults = read(world_text(repeated("<thing/>\n", 10'000)));
   EXPECT_EQ(faults.error_count(), 10'000u);
   EXPECT_EQ(faults.list().size(), limits::kFaultsShown + 1);
@@ -89,7 +89,7 @@ TEST(Limits, TenThousandUnknownElementsAreToldInAHundredLines) {
 }
 
 /// Also on the disk, where reading ends at the limit: what to do is then not to look for the file.
-TEST(Limits, AFileThatIsTooLargeIsToldSoWithWhatToDo) {
+TEST(Limits, AFileThatIsTooLargeIsReportedWithWhatToDo) {
   const test::Folder folder;
   const std::string file = folder / "large.sdf";
   write_file_atomically(file, world_text(std::string(limits::kXmlBytes, ' ')));
@@ -102,7 +102,7 @@ TEST(Limits, AFileThatIsTooLargeIsToldSoWithWhatToDo) {
   EXPECT_NE(missing[0].text().find("(check the path)"), std::string::npos) << missing[0].text();
 }
 
-TEST(Limits, EveryFaultIsCountedAlsoWhereFewAreTold) {
+TEST(Limits, EveryFaultIsCountedAlsoWhereFewAreReported) {
   const test::Folder folder;
   const std::string file = folder / "many.sdf";
   write_file_atomically(

@@ -235,7 +235,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
 <point><speed_rpm>1800</speed_rpm><torque_nm>350</torque_nm></point>
 <braking_torque_nm>40</braking_torque_nm><gear_ratios>4 2 1</gear_ratios><final_ratio>12</final_ratio>
 <efficiency>0.8</efficiency></engine></navvy:drive>)");
-  const scene::DriveEngine* engine = scene::drive_engine(car.drive);
+  const scene::CombustionEngine* engine = scene::drive_engine(car.drive);
   ASSERT_NE(engine, nullptr);
   ASSERT_EQ(engine->curve.size(), 2u);
   EXPECT_NEAR(engine->curve[1].speed, 60 * kPi, 1e-12);
@@ -246,7 +246,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
   EXPECT_EQ(scene::powertrain(car.drive).engine_power, 0) << "it shares nothing";
   const scene::Machine robot = robot_with(R"(<navvy:drive><engine><kind>speed_source</kind>
 <max_speed_rpm>3000</max_speed_rpm><max_torque_nm>2</max_torque_nm><gear_ratios>20</gear_ratios></engine></navvy:drive>)");
-  EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::DriveEngine::Kind::kSpeedSource);
+  EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::CombustionEngine::Kind::kSpeedSource);
   EXPECT_NEAR(scene::drive_engine(robot.drive)->max_speed, 100 * kPi, 1e-12);
   EXPECT_EQ(scene::drive_engine(robot_with("<navvy:drive/>").drive), nullptr);
 }
@@ -364,7 +364,7 @@ TEST(Overrides, AMachineIsMeantByItsWholeName) {
   EXPECT_NE(failure(body, set("machine[test_buck].x_m=1")).find("no 'machine[test_buck]'"), std::string::npos);
 }
 
-TEST(Loader, ADirectionsFaultIsToldOnce) {
+TEST(Loader, ADirectionsFaultIsReportedOnce) {
   for (const char* direction : {"0 0 0", "0 0 x", "0 0"}) {
     const std::string told =
         failure("<navvy:soil ref=\"loam\"/><navvy:ground/><light name=\"sun\" type=\"directional\"><direction>" +

@@ -148,7 +148,7 @@ TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
   EXPECT_TRUE(std::filesystem::path(resolved.ground.file).is_absolute());
 }
 
-TEST(Resolved, AFileThatChangedSinceIsTold) {
+TEST(Resolved, AFileThatChangedSinceIsReported) {
   const test::Folder folder;
   std::filesystem::copy(navvy::source_dir() + "/vehicles/test_bucket", folder.path() / "mine",
                         std::filesystem::copy_options::recursive);

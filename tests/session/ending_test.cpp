@@ -89,7 +89,7 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
+TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   // One was never driven, one is taken by inputs: both roll over across 30 deg, a third one stands by.
   device::Device device;
   const auto make = [&] {
@@ -139,7 +139,7 @@ TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
+TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   const LogLines log;
   const auto told = [&] {
     std::vector<std::string> out;

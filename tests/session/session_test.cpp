@@ -70,7 +70,7 @@ TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
-TEST_F(SessionTest, AnAwakeBudgetShrinksTheWakeAndNeitherDropsSoilNorStretchesTheStep) {
+TEST_F(SessionTest, AParticleBudgetShrinksActivationAndNeitherDropsSoilNorStretchesTheStep) {
   const auto run = [&](const std::string& budget) {
     auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
     run_to(*session, 2.2);
@@ -91,7 +91,7 @@ TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
   EXPECT_THROW(load_saved(bytes, *block), InputError);
 }
 
-TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
+TEST_F(SessionTest, ABlockThatStartsActiveCollapsesIntoAHeap) {
   const auto session = make(load("block_collapse.sdf"));
   const heightfield::Ground& ground = session->world().ground();
   const int top = static_cast<int>(session->world().soil_counts().particles);
@@ -267,7 +267,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
   }
 }
 
-TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
+TEST_F(SessionTest, AnUnreachableTrenchIsReportedBeforeTheRun) {
   scene::Scene description = load("trench.sdf");
   for (scene::ProgramStep& step : description.machines[0].program.steps)
     if (const auto* dig = step.as<control::Dig>()) {

@@ -58,7 +58,7 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
   EXPECT_THROW(exact.machine("robot").joint("spin_ball").counts(), InputError);
 }
 
-TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
+TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
   scene::Scene scene = testing::load("bucket_path.sdf");
   // Let go of the world, its slides as they are: the whole machine comes down into the soil and goes ahead.
   scene.machines[0].machine.fixed_base = false;
@@ -128,7 +128,7 @@ TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   EXPECT_EQ(whole.get("robot/pose/x"), other.get("robot/pose/x"));
 }
 
-TEST_F(ControllerChannels, OfAPowerTrainTellItsShaftsAndTakeItsGears) {
+TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
   World world(testing::load("paper/power_train.sdf"), device_);
   world.set("truck/drive/speed", 2);
   world.set("truck/drive/gear", 1);

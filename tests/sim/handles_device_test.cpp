@@ -45,7 +45,7 @@ std::string failure(Call&& call) {
   return "accepted";
 }
 
-TEST_F(Handles, TellWhatChannelsTell) {
+TEST_F(Handles, DescribeTheirChannels) {
   World world(testing::load("trench.sdf"), device_);
   const MachineHandle machine = world.machine("excavator");
   const JointHandle boom = machine.joint("boom_joint");
@@ -77,7 +77,7 @@ TEST_F(Handles, TellWhatChannelsTell) {
   EXPECT_FALSE(bucket.is_bed());
 }
 
-TEST_F(Handles, OfAnUnknownNameTellTheNearest) {
+TEST_F(Handles, OfAnUnknownNameSuggestTheNearest) {
   const World world(testing::load("trench.sdf"), device_);
   const MachineHandle machine = world.machine(0);
   EXPECT_NE(failure([&] { world.machine("excavater"); }).find("'excavator'"), std::string::npos);

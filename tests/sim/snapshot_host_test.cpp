@@ -12,7 +12,7 @@
 #include "core/saved_state.h"
 #include "core/sealed.h"
 #include "folder.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "sim/scenes.h"
 
 namespace navvy::sim {
@@ -41,7 +41,7 @@ TEST(Snapshot, GivesItsGroundWithoutADevice) {
   const test::Folder folder;
   const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground dug = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   dug.take_above(20, 20, dug.height(20, 20) - 0.3, taken);
   write(folder / "dug.snapshot", scene, dug);
   SnapshotHead head;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "heightfield/make_ground.h"
+#include "sim/start_placing.h"
 #include "sim/scenes.h"
 
 namespace navvy::sim {

@@ -27,7 +27,7 @@ TEST(Timing, TheBaseStepDividesTheControlPeriod) {
   EXPECT_EQ(base_step(kLongest, 0), kLongest);
 }
 
-TEST(Timing, AStepThatAlreadyDividesThePeriodIsKept) {
+TEST(Timing, AStepThatAlreadyDividesThePeriodIsUnchanged) {
   for (const int steps : {1, 3, 7, 12, 49, 93})
     EXPECT_NEAR(base_step(0.02 / steps, 0.02), 0.02 / steps, 1e-17) << steps;
 }

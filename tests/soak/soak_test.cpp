@@ -36,21 +36,21 @@ TEST(SoakClaims, HoldForBytesThatGrowInTheFirstQuarterOnly) {
   EXPECT_EQ(growth(sound()).heap, 0);
 }
 
-TEST(SoakClaims, TellOfALeakOfSixteenKibibytesACycle) {
+TEST(SoakClaims, ReportOfALeakOfSixteenKibibytesACycle) {
   std::vector<Phase> rows = sound();
   for (Phase& row : rows) row.bytes.heap += 16384 * row.cycle;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
   EXPECT_NE(broken_claims(rows)[0].find("malloc grew by 491520 bytes"), std::string::npos) << broken_claims(rows)[0];
 }
 
-TEST(SoakClaims, TellOfABufferOfTheDeviceMore) {
+TEST(SoakClaims, ReportOfABufferOfTheDeviceMore) {
   std::vector<Phase> rows = sound();
   rows.back().bytes.device += 4096;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
   EXPECT_NE(broken_claims(rows)[0].find("device"), std::string::npos);
 }
 
-TEST(SoakClaims, TellOfALedgerThatIsOffByOneUnit) {
+TEST(SoakClaims, ReportOfALedgerThatIsOffByOneUnit) {
   std::vector<Phase> rows = sound();
   rows[17].ledger = 1;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
@@ -118,7 +118,7 @@ TEST(Soak, FourCyclesStayFlatKeepTheirMassAndEndAsFourResumedQuartersDo) {
   EXPECT_EQ(parted.compared, 2);
 }
 
-TEST(Soak, GoesOnWhereItWasStoppedWhicheverPartThatWasAndTellsWhatACycleKeeps) {
+TEST(Soak, ResumesFromAnyPartAndReportsWhatACycleRetains) {
   const test::Folder folder;
   device::Device device;
   // Stopped after each cycle, in the long run and in the quarters.

@@ -30,7 +30,7 @@ class Scoop {
       place();
       motion_.v_WT = Vec3(vx, 0, vz);
       motion_.w_WT = Vec3(0, w, 0);
-      solver_->step(dt_, std::span(&motion_, 1), std::span(&impulse_, 1), footings_);
+      solver_->step(dt_, std::span(&motion_, 1), std::span(&impulse_, 1), support_areas_);
       if (impulse_.scale > 0) worst_ = std::max(worst_, impulse_.residual.norm() / impulse_.scale);
       sum_ += impulse_.J_W / (steps * dt_);
       x_ += vx * dt_;
@@ -67,11 +67,11 @@ class Scoop {
   double worst() const { return worst_; }
   /// A wheel that stands with its lowest point here, along x.
   void stand(const Vec3& p_W) {
-    Footing wheel;
+    SupportArea wheel;
     wheel.radius = 0.4;
     wheel.half_width = 0.15;
     wheel.p_W = p_W + Vec3(0, 0, wheel.radius);
-    footings_ = {wheel};
+    support_areas_ = {wheel};
   }
   void at(const Scoop& other) {
     x_ = other.x_;
@@ -100,12 +100,12 @@ class Scoop {
   std::unique_ptr<Solver> solver_;
   ToolMotion motion_;
   ToolImpulse impulse_;
-  std::vector<Footing> footings_;
+  std::vector<SupportArea> support_areas_;
   Vec3 sum_ = Vec3::Zero();
   double dt_ = 0, x_ = 11.8, z_ = 0.45, pitch_ = -70, worst_ = 0;
 };
 
-TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
+TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   Scoop scoop;
   scoop.cut();
   const Vec3 cut = scoop.force();

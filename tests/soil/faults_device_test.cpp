@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/rig.h"
 
 namespace navvy::soil {

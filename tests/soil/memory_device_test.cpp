@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/rig.h"
 
 namespace {
@@ -58,7 +58,7 @@ class Dig {
   int tool_;
 };
 
-TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesClosedBooksAndAStateThatGoesOn) {
+TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesABalancedLedgerAndAUsableState) {
   made = refuse = 0;
   {
     Dig whole;

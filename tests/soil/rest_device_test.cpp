@@ -186,7 +186,7 @@ double crowded_density(bool crowding) {
 
 // The heap shears where it slides apart, and there it makes room; its core, which rests, is left alone
 // [docs/soil.md, crowding].
-TEST(SoilRest, CrowdedSoilMakesRoomWhereItShears) {
+TEST(SoilRest, CrowdedSoilSpreadsWhereItShears) {
   const double with = crowded_density(true), without = crowded_density(false);
   print_value("crowded soil after 2 s, density / bank", with, "2 at the start", "[docs/soil.md, crowding]");
   print_value("the same without moving particles apart", without, "2 at the start", "[docs/soil.md, crowding]");

@@ -8,8 +8,8 @@
 
 #include "core/saved_state.h"
 #include "device/device.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 #include "soil/particles/soil_table.h"
 #include "values.h"
@@ -17,7 +17,7 @@
 namespace navvy::soil::rig {
 
 using lab::blade;
-using lab::Box;
+using lab::SiteBox;
 using lab::open_box;
 
 inline scene::Soil sand(double friction_degrees = 33) { return lab::clean_sand(friction_degrees); }

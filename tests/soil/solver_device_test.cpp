@@ -92,7 +92,7 @@ TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsDilateAndFeelRates) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, TwinTest, testing::Values(1, 2, 15, 16, 17, 333, 1000));
 
-TEST(SoilSolver, WithoutParticlesDoesNothingAndKeepsItsBooks) {
+TEST(SoilSolver, WithoutParticlesChangesNothing) {
   Rig rig({rig::sand()});
   rig.run(0.01);
   EXPECT_EQ(rig.solver().particles().size(), 0u);
@@ -240,7 +240,7 @@ TEST(SoilSolver, IsTheSameEverywhereOnTheSite) {
   }
 }
 
-TEST(SoilSolver, BooksWhatLeavesTheSite) {
+TEST(SoilSolver, RecordsMassThatLeavesTheSite) {
   Rig rig({rig::sand()}, {Vec3::Zero(), Vec3::Zero()}, 0.1, 40);
   auto soil = rig.fill({Vec3(3.7, 2, 0.5), Vec3(3.9, 2.2, 0.7)});
   for (Particle& p : soil) p.v[0] = 3;

@@ -98,7 +98,7 @@ TEST(SoilTransfer, GoesOnFromASnapshotInTheMiddleAsIfNothingHappened) {
   }
 }
 
-TEST(SoilTransfer, TellsTheImpulseOfAWholeTransferOverItsLength) {
+TEST(SoilTransfer, ReportsTheMeanForceOverAWholeTransfer) {
   Drag drag;
   drag.motion.inverse_mass.setZero();
   drag.motion.v_WT = Vec3(-0.1, 0, 0);

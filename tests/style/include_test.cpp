@@ -162,7 +162,7 @@ const Names& clients() {
 /// What clients may not see, also not through another header: the parts of a world and those who solve it.
 const Names& inner() {
   static const Names table = {
-      "coupling/", "soil/", "lab/", "vehicle/engine.h", "vehicle/bullet/", "vehicle/kinematic/", "sim/world_parts.h"};
+      "coupling/", "soil/", "lab/", "vehicle/physics_engine.h", "vehicle/bullet/", "vehicle/kinematic/", "sim/world_parts.h"};
   return table;
 }
 
@@ -256,7 +256,7 @@ std::map<std::string, Names> map_of_readme(const std::string& page) {
   return out;
 }
 
-TEST(Includes, ArrowsAreThoseThatTheMapTells) {
+TEST(Includes, ArrowsAreThoseOfTheModuleMap) {
   const std::string page = read_source("src/README.md").text;
   const std::size_t begin = page.find("## Module map"), end = page.find("\n## ", begin + 1);
   ASSERT_NE(end, std::string::npos);

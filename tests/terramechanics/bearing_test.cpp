@@ -37,7 +37,7 @@ TEST(Bearing, FactorsAreTerzaghis) {
   }
 }
 
-TEST(Bearing, OfClayWithoutFrictionIsItsCohesionAndWhatLiesBeside) {
+TEST(Bearing, OfFrictionlessClayIsItsCohesionAndTheSurcharge) {
   scene::Soil clay;
   clay.friction_angle = 0;
   clay.cohesion = 12e3, clay.residual_cohesion = 4e3, clay.loose_cohesion = 3e3;
@@ -48,7 +48,7 @@ TEST(Bearing, OfClayWithoutFrictionIsItsCohesionAndWhatLiesBeside) {
   EXPECT_EQ(bearing_capacity({}, 0.5, 0.2), 0);
 }
 
-TEST(Bearing, SoilFlowsOnlyBeyondWhatItBears) {
+TEST(Bearing, SoilFlowsOnlyBeyondItsBearingCapacity) {
   const scene::Soil soil = sand();
   const SoilState bank{&soil, 1}, loose{&soil, soil.swell};
   const double b = 0.28;

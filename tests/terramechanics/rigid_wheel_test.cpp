@@ -44,7 +44,7 @@ TEST(RigidWheel, SinksByBekkersClosedFormInMeasuredSand) {
   EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);  // entry angle 53 degrees
 }
 
-TEST(RigidWheel, SpinningWheelBearsTheRimsFriction) {
+TEST(RigidWheel, SpinningWheelFeelsTheRimsFriction) {
   scene::Soil soil = plain();
   soil.janosi_k = 1e-5;  // fully mobilised
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.9}, soil);

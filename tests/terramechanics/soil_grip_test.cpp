@@ -9,7 +9,7 @@
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre.h"
 #include "terramechanics/tyre_patch.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 namespace {
@@ -52,7 +52,7 @@ class FreshRut final : public GroundQuery {
   double height(double x, double) const override { return std::abs(x) < from_ ? 0.0 : z_; }
   Vec3 normal(double, double) const override { return Vec3::UnitZ(); }
   SoilState soil(double, double) const override { return {&soil_, 1}; }
-  Sinking sinking(double, double) const override { return {1e-9, z_}; }
+  Sinkage sinking(double, double) const override { return {1e-9, z_}; }
   GroundLattice lattice() const override { return {Vec2::Zero(), 0.1}; }
 
  private:

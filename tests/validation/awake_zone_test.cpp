@@ -39,7 +39,7 @@ Drag drag(const std::string& zone) {
   return out;
 }
 
-TEST(AwakeZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
+TEST(ActiveZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
   const char* source = "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
   print_value("mean draft of the drag [N]", usual.force, "not gated", source);

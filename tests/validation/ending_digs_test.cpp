@@ -42,7 +42,7 @@ class ScoopWatch {
 
 /// A figure of a step's account; not a number when it is not there, which no bound holds.
 double figure(const control::StepReport& step, const std::string& name) {
-  for (const control::Figure& one : step.figures)
+  for (const control::Measurement& one : step.figures)
     if (one.name == name) return one.value;
   return std::nan("");
 }
@@ -74,16 +74,16 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
                  "the trench [docs/validation.md, Whole digs]");
   // What the run tells of it agrees: "finished" is said of a dig that came to its depth and of no other.
   const session::ProgramReport program = session.programs().at(0);
-  const auto told_dig = std::find_if(program.list.begin(), program.list.end(),
+  const auto reported_dig = std::find_if(program.list.begin(), program.list.end(),
                                      [](const control::StepReport& step) { return step.element == "dig"; });
-  ASSERT_NE(told_dig, program.list.end());
-  EXPECT_EQ(told_dig->state, control::StepState::kDone) << told(program, "the machine");
+  ASSERT_NE(reported_dig, program.list.end());
+  EXPECT_EQ(reported_dig->state, control::StepState::kDone) << told(program, "the machine");
   EXPECT_TRUE(session.complete()) << told(program, "the machine");
   EXPECT_FALSE(session.fell_short());
-  EXPECT_NEAR(figure(*told_dig, "depth_m"), dig.depth, 1e-12);
+  EXPECT_NEAR(figure(*reported_dig, "depth_m"), dig.depth, 1e-12);
   // Half the depth was once called finished; half of the length is at least so deep.
-  EXPECT_GT(figure(*told_dig, "depth_reached_m"), 0.75 * dig.depth);
-  EXPECT_LT(figure(*told_dig, "volume_left_m3"), 0.15 * figure(*told_dig, "design_volume_m3"));
+  EXPECT_GT(figure(*reported_dig, "depth_reached_m"), 0.75 * dig.depth);
+  EXPECT_LT(figure(*reported_dig, "volume_left_m3"), 0.15 * figure(*reported_dig, "design_volume_m3"));
   expect_between("nose's rise in a scoop [deg]", watch.rise(), 0, 3, kSource);
   expect_between("longest curl [s]", watch.longest_curl(), 1, 6, kSource);
   expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, kSource);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Digs, EndingDigs,
                                          DigCase{"Clay", "clay.sdf", {}, 25}, DigCase{"Deep", "deep.sdf", {}, 40}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(DrySand, BearsAnIdleMachineAndLetsItDriveAway) {
+TEST(DrySand, SupportsAnIdleMachineAndLetsItDriveAway) {
   const char* source = "a machine on dry sand [docs/machines.md, ruts]";
   session::Session session(load_scene("sand_drive.sdf", {}, kFolder), shared_device());
   const heightfield::Ground& ground = session.world().ground();

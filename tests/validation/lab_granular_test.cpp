@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The granular rigs at the sizes their gates are given for, and at half the cell. A miss fails unless it is in
-// gates/known_misses.md.
+// tolerances/known_deviations.md.
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -11,7 +11,7 @@ using Case = RigCase;
 
 class GranularLab : public testing::TestWithParam<RigCase> {};
 
-TEST_P(GranularLab, MeetsItsGates) { expect_gates(GetParam()); }
+TEST_P(GranularLab, MeetsItsTolerances) { expect_tolerances(GetParam()); }
 
 // A fast stream spreads by its momentum, which no static angle speaks of: figures without a gate.
 TEST(FastPour, SpreadsByItsMomentum) {
@@ -25,7 +25,7 @@ TEST(FastPour, SpreadsByItsMomentum) {
 
 // What is dug and poured is loose and remoulded: loam of 6 kPa that kept more than its loose cohesion would stand in
 // heaps of 50 to 70 deg.
-TEST(PouredLoam, LiesAsSpoilDoes) {
+TEST(PouredLoam, HeapsAsSpoilDoes) {
   const lab::Report report = lab::run_rig("pour", {}, [](lab::Setup& s) {
     s.soil.name = "loam";
     s.soil.bank_density = 1540, s.soil.swell = 1.23, s.soil.friction_angle = radians(30);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tool rigs at the sizes their gates are given for. A miss fails unless it is in
-// gates/known_misses.md.
+// tolerances/known_deviations.md.
 #include <utility>
 
 #include "validation/rig_case.h"
@@ -144,12 +144,12 @@ TEST(ShearStrength, OfATriaxialSampleIsMatsuokasAndNakais) {
 }
 
 // Until its lid neither lifts nor leaks the box measures its own rim: a figure without a gate.
-TEST(ShearStrength, OfTheDirectShearBoxHasNoGate) {
+TEST(ShearStrength, OfTheDirectShearBoxHasNoTolerance) {
   for (const double cell : {0.1, 0.05}) {
     const double cells = 2.4 / cell;
     const lab::Report report =
         lab::run_rig("box", {{"length", cells}, {"height", cells / 6}}, [cell](lab::Setup& s) { s.cell = cell; });
-    EXPECT_FALSE(report.find("tau over sigma, large strain")->has_gate());
+    EXPECT_FALSE(report.find("tau over sigma, large strain")->has_tolerance());
     print_value("direct shear box, tau / sigma, cells of " + lab::short_text(cell) + " m",
                 lab::measured(report, "tau over sigma, large strain"), "sin phi 0.5736", "navvy lab box");
     EXPECT_EQ(report.ledger_error, 0);
@@ -165,12 +165,12 @@ const std::map<std::string, double> kHeavyHalfStep = {{"mass", 1400}, {"shell-ma
 const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
 const SoilChange kPhi30 = {.phi_degrees = 30}, kPhi40 = {.phi_degrees = 40};
 
-class ToolGates : public testing::TestWithParam<RigCase> {};
+class ToolTolerances : public testing::TestWithParam<RigCase> {};
 
-TEST_P(ToolGates, MeetsItsGates) { expect_gates(GetParam()); }
+TEST_P(ToolTolerances, MeetsItsTolerances) { expect_tolerances(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
-    Rigs, ToolGates,
+    Rigs, ToolTolerances,
     testing::Values(Case{"Blade", "blade", {}, 0.05}, Case{"Passive", "wall", {}, 0.1},
                     Case{"PassiveHalf", "wall", {}, 0.05}, Case{"Passive30", "wall", {}, 0.1, kPhi30},
                     Case{"Passive40", "wall", {}, 0.1, kPhi40}, Case{"Passive40Half", "wall", {}, 0.05, kPhi40},

@@ -36,7 +36,7 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
   const sim::World& world = session.world();
   const auto& tool = parts(world).coupling.tools().at(0);
   while (!session.done() && tool.smooth_W.norm() < 5000) session.step();
-  const vehicle::Engine& engine = parts(world).coupling.engine(0);
+  const vehicle::PhysicsEngine& engine = parts(world).coupling.engine(0);
   const int m = parts(world).coupling.index(0);
   const Vec3 start = engine.momentum(m);
   const double t0 = world.time();

@@ -43,8 +43,8 @@ inline void PrintTo(const RigCase& c, std::ostream* out) { *out << c.rig; }
 inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) { return tested.param.name; }
 
 /// Runs the rig and holds it against its gates.
-inline void expect_gates(const RigCase& c) {
-  expect_gates(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
+inline void expect_tolerances(const RigCase& c) {
+  expect_tolerances(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
     if (!std::isnan(c.cell)) setup.cell = c.cell;
     c.soil.apply(setup.soil);
   }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forces at several speeds and two steps each: one that depends on either has no value. A miss fails unless it is in
-// gates/known_misses.md.
+// tolerances/known_deviations.md.
 #include <algorithm>
 #include <cmath>
 #include <string>

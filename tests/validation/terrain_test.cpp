@@ -36,7 +36,7 @@ std::string map_file(const std::string& name) {
 
 class RealTerrain : public testing::TestWithParam<Spot> {};
 
-TEST_P(RealTerrain, TakesATrenchOfHalfTheLengthWithTheBooksClosed) {
+TEST_P(RealTerrain, DigsATrenchOfHalfTheLengthAndTheMassBalanceHolds) {
   const Spot& spot = GetParam();
   const std::string file = map_file(spot.file);
   if (file.empty()) GTEST_SKIP() << spot.file << " is not here; set NAVVY_TEST_DATA to the folder of terrain/";

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "control/activities/dig/dig.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "sim/world.h"
 

@@ -26,7 +26,7 @@ double cut_above(const heightfield::Ground& ground, double cap) {
   return sum * ground.cell() * ground.cell();
 }
 
-TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
+TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
   session::Session session(load_scene("two_layers.sdf"), shared_device());
   const sim::World& world = session.world();
   const scene::Scene& description = world.description();

@@ -36,7 +36,7 @@ scene::Machine hitch(double cone, double twist) {
 struct Bend {
   double lean, turn;
 };
-Bend bend(const Engine& engine, const scene::Machine& m) {
+Bend bend(const PhysicsEngine& engine, const scene::Machine& m) {
   const Mat3 R_WJ0 = (m.links[1].X_ML * m.joints[0].X_LcJ).linear();
   const Mat3 R = R_WJ0.transpose() * (engine.link(0, 1).X_WL * m.joints[0].X_LcJ).linear();
   const Eigen::Quaterniond q(R);
@@ -83,7 +83,7 @@ TEST(BallLimits, OfAFreeBallAreNone) {
   EXPECT_GT(worst, 170);
 }
 
-TEST(BallLimits, ResumeToTheBit) {
+TEST(BallLimits, ResumeBitIdentical) {
   const scene::Machine m = hitch(radians(20), radians(10));
   const auto first = make_bullet_engine(Vec3(0, 0, -kGravity)), second = make_bullet_engine(Vec3(0, 0, -kGravity));
   first->add_machine(m, Pose::Identity());

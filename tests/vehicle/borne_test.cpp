@@ -26,7 +26,7 @@ scene::Machine block(double mass) {
   return m;
 }
 
-std::unique_ptr<Engine> pair() {
+std::unique_ptr<PhysicsEngine> pair() {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(block(kLower), make_pose(0, 0, kHigh));
   engine->add_machine(block(kUpper), make_pose(0, 0, kHigh + 0.5));
@@ -34,7 +34,7 @@ std::unique_ptr<Engine> pair() {
 }
 
 /// Firm soil under the lower block: after all else it gives what stops it. The impulse [N s].
-Vec3 bear(Engine& engine, double dt) {
+Vec3 bear(PhysicsEngine& engine, double dt) {
   const LinkState link = engine.link(0, 0);
   Vec6 twist;
   twist << link.w_WL, link.v_WL;
@@ -43,9 +43,9 @@ Vec3 bear(Engine& engine, double dt) {
   return J.tail<3>();
 }
 
-double height(const Engine& engine, int machine) { return engine.link(machine, 0).X_WL.translation().z(); }
+double height(const PhysicsEngine& engine, int machine) { return engine.link(machine, 0).X_WL.translation().z(); }
 
-TEST(Borne, WhatRestsOnABodyThatSoilBearsDoesNotSink) {
+TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
   for (const double dt : {1.0 / 150, 1.0 / 600}) {
     const auto engine = pair();
     const auto ground = testing::flat();
@@ -100,7 +100,7 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
 TEST(Borne, ASnapshotKnowsWhatTheNextStepExpects) {
   const double dt = 1.0 / 600;
   const auto ground = testing::flat();
-  const auto go_on = [&](Engine& engine, int steps) {
+  const auto go_on = [&](PhysicsEngine& engine, int steps) {
     for (int i = 0; i < steps; ++i) {
       engine.step(dt, ground);
       bear(engine, dt);

@@ -127,7 +127,7 @@ TEST(BulletContact, LoweredGroundLetsABodyFall) {
   EXPECT_NEAR(engine->link(0, 0).v_WL.z(), -kGravity * 0.2, 0.02 * kGravity * 0.2);
 }
 
-TEST(BulletContact, MachinesPushEachOtherAndMomentumIsKept) {
+TEST(BulletContact, MachinesPushEachOtherAndMomentumIsConserved) {
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(box(), Pose::Identity());
   engine->add_machine(box(), make_pose(1.5, 0.1, 0.05));

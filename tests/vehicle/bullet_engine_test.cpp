@@ -79,7 +79,7 @@ TEST(BulletEngine, ServoStopsWithinItsLimitsWithoutOvershoot) {
   EXPECT_NEAR(engine->joint(0, 0).position, 0.8, 1e-4);
 }
 
-TEST(BulletEngine, OverloadedJointGivesWayAndSaysItStalls) {
+TEST(BulletEngine, OverloadedJointYieldsAndReportsTheStall) {
   auto engine = make_bullet_engine(kDown);
   scene::Machine m = arm();
   m.joints[0].effort = 30e3;  // needs about 70 kN m
@@ -170,7 +170,7 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
     engine->add_machine(testing::box(), make_pose(5, 0, 2, 0.3, 0.2, 0.1));
     return engine;
   };
-  const auto drive = [&](Engine& engine, double from, double to) {
+  const auto drive = [&](PhysicsEngine& engine, double from, double to) {
     const int steps = static_cast<int>(std::lround((to - from) / kStep));
     for (int i = 0; i < steps; ++i) {
       const double t = from + i * kStep;

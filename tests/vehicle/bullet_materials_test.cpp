@@ -139,7 +139,7 @@ TEST(BulletMaterials, ATableLeavesLinksWithoutAMaterialAlone) {
   EXPECT_NE(end({}, ""), end(table(0.9, 0.1, 0.5, 1e-6), "steel"));
 }
 
-TEST(BulletMaterials, MomentumIsKeptInABlow) {
+TEST(BulletMaterials, MomentumIsConservedInABlow) {
   auto engine = make_bullet_engine(Vec3::Zero(), table(0.5, 0.4, 0.7));
   engine->add_machine(of("steel", testing::box()), make_pose(0, 0, 50));
   engine->add_machine(of("stone", testing::box()), make_pose(1.5, 0.1, 50.05));

@@ -43,7 +43,7 @@ struct OverRock {
   Vec3 rock_force() const { return engine->rock_impulse(0, 0) / kStep; }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   int bucket = -1;
 };
 

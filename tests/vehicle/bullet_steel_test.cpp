@@ -71,7 +71,7 @@ std::string boulder_mesh(const test::Folder& folder, double radius) {
   return folder / "boulder.obj";
 }
 
-TEST(BulletSteel, MomentumOfTwoMachinesThatTouchIsKept) {
+TEST(BulletSteel, MomentumOfTwoTouchingMachinesIsConserved) {
   const scene::Machine digger = testing::ew180();
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(digger, make_pose(0, 0, 50));
@@ -119,7 +119,7 @@ TEST(BulletSteel, AMovingBedHoldsAStone) {
 
 /// The test bucket, 1.4 times as large, on a column that swings: what its joints are told is where it is.
 struct Crane {
-  explicit Crane(Engine& in) : engine(in) {
+  explicit Crane(PhysicsEngine& in) : engine(in) {
     machine = scene_io::load_machine(scene_io::find_data("vehicles/test_bucket/model.sdf"));
     machine.kinematic = false;
     for (Vec3& v : machine.shells.at(0).vertices) v *= 1.4;
@@ -149,7 +149,7 @@ struct Crane {
       }
     });
   }
-  Engine& engine;
+  PhysicsEngine& engine;
   scene::Machine machine;
   std::array<double, 4> now{};
 };

@@ -22,7 +22,7 @@ using testing::run;
 
 constexpr double kStep = 1.0 / 600;
 
-std::unique_ptr<Engine> engine_of(const std::string& name) {
+std::unique_ptr<PhysicsEngine> engine_of(const std::string& name) {
   return name == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
 }
 
@@ -64,7 +64,7 @@ class ControllerContract : public ::testing::TestWithParam<std::string> {
   double joint_of(const std::string& name) const { return engine->joint(0, machine.joint_index(name)).position; }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   std::unique_ptr<Encoders> encoders;
 };
 

@@ -33,8 +33,8 @@ class Drives : public ::testing::TestWithParam<Case> {
  protected:
   Drives() : machine(GetParam().drive == "Ackermann" ? testing::cart() : testing::robot()), engine(build()) {}
 
-  std::unique_ptr<Engine> build() const {
-    std::unique_ptr<Engine> built =
+  std::unique_ptr<PhysicsEngine> build() const {
+    std::unique_ptr<PhysicsEngine> built =
         GetParam().engine == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
     built->add_machine(machine, Pose::Identity());
     return built;
@@ -47,10 +47,10 @@ class Drives : public ::testing::TestWithParam<Case> {
   double forward_speed() const { return base().X_WL.linear().col(0).dot(base().v_WL); }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST_P(Drives, GoStraightAtTheSpeedAskedBothWays) {
+TEST_P(Drives, GoStraightAtTheCommandedSpeedInBothDirections) {
   for (const double speed : {1.0, -0.6}) {
     engine->set_drive(0, command(speed));
     run(*engine, flat(), 5, kStep);
@@ -65,7 +65,7 @@ TEST_P(Drives, GoStraightAtTheSpeedAskedBothWays) {
   EXPECT_NEAR(base().X_WL.translation().y(), 0, 0.01);
 }
 
-TEST_P(Drives, TurnOnTheArcOfTheBicycleBothWays) {
+TEST_P(Drives, TurnOnTheArcOfTheBicycleModelInBothDirections) {
   const double wheelbase = equivalent_bicycle(machine.drive).wheelbase;
   for (const double angle : {0.3, -0.3}) {
     engine->set_drive(0, command(0.8, angle));

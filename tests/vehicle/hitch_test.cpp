@@ -38,7 +38,7 @@ scene::Hitch drawbar() {
 }
 
 /// Robot and trailer, hitched.
-std::unique_ptr<Engine> train() {
+std::unique_ptr<PhysicsEngine> train() {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(shipped("robot"), Pose::Identity());
   engine->add_machine(shipped("robot_trailer"), make_pose(-kHook - kDrawbar, 0, 0));
@@ -53,7 +53,7 @@ TEST(Hitch, DrawsAsAJointInTheMachineDoes) {
   double apart = 0, way = 0;
   // By the wheels' joints, as a governor reckons with the mass of its own machine; its brake, which would hold the
   // trailer's wheels, too, where they are its own, is off.
-  for (Engine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
+  for (PhysicsEngine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
   for (const std::array<double, 2>& spin : {std::array{3.0, 6.0}, std::array{6.0, 4.0}, std::array{0.0, 0.0}}) {
     for (std::size_t side = 0; side < 2; ++side) {
       const char* joint = side == 0 ? "spin_left" : "spin_right";
@@ -75,7 +75,7 @@ TEST(Hitch, DrawsAsAJointInTheMachineDoes) {
   EXPECT_LT(way, 1e-3);
 }
 
-TEST(Hitch, BearsWhatLeansOnItAndDrawsWhatRolls) {
+TEST(Hitch, CarriesVerticalLoadAndDrawsARollingTrailer) {
   const auto engine = train();
   run(*engine, flat(), 2, kStep);
   // The tub's centre is 0.05 m ahead of the axle: 20 kg lean on the eye by 0.05 / 0.6 of their weight.

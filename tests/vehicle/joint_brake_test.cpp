@@ -30,7 +30,7 @@ struct Rig {
   double angle(int joint) const { return engine->joint(0, joint).position; }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   int swing = -1, axle = -1;
 };
 
@@ -59,7 +59,7 @@ TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
   }
 }
 
-TEST(JointBrake, HoldsWhateverTheJointIsTold) {
+TEST(JointBrake, HoldsWhateverTheJointCommand) {
   Rig rig(ew180());
   rig.engine->set_brake(0, rig.swing, true);
   rig.engine->set_joint(0, rig.swing, {JointMode::kVelocity, 0.5});

@@ -87,7 +87,7 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   whole->set_base(0, {Vec3(0, 3, 1), Vec3(0, 0, 0), 1});
   run(*whole, flat(), 0.5, kStep);
   load_saved(saved(*whole), *resumed);
-  for (Engine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
+  for (PhysicsEngine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
   EXPECT_EQ(digest(*resumed), digest(*whole));
   EXPECT_EQ(whole->link(0, 0).X_WL.translation(), Vec3(0, 3, 1));
   whole->set_drive(0, {1, 0, false});
@@ -96,7 +96,7 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   EXPECT_LT((whole->link(0, 0).X_WL.translation() - Vec3(1, 3, 0)).norm(), 1e-9);
 }
 
-TEST(KinematicEngine, AloneMovesABaseAsTold) {
+TEST(KinematicEngine, AloneMovesABaseAsCommanded) {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(testing::box(), make_pose(0, 0, 1));
   EXPECT_THROW(engine->set_base(0, {}), InputError);

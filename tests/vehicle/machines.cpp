@@ -143,7 +143,7 @@ scene::Machine robot(double caster) {
   return m;
 }
 
-void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
+void run(PhysicsEngine& engine, const GroundQuery& ground, double duration, double dt,
          const std::function<void(double)>& each) {
   const int steps = static_cast<int>(std::lround(duration / dt));
   for (int i = 1; i <= steps; ++i) {
@@ -152,6 +152,6 @@ void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
   }
 }
 
-std::uint64_t digest(const Engine& engine) { return hash_of(engine).digest(); }
+std::uint64_t digest(const PhysicsEngine& engine) { return hash_of(engine).digest(); }
 
 }  // namespace navvy::vehicle::testing

@@ -6,7 +6,7 @@
 
 #include "scene/machine.h"
 #include "terramechanics/grounds.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle::testing {
 
@@ -35,8 +35,8 @@ using terramechanics::FunctionGround;
 using terramechanics::slope;
 
 /// Steps an engine for a time; calls `each` after every step.
-void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
+void run(PhysicsEngine& engine, const GroundQuery& ground, double duration, double dt,
          const std::function<void(double)>& each = {});
-std::uint64_t digest(const Engine& engine);
+std::uint64_t digest(const PhysicsEngine& engine);
 
 }  // namespace navvy::vehicle::testing

@@ -40,7 +40,7 @@ struct BothEngines {
   Vec3 place(int machine) const { return bullet->link(machine, 0).X_WL.translation(); }
   Vec3 speed(int machine) const { return bullet->link(machine, 0).v_WL; }
 
-  std::unique_ptr<Engine> bullet = make_bullet_engine(Vec3(0, 0, -kGravity)), kinematic = make_kinematic_engine();
+  std::unique_ptr<PhysicsEngine> bullet = make_bullet_engine(Vec3(0, 0, -kGravity)), kinematic = make_kinematic_engine();
   std::size_t links = 0;
   int mover = 0;
 };
@@ -75,7 +75,7 @@ TEST(Mover, CarriesWhatStandsOnIt) {
   EXPECT_NEAR(lift.place(0).z(), 2.5, 0.01);
 }
 
-TEST(Mover, WakesWhatSleepsOnlyWhenItMoves) {
+TEST(Mover, WakesSleepingBodiesOnlyWhenItMoves) {
   BothEngines both(box(), make_pose(0, 0, 0.5));
   both.bullet->add_machine(box(), make_pose(1.02, 0, 0.5));
   both.go(2);

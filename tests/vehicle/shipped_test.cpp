@@ -56,7 +56,7 @@ class ShippedVehicles : public ::testing::TestWithParam<std::string> {
   }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine = make_bullet_engine(Vec3(0, 0, -kGravity));
+  std::unique_ptr<PhysicsEngine> engine = make_bullet_engine(Vec3(0, 0, -kGravity));
 };
 
 TEST_P(ShippedVehicles, DriveSteerAndBrake) {

@@ -149,10 +149,10 @@ struct Lifting {
 
   testing::FunctionGround hill;
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST(Stability, TellsTheLoadThatTipsItOnTheFlatAndOnASlope) {
+TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
   for (const double angle : {0.0, radians(6)}) {
     Lifting rig(angle);
     const Stability before = rig.now();

@@ -25,7 +25,7 @@ scene::Machine train() {
 }
 
 /// Middle of the trailer's axle on the ground.
-Vec3 trailer(const Engine& engine, const scene::Machine& machine) {
+Vec3 trailer(const PhysicsEngine& engine, const scene::Machine& machine) {
   return engine.link(0, machine.link_index("robot_trailer::chassis")).X_WL.translation();
 }
 

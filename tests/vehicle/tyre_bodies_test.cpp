@@ -47,7 +47,7 @@ scene::Machine pipe(double radius, double length, bool stands) {
   return body(geometry, 500, stands);
 }
 
-double wheel_height(const Engine& engine, int machine, int wheel) {
+double wheel_height(const PhysicsEngine& engine, int machine, int wheel) {
   return engine.wheel(machine, wheel).X_WWheel.translation().z();
 }
 
@@ -148,7 +148,7 @@ TEST(TyreBodies, ALightBodyIsPushedAsideAndNotThrown) {
   EXPECT_LT(fastest, 8.0);
 }
 
-TEST(TyreBodies, AResumedRunOnAPlateIsEqualToTheBit) {
+TEST(TyreBodies, AResumedRunOnAPlateIsEqualBitIdentical) {
   const auto build = [] {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(cart(), make_pose(0, 0, 0.1));

@@ -25,6 +25,6 @@
   UNROLL for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
 // Largest of values >= 0 (or infinite) in a work-group: the order of their bits is theirs, and integers have atomics.
-static inline void keep_largest(local int* largest, float value) { atomic_max(largest, as_int(value)); }
+static inline void atomic_max_nonnegative(local int* largest, float value) { atomic_max(largest, as_int(value)); }
 
 #endif  // NAVVY_KERNELS_SOIL_GROUPS_GROUP_H

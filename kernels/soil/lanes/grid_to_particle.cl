@@ -3,7 +3,7 @@
 //
 // In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
 //      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
-//      spread [s] and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
+//      spread [s] and most [cells]: seen_opening(), crowding() and crowding_displacement() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
 // Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
@@ -80,13 +80,13 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const Home* restrict homes,
+    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
     const float filled, const float closing, const float spread, const float most) {
   const int block = get_global_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
     copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
@@ -165,7 +165,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const real way = (dt / dx) * v[axis] + way_apart(share, lean[axis], node_mass, most);
+      const real way = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
       STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
       m[axis] = way * (dx / dt);
     }
@@ -179,8 +179,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 // Ends a transfer: particles go the way they were booked, which begins anew.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
                                                                                 const int capacity,
-                                                                                global const Home* restrict homes) {
-  const Home home = homes[get_global_id(0)];
+                                                                                global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock home = particle_blocks[get_global_id(0)];
   for (int slot = home.start; slot < home.start + home.count; slot += 16)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));

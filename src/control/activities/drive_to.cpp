@@ -7,7 +7,7 @@
 #include <string>
 
 #include "control/activity.h"
-#include "control/headway.h"
+#include "control/progress_monitor.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
 
@@ -19,20 +19,20 @@ struct Memory {
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
   double way = 0;       // to the target at the start [m]
-  Headway headway;
+  ProgressMonitor progress;
 
   void visit(Archive& a) {
     a("speed", speed);
     a("heading", heading);
     a("standing", standing);
     a("way", way);
-    headway.visit(a);
+    progress.visit(a);
   }
 };
 
 class Driving final : public ActivityWith<Memory> {
  public:
-  Driving(Workplace& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
+  Driving(OperatorContext& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "drive"; }
 
   void begin(const Observation& seen) override {
@@ -40,7 +40,7 @@ class Driving final : public ActivityWith<Memory> {
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // Patience is a matter of the whole way, not of what is left.
     m.way = (step_.target - at.p).norm();
-    m.headway.begin(at);
+    m.progress.begin(at);
   }
 
  private:
@@ -67,8 +67,8 @@ class Driving final : public ActivityWith<Memory> {
     }
     std::string held;
     const double way = (step_.target - at.p).norm();
-    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, way, dt, held);
-    if (headway != StepState::kRunning) return fall_short(headway, held);
+    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, way, dt, held);
+    if (progress != StepState::kRunning) return fall_short(progress, held);
     // Up along the ramp, down along the curve that stops at the target.
     m.speed = std::min({std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
     const double speed = pursuit.sense() * m.speed;
@@ -100,7 +100,7 @@ DriveTo DriveTo::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> DriveTo::activity(Workplace& place) const { return std::make_unique<Driving>(place, *this); }
+std::unique_ptr<Activity> DriveTo::activity(OperatorContext& place) const { return std::make_unique<Driving>(place, *this); }
 
 void DriveTo::check_reach(ReachCheck& check) const {
   const PlanePose start = plane_pose(check.X_WB);

@@ -27,7 +27,7 @@ struct Memory {
 // Open, hold, close; it does not look at what the bucket still holds.
 class Dumping final : public ActivityWith<Memory> {
  public:
-  Dumping(Workplace& place, const Dump& step) : ActivityWith(place), step_(step) {}
+  Dumping(OperatorContext& place, const Dump& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "dump"; }
 
   void begin(const Observation& seen) override {
@@ -78,6 +78,6 @@ Dump Dump::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Dump::activity(Workplace& place) const { return std::make_unique<Dumping>(place, *this); }
+std::unique_ptr<Activity> Dump::activity(OperatorContext& place) const { return std::make_unique<Dumping>(place, *this); }
 
 }  // namespace navvy::control

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "control/activity.h"
-#include "control/headway.h"
+#include "control/progress_monitor.h"
 #include "control/path_follower.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
@@ -42,7 +42,7 @@ struct Memory {
   double clearance = kRange;
   std::int64_t plans = 0, failed = 0, corrections = 0, cusps = 0;
   Then then = Then::kNextLeg;
-  Headway headway;
+  ProgressMonitor progress;
 
   void visit(Archive& a) {
     a("path", path);
@@ -62,13 +62,13 @@ struct Memory {
     a("corrections", corrections);
     a("cusps", cusps);
     a.ranged("then", then, Then::kNextLeg, Then::kPlanAnew);
-    headway.visit(a);
+    progress.visit(a);
   }
 };
 
 class Going final : public ActivityWith<Memory> {
  public:
-  Going(Workplace& place, const GoTo& step) : ActivityWith(place), step_(step), law_(place.machine.drive) {}
+  Going(OperatorContext& place, const GoTo& step) : ActivityWith(place), step_(step), law_(place.machine.drive) {}
 
   const char* phase() const override {
     switch (phase_index()) {
@@ -94,7 +94,7 @@ class Going final : public ActivityWith<Memory> {
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
     const double aside = (at.p - from.p).norm(), turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
-    if (!way_is_clear(0))
+    if (!path_is_clear(0))
       place_.note("the ground on its way has changed since its program began: it plans anew");
     else if (aside > kElsewhere || turned > kElsewhereTurn)
       place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
@@ -102,14 +102,14 @@ class Going final : public ActivityWith<Memory> {
       start_path(at);
   }
 
-  std::vector<Figure> account(const Observation& seen) const override {
+  std::vector<Measurement> account(const Observation& seen) const override {
     const PlanePose at = plane_pose(seen.X_WB);
     return {{"plans", static_cast<double>(m.plans)},
             {"cusps", static_cast<double>(m.cusps)},
             {"driven_m", m.driven + m.s},
             {"path_m", m.path.length()},
             {"goal_miss_m", miss(at)},
-            {"goal_miss_deg", degrees(turn_miss(at))},
+            {"goal_miss_deg", degrees(turn_error(at))},
             {"least_clearance_m", m.clearance}};
   }
 
@@ -137,9 +137,9 @@ class Going final : public ActivityWith<Memory> {
 
   // Goal.
   double miss(const PlanePose& at) const { return (at.p - step_.target).norm(); }
-  double turn_miss(const PlanePose& at) const { return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi)); }
+  double turn_error(const PlanePose& at) const { return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi)); }
   bool arrived(const PlanePose& at) const {
-    return miss(at) <= step_.tolerance && turn_miss(at) <= step_.turn_tolerance;
+    return miss(at) <= step_.tolerance && turn_error(at) <= step_.turn_tolerance;
   }
 
   // Ground.
@@ -148,7 +148,7 @@ class Going final : public ActivityWith<Memory> {
     place_.look(seen);
     m.clearance = std::min(m.clearance, place_.planner->clearance(plane_pose(seen.X_WB), kRange));
   }
-  bool way_is_clear(double s) const {
+  bool path_is_clear(double s) const {
     return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >= step_.clearance;
   }
 
@@ -204,12 +204,12 @@ class Going final : public ActivityWith<Memory> {
     // A differential drive turns nothing.
     m.turn = std::abs(angle - m.steer) / law_.steer_rate() + kSettle;
     m.steer = angle;
-    m.headway.begin(at);
+    m.progress.begin(at);
     enter(kTurn);
   }
   void drive_leg(const PlanePose& at) {
     m.speed = 0;
-    m.headway.begin(at);
+    m.progress.begin(at);
     enter(past_last() ? kStop : kDrive);
   }
 
@@ -225,7 +225,7 @@ class Going final : public ActivityWith<Memory> {
     m.unseen += dt;
     if (m.unseen >= kLook) {
       look(seen);
-      if (!way_is_clear(m.s)) {
+      if (!path_is_clear(m.s)) {
         place_.note("the ground on its way has changed: it plans anew");
         stop(Then::kPlanAnew);
         return false;
@@ -237,8 +237,8 @@ class Going final : public ActivityWith<Memory> {
       return false;
     }
     std::string held;
-    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, miss(at), dt, held);
-    if (headway != StepState::kRunning) return fall_short(headway, held);
+    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, miss(at), dt, held);
+    if (progress != StepState::kRunning) return fall_short(progress, held);
     if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
       return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) + " took longer than " +
                                                    number_text(phase_time(), "s"));
@@ -270,9 +270,9 @@ class Going final : public ActivityWith<Memory> {
     if (anew || arrived(at)) return !anew;
     if (++m.corrections > kMostCorrections)
       return fall_short(StepState::kOutOfReach, "it stands " + metres(miss(at)) + " and " +
-                                                    number_text(degrees(turn_miss(at)), "deg") +
+                                                    number_text(degrees(turn_error(at)), "deg") +
                                                     " from the goal after " + std::to_string(m.plans) + " plans");
-    place_.note("it stands " + metres(miss(at)) + " and " + number_text(degrees(turn_miss(at)), "deg") +
+    place_.note("it stands " + metres(miss(at)) + " and " + number_text(degrees(turn_error(at)), "deg") +
                 " from the goal: it plans anew");
     return false;
   }
@@ -309,7 +309,7 @@ PathQuery GoTo::query(const PlanePose& from, int plan) const {
   return {from, {target, heading}, clearance, iterations, static_cast<std::uint32_t>(seed + plan)};
 }
 
-std::unique_ptr<Activity> GoTo::activity(Workplace& place) const { return std::make_unique<Going>(place, *this); }
+std::unique_ptr<Activity> GoTo::activity(OperatorContext& place) const { return std::make_unique<Going>(place, *this); }
 
 void GoTo::check_reach(ReachCheck& check) const {
   if (!check.planner) {

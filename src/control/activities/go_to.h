@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
@@ -11,7 +11,7 @@ namespace navvy::control {
 /// when the step begins elsewhere, when ground within `clearance` of what is left of the path is no longer traversable,
 /// when the machine is off it, and when it ends beside the goal. Where there is none the machine stands for
 /// `retry` and tries again, `tries` times in all; then the program ends with the state no_path.
-struct GoTo final : Step {
+struct GoTo final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "go_to";
   Vec2 target = Vec2::Zero();          ///< of the base link's origin, [m] in W
@@ -32,7 +32,7 @@ struct GoTo final : Step {
   bool needs_planner() const override { return true; }
   std::optional<PathQuery> path_ahead(const PlanePose& from) const override { return query(from, 0); }
   /// Phases: plan, turn (the wheels, standing), drive, stop, no_path.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   /// The goal must be clear of ground that is not traversable at the start; where an earlier step digs or dumps, that
   /// is a warning.
   void check_reach(ReachCheck& check) const override;

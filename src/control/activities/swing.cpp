@@ -14,7 +14,7 @@ constexpr double kShort = radians(3);  // a load or a slope bends the swing by l
 // One move; patience is the move's.
 class Swinging final : public ActivityWith<ArmMove> {
  public:
-  Swinging(Workplace& place, const Swing& step) : ActivityWith(place), step_(step) {}
+  Swinging(OperatorContext& place, const Swing& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "swing"; }
 
   void begin(const Observation& seen) override {
@@ -45,11 +45,11 @@ Swing Swing::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Swing::activity(Workplace& place) const { return std::make_unique<Swinging>(place, *this); }
+std::unique_ptr<Activity> Swing::activity(OperatorContext& place) const { return std::make_unique<Swinging>(place, *this); }
 
 void Swing::check_reach(ReachCheck& check) const {
   // An angle is a joint's, not a direction: it is not wound into the limits.
-  check.require_swing(Arm(check.machine), "swing", angle, "choose an angle between them");
+  check.require_swing(ArmKinematics(check.machine), "swing", angle, "choose an angle between them");
 }
 
 }  // namespace navvy::control

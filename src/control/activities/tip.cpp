@@ -28,7 +28,7 @@ struct Memory {
 
 class Tipping final : public ActivityWith<Memory> {
  public:
-  Tipping(Workplace& place, const Tip& step)
+  Tipping(OperatorContext& place, const Tip& step)
       : ActivityWith(place),
         step_(step),
         joint_(static_cast<std::size_t>(place.machine.joint_index(place.machine.beds.at(0).joint))) {}
@@ -95,6 +95,6 @@ void Tip::check_machine(const scene::Machine& machine) const {
                            "tip needs a machine with a bed on a joint of its own", "add <navvy:bed>"});
 }
 
-std::unique_ptr<Activity> Tip::activity(Workplace& place) const { return std::make_unique<Tipping>(place, *this); }
+std::unique_ptr<Activity> Tip::activity(OperatorContext& place) const { return std::make_unique<Tipping>(place, *this); }
 
 }  // namespace navvy::control

@@ -15,7 +15,7 @@ namespace {
 using scene::FieldSource;
 using scene::kDegree;
 
-constexpr double kShortAngle = radians(3), kShortWay = 0.03;  // of a joint: a servo's lag under load is less [m]
+constexpr double kShortAngle = radians(3), kShortPath = 0.03;  // of a joint: a servo's lag under load is less [m]
 constexpr double kSettle = 0.3;                               // [s] before a joint at rest counts as held
 constexpr double kAtRest = 0.02;                              // [rad/s|m/s]
 constexpr double kPatience = 5;                               // [s] for joints that are slower than their positions
@@ -24,7 +24,7 @@ constexpr double kPatience = 5;                               // [s] for joints 
 // joint that is on its way is waited for, one that is held ends the program.
 class Following final : public Activity {
  public:
-  Following(Workplace& place, const Trajectory& step) : Activity(place), step_(step) {
+  Following(OperatorContext& place, const Trajectory& step) : Activity(place), step_(step) {
     for (const std::string& name : step.joints) joints_.push_back(place.machine.joint_index(name));
   }
   const char* phase() const override { return "trajectory"; }
@@ -61,7 +61,7 @@ class Following final : public Activity {
       const scene::Joint& joint = place_.machine.joints[j];
       const vehicle::JointState& now = seen.joints[j];
       const double rest = std::abs(step_.positions.back()[i] - now.position);
-      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortWay : kShortAngle)) continue;
+      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortPath : kShortAngle)) continue;
       on_the_way = true;
       if (late < kSettle) continue;
       // A joint that lies beside its target and moves may well be driven off by what holds it: patience has an end.
@@ -172,7 +172,7 @@ void Trajectory::check_machine(const scene::Machine& machine) const {
     if (machine.joint_index(name) < 0) fail(name, "no joint of this name in the machine");
 }
 
-std::unique_ptr<Activity> Trajectory::activity(Workplace& place) const {
+std::unique_ptr<Activity> Trajectory::activity(OperatorContext& place) const {
   return std::make_unique<Following>(place, *this);
 }
 

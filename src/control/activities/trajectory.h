@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
 /// Open-loop joint positions over time, linear between knots; times count from the start of this step.
-struct Trajectory final : Step {
+struct Trajectory final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
   std::vector<std::string> joints;
@@ -22,7 +22,7 @@ struct Trajectory final : Step {
   /// @throws InputError for anything that the reader would have refused, too.
   void check_machine(const scene::Machine& machine) const override;
   /// One phase: commands its joints alone.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
 }  // namespace navvy::control

@@ -9,7 +9,7 @@ namespace {
 // Without memory: the clock that every activity has is enough.
 class Resting final : public Activity {
  public:
-  Resting(Workplace& place, const Wait& step) : Activity(place), step_(step) {}
+  Resting(OperatorContext& place, const Wait& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "wait"; }
   void begin(const Observation&) override {}
 
@@ -28,6 +28,6 @@ Wait Wait::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Wait::activity(Workplace& place) const { return std::make_unique<Resting>(place, *this); }
+std::unique_ptr<Activity> Wait::activity(OperatorContext& place) const { return std::make_unique<Resting>(place, *this); }
 
 }  // namespace navvy::control

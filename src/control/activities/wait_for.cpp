@@ -10,7 +10,7 @@ namespace {
 // Reads the other program's progress as it stood at the start of the control step, whatever the machines' order.
 class WaitingFor final : public Activity {
  public:
-  WaitingFor(Workplace& place, const WaitFor& step) : Activity(place), step_(step) {}
+  WaitingFor(OperatorContext& place, const WaitFor& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "wait_for"; }
   void begin(const Observation&) override {}
 
@@ -49,7 +49,7 @@ WaitFor WaitFor::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> WaitFor::activity(Workplace& place) const {
+std::unique_ptr<Activity> WaitFor::activity(OperatorContext& place) const {
   return std::make_unique<WaitingFor>(place, *this);
 }
 

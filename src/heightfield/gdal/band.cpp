@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "heightfield/gdal/beside.h"
-#include "heightfield/gdal/session.h"
+#include "heightfield/gdal/gdal_session.h"
 
 namespace navvy::heightfield {
 

@@ -17,7 +17,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "heightfield/file_rows.h"
-#include "heightfield/gdal/session.h"
+#include "heightfield/gdal/gdal_session.h"
 #include "heightfield/map_view.h"
 
 namespace navvy::heightfield {
@@ -26,7 +26,7 @@ namespace {
 // Rows that are held and compressed together.
 constexpr int kStripRows = 32;
 // Without another thread to be had the next rows are computed when they are needed.
-constexpr auto kWhereThereIsRoom = std::launch::async | std::launch::deferred;
+constexpr auto kWhereThereIsSpace = std::launch::async | std::launch::deferred;
 // Rows computed at once: many, as layers that look around compute the rows beside them, too.
 constexpr int kChunkRows = 8 * kStripRows;
 
@@ -112,7 +112,7 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
     for (int top = 0; top < ny; top += kChunkRows) {
       std::swap(now, next);
       std::future<void> coming;
-      if (top + kChunkRows < ny) coming = std::async(kWhereThereIsRoom, compute, top + kChunkRows);
+      if (top + kChunkRows < ny) coming = std::async(kWhereThereIsSpace, compute, top + kChunkRows);
       const int bottom = std::min(top + kChunkRows, ny);
       for (int row = top; row < bottom; ++row)
         check(band->RasterIO(GF_Write, 0, row, nx, 1, now.data() + static_cast<std::size_t>(bottom - 1 - row) * nx, nx,

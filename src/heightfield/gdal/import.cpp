@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "heightfield/gdal/map_file_private.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/span_text.h"
 
 namespace navvy::heightfield {

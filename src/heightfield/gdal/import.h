@@ -8,7 +8,7 @@
 
 #include "core/limits.h"
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/raster.h"
 #include "heightfield/windowed_raster.h"
 #include "scene/scene.h"

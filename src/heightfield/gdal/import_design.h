@@ -2,7 +2,7 @@
 // A raster as design surface. Exists only in builds with NAVVY_WITH_GDAL.
 #pragma once
 
-#include "heightfield/design.h"
+#include "heightfield/design_surface.h"
 
 namespace navvy::heightfield {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "heightfield/gdal/import.h"
-#include "heightfield/gdal/session.h"
+#include "heightfield/gdal/gdal_session.h"
 #include "heightfield/raster.h"
 #include "heightfield/windowed_raster.h"
 #include "scene/ground.h"

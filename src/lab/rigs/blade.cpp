@@ -14,7 +14,7 @@
 #include "lab/rigs/chute.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
@@ -34,7 +34,7 @@ double blade_height(const Setup& setup) {
 }
 
 /// What the mean force is held against, and where that says something.
-struct Gate {
+struct Tolerance {
   double expected = 0, low = kNone, high = kNone;
   std::string source, range;
   bool here = false;
@@ -42,11 +42,11 @@ struct Gate {
 
 /// A measured force replaces theory. Theory gates upright blades in plane strain, smooth within --gate-percent, rough
 /// ones from 0.95 of the lower bound (0.80 with cohesion, as soil without dilatancy is weaker) to 1.05 of the spiral.
-Gate gate_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
+Tolerance tolerance_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
   const double given = setup["expected-n"], share = setup["gate-percent"] / 100;
   const bool upright = setup.is("plane", "yes") && std::abs(setup["rake-deg"] - 90) < 1e-6;
   const Reference theory = upright ? upright_reference(case_of(setup)) : Reference{};
-  Gate out;
+  Tolerance out;
   out.range =
       "an upright blade in plane strain in soil that does not soften, E at least 200 c (rough: and 4 MPa), or a "
       "force given by --expected-n";
@@ -81,11 +81,11 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   // One window for mean and scatter, the one that an experiment states.
   const Vec3 force = scale * mean_force(driver.trace(), from, to),
              scatter = scale * force_scatter(driver.trace(), from, to);
-  const Gate gate = gate_of(setup, wedge, source);
-  report.add("horizontal force", -force.x(), "N", gate.expected, gate.low, gate.high, gate.source)
-      .holds_for(gate.range, gate.here);
+  const Tolerance tolerance = tolerance_of(setup, wedge, source);
+  report.add("horizontal force", -force.x(), "N", tolerance.expected, tolerance.low, tolerance.high, tolerance.source)
+      .holds_for(tolerance.range, tolerance.here);
   // The formula stands beside whatever else is expected, without a gate; a planar wedge is an upper bound.
-  if (std::abs(gate.expected / wedge.horizontal - 1) > 1e-6)
+  if (std::abs(tolerance.expected / wedge.horizontal - 1) > 1e-6)
     report.add("horizontal force, against the wedge", -force.x(), "N", wedge.horizontal, kNone, kNone,
                source + (setup.is("plane", "yes") ? ", planar wedge: an upper bound" : ""));
   if (softens(setup.soil)) {
@@ -96,12 +96,12 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   }
   report.add("vertical force on the blade, down", -force.z(), "N", wedge.vertical, kNone, kNone, source);
   // One number to compare runs of other soils and depths by.
-  report.add("horizontal over expected", -force.x() / gate.expected, "", 1, kNone, kNone, "");
+  report.add("horizontal over expected", -force.x() / tolerance.expected, "", 1, kNone, kNone, "");
   report.note("scatter of the force", 100 * scatter.x() / std::abs(force.x()), "%",
               "rms about the mean over its window");
   const double peak = smooth_peak(setup, driver.trace(), scale);
   report.note("peak, low-passed at v / (2 cells)", peak, "N");
-  report.add("peak over expected", peak / gate.expected, "", 1, kNone, kNone, "");
+  report.add("peak over expected", peak / tolerance.expected, "", 1, kNone, kNone, "");
 }
 
 /// Height over the lip [m] of what lies at x ahead of it, mean over the middle half of the chute. Beyond the
@@ -177,7 +177,7 @@ Report run_plane(const Setup& setup) {
   shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = blade_height(setup),
   shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);  // over what piles up in front
   shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell, shape.bottom = depth - below - 2 * cell;
-  const Box box{Vec3(-bed.back, chute_offset(cell), -below), Vec3(bed.ahead, chute_offset(cell) + gap, 0)};
+  const SiteBox box{Vec3(-bed.back, chute_offset(cell), -below), Vec3(bed.ahead, chute_offset(cell) + gap, 0)};
   auto soil = site.fill(box, [&](const Vec3& p) { return ahead_of_blade(p, depth, rake, cell); });
   site.rest(soil, trench(depth));
   site.solver().insert(soil);
@@ -201,7 +201,7 @@ Report run_open(const Setup& setup) {
   // Crescents reach about a depth to the side; the bed is twice as wide by default.
   const double side = width / 2 + setup["beside"] * depth;
   const double up = whole_cells(depth * (1 + setup["below"]), cell);
-  const Box bed{Vec3(-whole_cells(2 * depth, cell), -whole_cells(side, cell), -up),
+  const SiteBox bed{Vec3(-whole_cells(2 * depth, cell), -whole_cells(side, cell), -up),
                 Vec3(whole_cells(setup["travel"] + setup["ahead"] * depth, cell), whole_cells(side, cell), 0)};
   SiteOptions options;
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 8 * cell);

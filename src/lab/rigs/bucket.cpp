@@ -112,7 +112,7 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   // Half a bucket and more beyond the path on every side, so that the bed's walls are not felt.
   const double reach = scoop.depth / std::tan(scoop.attack) + scoop.drag + 1.0 + 2 * scoop.depth,
                side = bucket.width / 2 + 1.5 * scoop.depth;
-  const Box bed{Vec3(-0.5, -whole_cells(side, cell), -whole_cells(scoop.depth + 0.3, cell)),
+  const SiteBox bed{Vec3(-0.5, -whole_cells(side, cell), -whole_cells(scoop.depth + 0.3, cell)),
                 Vec3(whole_cells(reach, cell), whole_cells(side, cell), 0)};
   SiteOptions options;
   options.size = 2 * (reach + 1);

@@ -141,7 +141,7 @@ std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, do
                                        const std::function<double(double, double)>& surface) {
   const double cell = site.cell(), inset = chute_offset(cell), block = soil::kBlockCells * cell;
   // Soil fills the chute alone; the margin outside the plates stays empty.
-  const Box box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
+  const SiteBox box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
   auto out = site.fill(box, keep, rough ? 0 : 1);
   if (rough)
     for (soil::Particle& p : out) {

@@ -11,8 +11,8 @@
 
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
@@ -38,7 +38,7 @@ void build_plane(Site& site, const Column& column) {
   walls.half_thickness = 0.2 * cell;
   site.add_tool(walls, make_pose(x0, y0, 0));
   const double inset = 0.25 * cell;  // a quarter cell: half the spacing of particles, face and first row apart
-  const Box box{Vec3(x0 + inset, y0 + inset, 0), Vec3(x0 + column.length, y0 + column.gap - inset, column.height)};
+  const SiteBox box{Vec3(x0 + inset, y0 + inset, 0), Vec3(x0 + column.length, y0 + column.gap - inset, column.height)};
   auto soil = site.fill(box);
   site.rest(soil, column.height);
   site.solver().insert(soil);

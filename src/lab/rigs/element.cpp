@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 #include "lab/theory/earth_pressure.h"
 
@@ -24,7 +24,7 @@ struct Stress {
   double xx = 0, yy = 0, zz = 0;
 };
 
-Stress stress_in(const Site& site, const Box& box) {
+Stress stress_in(const Site& site, const SiteBox& box) {
   Stress sum;
   double count = 0;
   for (const soil::Particle& p : site.solver().particles()) {
@@ -40,7 +40,7 @@ Stress stress_in(const Site& site, const Box& box) {
 }
 
 /// Particles under the pressure `p` on all sides, from the start.
-std::vector<soil::Particle> pressed(const Site& site, const Box& box, double p) {
+std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double p) {
   auto out = site.fill(box);
   const double bulk = site.soil().young_modulus / (3 * (1 - 2 * site.soil().poisson));
   for (soil::Particle& grain : out) grain.j = static_cast<float>(1 - p / bulk);
@@ -48,13 +48,13 @@ std::vector<soil::Particle> pressed(const Site& site, const Box& box, double p) 
 }
 
 /// Site without gravity, its ground a pit of the sample's size whose floor and walls rest.
-SiteOptions weightless(const Box& sample, double floor, double cell) {
+SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
   SiteOptions out;
   const double reach = std::max(sample.high.x(), sample.high.y());
   out.size = 2 * (reach + 8 * cell);
   out.depth = -floor + 8 * cell;
   out.gravity = Vec3::Zero();
-  out.surface = pit(Box{Vec3(sample.low.x(), sample.low.y(), floor), sample.high});
+  out.surface = pit(SiteBox{Vec3(sample.low.x(), sample.low.y(), floor), sample.high});
   return out;
 }
 
@@ -100,11 +100,11 @@ struct Strained {
 /// Strains a cube evenly by `rate` [1/s], without change of volume, until the largest strain is `strain`.
 Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   const double cell = setup.cell, half = 0.5 * setup["edge"] * cell, p = setup["pressure-pa"];
-  const Box sample{Vec3::Constant(-half), Vec3::Constant(half)};
+  const SiteBox sample{Vec3::Constant(-half), Vec3::Constant(half)};
   Setup smooth = setup;
   smooth.soil = without_tool_friction(setup.soil);
   // In the air: a pit twice as wide and as deep as the sample.
-  Site site(smooth, weightless(Box{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
+  Site site(smooth, weightless(SiteBox{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
   auto soil = pressed(site, sample, p);
   // The sample moves evenly from the start, plates and all: no wave runs through it.
   for (soil::Particle& grain : soil)
@@ -117,7 +117,7 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   press.strain(site, half, rate);
   const double fastest = rate.cwiseAbs().maxCoeff(), seconds = setup["strain"] / fastest;
   site.expect(seconds);
-  const Box middle{Vec3::Constant(-half / 2), Vec3::Constant(half / 2)};
+  const SiteBox middle{Vec3::Constant(-half / 2), Vec3::Constant(half / 2)};
   Series strain{"largest strain", "", {}}, sine{"mobilised sin phi", "", {}};
   constexpr int kReadings = 20;
   Strained out;

@@ -14,7 +14,7 @@
 #include "lab/rigs/chute.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 #include "terramechanics/plate.h"
@@ -54,7 +54,7 @@ std::vector<scene::Soil> strip_soils(const Setup& setup) {
 }
 
 /// Soil at rest under its surcharge, and the layer beside the place of the footing, at rest under its own weight.
-void lay_strip(Site& site, const Strip& strip, double surcharge) {
+void place_footing(Site& site, const Strip& strip, double surcharge) {
   const double cell = site.cell(), y = chute_offset(cell), low = -strip.ahead - strip.breadth / 2, high = -low;
   // In the chute only, not in the pit's margin outside the plates.
   auto bed = site.fill({Vec3(low, y, -strip.below), Vec3(high, y + strip.gap, 0)});
@@ -118,7 +118,7 @@ Report run_footing(const Setup& setup) {
                            "above 0 for soil without cohesion", "give --surcharge-pa or --cohesion-pa"});
   const Strip strip = strip_of(setup);
   Site site(setup, strip_soils(setup), strip_site(setup, strip));
-  lay_strip(site, strip, q);
+  place_footing(site, strip, q);
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = strip.gap, shape.top = (kLayerCells + 6) * cell + strip.settlement;
   shape.ahead = strip.ahead + strip.breadth / 2 + 3 * cell, shape.bottom = -strip.below - 3 * cell;
@@ -158,7 +158,7 @@ Report run_plate(const Setup& setup) {
   const double cell = setup.cell, b = setup["breadth"], l = setup["length"], deep = setup["sinkage"];
   const double x = whole_cells(l / 2 + 1.5 * b, cell), y = whole_cells(2 * b, cell),
                z = whole_cells(2 * b + deep, cell);
-  const Box bed{Vec3(-x, -y, -z), Vec3(x, y, 0)};
+  const SiteBox bed{Vec3(-x, -y, -z), Vec3(x, y, 0)};
   SiteOptions options;
   options.size = 2 * (std::max(x, y) + 4 * cell);
   options.depth = z + 8 * cell;

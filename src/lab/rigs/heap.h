@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/site.h"
+#include "lab/lab_site.h"
 
 namespace navvy::lab {
 

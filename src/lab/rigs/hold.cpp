@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 
@@ -126,7 +126,7 @@ Report run_light(const Setup& setup) {
   const double cell = setup.cell, edge = setup["edge"];
   // Three cells beside the plate and four below it: the ground's edge is not felt.
   const double side = cell * std::ceil((edge / 2 + 3 * cell) / cell);
-  const Box bed{Vec3(-side, -side, -4 * cell), Vec3(side, side, 0)};
+  const SiteBox bed{Vec3(-side, -side, -4 * cell), Vec3(side, side, 0)};
   SiteOptions options;
   options.size = 2 * (side + 4 * cell);
   options.depth = 12 * cell;

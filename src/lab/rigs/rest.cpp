@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/site.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -61,7 +61,7 @@ void write_profile(const Site& site, double half, Report& report) {
 /// Fills the pit, waits, and averages the second half of the time.
 Report run(const Setup& setup) {
   const double depth = setup["depth"], half = setup["width"] / 2, seconds = setup["time"];
-  const Box bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
+  const SiteBox bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
   SiteOptions options;
   options.surface = pit(bed);
   // A metre of resting ground under the pit: bedrock is not felt.

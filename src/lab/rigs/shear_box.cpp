@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 
@@ -39,7 +39,7 @@ double peak_ratio(const Trace& trace, double travel, double normal) {
 Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"] * cell, width = setup["width"] * cell,
                height = setup["height"] * cell, half = 0.25 * cell;
-  const Box lower{Vec3(-length / 2, -width / 2, -height), Vec3(length / 2, width / 2, 0)};
+  const SiteBox lower{Vec3(-length / 2, -width / 2, -height), Vec3(length / 2, width / 2, 0)};
   SiteOptions options;
   options.size = 2 * (length + 8 * cell);
   options.depth = height + 8 * cell;
@@ -59,7 +59,7 @@ Report run(const Setup& setup) {
   Tool& ring = site.tool(driver.tool());
   // Its weight is the normal load; free to sink, it keeps it whatever the soil does below.
   ring.mass = sigma * area / kGravity;
-  ring.keep_attitude = true;
+  ring.lock_rotation = true;
   // The stable step is that of the ring's own speed.
   const double speed = setup["speed"], travel = setup["travel"] * length, dt = site.step_limit(speed);
   const int steps = static_cast<int>(std::ceil(travel / speed / dt));

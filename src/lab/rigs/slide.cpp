@@ -9,8 +9,8 @@
 
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -77,7 +77,7 @@ double slide_soil(const Setup& setup, Report& report) {
 double slide_plate(const Setup& setup, Report& report) {
   const double cell = setup.cell, half = 34 * cell, wide = 9 * cell;
   // Five cells deep: the nodes of a cell at the floor are not those under the plate.
-  const Box bed{Vec3(-half, -wide, -5 * cell), Vec3(half, wide, 0)};
+  const SiteBox bed{Vec3(-half, -wide, -5 * cell), Vec3(half, wide, 0)};
   SiteOptions options = tilted(setup);
   options.surface = pit(bed);
   Site site(setup, options);
@@ -90,7 +90,7 @@ double slide_plate(const Setup& setup, Report& report) {
   Tool& block = site.tool(tool);
   // No inertia is needed: the plate keeps its attitude.
   block.mass = setup["pressure"] * length * width / kGravity;
-  block.keep_attitude = true;
+  block.lock_rotation = true;
   Series time{"time", "s", {}}, speed{"speed of the plate", "m/s", {}};
   double shear = 0, normal = 0;  // [N s] in the second half
   for (int i = 0; i < 20; ++i) {

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 

@@ -9,8 +9,8 @@
 
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/rig_shapes.h"
+#include "lab/lab_site.h"
 
 namespace navvy::lab {
 namespace {

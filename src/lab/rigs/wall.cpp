@@ -12,7 +12,7 @@
 #include "lab/rigs/blade_bed.h"
 #include "lab/rigs/chute.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -55,12 +55,12 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
   const bool passive = setup["travel"] > 0, rough = share > 0;
   const Reference theory = wall_reference(setup, passive, share);
   // Smooth walls 10 %; rough ones from 0.95 of the lower bound to 1.05 of the spiral.
-  const bool gated = passive || !rough;
+  const bool with_tolerance = passive || !rough;
   const bool slow = passive || (speed_of(setup) < 0.0101 && height / setup.cell > 19.99);
   report
       .add(passive ? "passive force" : "active force", force.x(), "N/m", theory.expected,
-           gated ? (theory.rough ? 0.95 : 0.9) * theory.low : kNone,
-           gated ? (theory.rough ? 1.05 : 1.1) * theory.high : kNone, theory.source + " " + kSource)
+           with_tolerance ? (theory.rough ? 0.95 : 0.9) * theory.low : kNone,
+           with_tolerance ? (theory.rough ? 1.05 : 1.1) * theory.high : kNone, theory.source + " " + kSource)
       .holds_for(
           "E of 4 MPa or more, soil that does not soften; pushed in by 0.2 H, or a smooth wall of 20 cells drawn out "
           "by "

@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 #include "terramechanics/rigid_wheel.h"
@@ -91,7 +91,7 @@ Report law_alone(const Setup& setup) {
 }
 
 /// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
-Box bed_of(const Setup& setup) {
+SiteBox bed_of(const Setup& setup) {
   const double cell = setup.cell, r = setup["radius"];
   // A wheel pushes soil aside by less than its radius.
   const double side = whole_cells(setup["width"] / 2 + setup["beside"] * r, cell);
@@ -186,7 +186,7 @@ Report run(const Setup& setup) {
   check_wheel(setup);
   if (setup.is("law", "yes")) return law_alone(setup);
   const WheelCase wheel = wheel_of(setup);
-  const Box bed = bed_of(setup);
+  const SiteBox bed = bed_of(setup);
   SiteOptions options;
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 4 * setup.cell);
   options.depth = -bed.low.z() + 8 * setup.cell;

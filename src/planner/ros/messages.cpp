@@ -65,7 +65,7 @@ Pose at(double x, double y) {
 }
 
 /// A message counts its bytes in 32 bits.
-void require_room(const TerrainMap& map, std::size_t layers) {
+void require_capacity(const TerrainMap& map, std::size_t layers) {
   const double bytes =
       static_cast<double>(map.rect().area()) * 4 * static_cast<double>(std::max<std::size_t>(layers, 1));
   if (bytes < 2e9) return;
@@ -76,7 +76,7 @@ void require_room(const TerrainMap& map, std::size_t layers) {
 }  // namespace
 
 Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns) {
-  require_room(map, layers.size());
+  require_capacity(map, layers.size());
   const int nx = map.nx(), ny = map.ny();
   const double length_x = nx * map.cell(), length_y = ny * map.cell();
   Writer out;
@@ -106,7 +106,7 @@ Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int
 }
 
 Bytes occupancy_grid(const TerrainMap& map, std::int64_t time_ns) {
-  require_room(map, 1);
+  require_capacity(map, 1);
   std::vector<std::int8_t> cells;
   for (const float t : map.copy(Layer::kTraversability))
     cells.push_back(t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
@@ -122,7 +122,7 @@ Bytes point_cloud(const TerrainMap& map, const std::vector<Layer>& layers, std::
   std::vector<Layer> more;
   for (const Layer layer : layers)
     if (layer != Layer::kElevation) more.push_back(layer);
-  require_room(map, 3 + more.size());
+  require_capacity(map, 3 + more.size());
   const std::vector<float> z = map.copy(Layer::kElevation);
   std::vector<std::vector<float>> values;
   values.reserve(more.size());

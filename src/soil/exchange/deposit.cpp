@@ -14,7 +14,7 @@ constexpr double kHollowRest = 5;
 /// A tool this far above the soil leaves it free to settle [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
 /// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
-constexpr double kLeastRoom = 4;
+constexpr double kLeastCapacity = 4;
 /// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
 /// number of particles over a column scatters by 0.65.
 constexpr double kCliff = 1.5;
@@ -54,13 +54,13 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
     return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
   };
   for (const ToolZone& tool : zones) {
-    if (tool.seated || top + kToolAbove < tool.low) continue;
+    if (tool.supported || top + kToolAbove < tool.low) continue;
     // What rule A would wake again at once is not booked back either.
     if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
   }
   const auto stands = [&](int number) {
     return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.seated && tool.tool == number; });
+                       [&](const ToolZone& tool) { return tool.supported && tool.tool == number; });
   };
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
@@ -191,13 +191,13 @@ double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& pla
   for (std::size_t c = 0; c < 16; ++c)
     if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
   // A few crumbs that the surface does not show are not crowded.
-  return room > kLeastRoom ? state / room : 1.0;
+  return room > kLeastCapacity ? state / room : 1.0;
 }
 
 // At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared out.
-void Depositor::book_column(int ix, int iy) {
+void Depositor::deposit_column(int ix, int iy) {
   for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
-    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
+    heightfield::SoilLayer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
@@ -216,7 +216,7 @@ void Depositor::book(const Plan& plan, int block) {
     columns.push_back({ix, iy, weight[c]});
     const Grains grains = index_.column(ix, iy);
     if (plan.cliff[c])
-      book_column(ix, iy);
+      deposit_column(ix, iy);
     else
       pooled.insert(pooled.end(), grains.begin(), grains.end());
   }

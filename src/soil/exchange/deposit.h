@@ -10,7 +10,7 @@
 
 #include "soil/exchange/deposit_shape.h"
 #include "soil/exchange/deposit_share.h"
-#include "soil/exchange/wake_rules.h"
+#include "soil/exchange/activation_rules.h"
 
 namespace navvy::soil {
 
@@ -65,7 +65,7 @@ class Depositor {
 
   double crowding(const std::vector<SoilShare>& shares, const Plan& plan) const;
   void book(const Plan& plan, int block);
-  void book_column(int ix, int iy);
+  void deposit_column(int ix, int iy);
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;

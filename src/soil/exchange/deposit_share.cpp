@@ -39,9 +39,9 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std
   return out;
 }
 
-heightfield::Layer layer_of(const SoilShare& share, double swell, double rise) {
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double rise) {
   const double mass = static_cast<double>(share.mass);
-  heightfield::Layer layer;
+  heightfield::SoilLayer layer;
   layer.soil = share.soil;
   // The clamp is wide on purpose: a tighter one turns noise into volume [docs/exchange.md, decisions].
   double state = std::clamp(share.volume / mass, DENSEST_STATE, swell);
@@ -51,7 +51,7 @@ heightfield::Layer layer_of(const SoilShare& share, double swell, double rise) {
   return layer;
 }
 
-void share_out(heightfield::Ground& ground, heightfield::Layer layer, std::int64_t mass,
+void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::int64_t mass,
                std::span<const SharedColumn> columns) {
   const auto largest = std::max_element(
       columns.begin(), columns.end(), [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });

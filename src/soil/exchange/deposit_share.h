@@ -22,7 +22,7 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std
 
 /// The soil's layer, still without mass: density state and plastic shear are the mass means, the state within
 /// 0.88 .. swell. `rise`: how much its state stands over the room that it has, 1 where nothing is crowded.
-heightfield::Layer layer_of(const SoilShare& share, double swell, double rise = 1);
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double rise = 1);
 
 /// A column and its share of what is booked, in whole numbers.
 struct SharedColumn {
@@ -32,7 +32,7 @@ struct SharedColumn {
 /// Puts `mass` as `layer` onto the columns in proportion to their weights, of which one at least is positive and none
 /// negative. What rounding leaves, a few quanta, the first of the heaviest takes. Columns that get nothing are not
 /// touched.
-void share_out(heightfield::Ground& ground, heightfield::Layer layer, std::int64_t mass,
+void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::int64_t mass,
                std::span<const SharedColumn> columns);
 
 }  // namespace navvy::soil

@@ -10,10 +10,10 @@
 #include "core/log.h"
 #include "soil/exchange/deposit.h"
 #include "soil/exchange/exchange_index.h"
-#include "soil/exchange/footing_deposit.h"
+#include "soil/exchange/support_deposit.h"
 #include "soil/exchange/slump.h"
-#include "soil/exchange/wake.h"
-#include "soil/exchange/wake_rules.h"
+#include "soil/exchange/activation.h"
+#include "soil/exchange/activation_rules.h"
 
 namespace navvy::soil {
 namespace {
@@ -45,43 +45,43 @@ struct Exchange::State {
   State(const scene::Scene& world, heightfield::Ground& ground_in)
       : ground(ground_in),
         grid(plan_grid(world, ground_in)),
-        waker(ground_in, grid, -world.gravity.z()),
+        activator(ground_in, grid, -world.gravity.z()),
         table(ground_in.setup().soils, ground_in.cell(), -world.gravity.z()),
         standing(grid),
         scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
-        awake_zone(world.solver.awake_zone),
+        active_zone(world.solver.active_zone),
         seen(ground_in.sequence()) {}
 
   // Whether the motion rule must leave a column alone, because its block was booked back within the last second. Where
   // a tool stands it may wake at once.
   bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
   std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
-  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
-  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
-  void fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan);
-  void wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result);
-  void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
+  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, ActivationPlan& plan);
+  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, ActivationPlan& plan);
+  void fit_budget(std::span<const ToolZone> zones, std::size_t active, double time, ActivationPlan& plan);
+  void activate_planned(const ColumnIndex& index, const ActivationPlan& plan, Result& result);
+  void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const ActivationPlan& plan, double time,
                Result& result);
   /// Books what lies under footings and marks it; false when nothing does.
-  bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
+  bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const SupportPlacement> support_areas,
                      double time, Result& result);
   /// All other rules, for the particles of the index.
-  void decide(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
+  void decide(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const SupportPlacement> support_areas,
               double time, double elapsed, Result& result);
-  int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
+  int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const ActivationPlan& plan, double elapsed);
   void visit(Archive& a);
 
   heightfield::Ground& ground;
   PlanGrid grid;
-  Waker waker;
+  Activator activator;
   SlumpTable table;
   StandingHeights standing;
   SlumpScan scan;
   Slump slump;
   std::size_t max_particles;
-  double awake_zone;
+  double active_zone;
 
   // What lasts from check to check. It is saved and hashed, together with `standing` and `slump`; the rest follows from
   // the scene.
@@ -101,7 +101,7 @@ bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZo
   const auto found = deposited.find(grid.block_of(ix, iy));
   if (found == deposited.end() || time - found->second >= kRestAfterDeposit) return false;
   return std::none_of(zones.begin(), zones.end(),
-                      [&](const ToolZone& tool) { return !tool.seated && tool.touches(ix, iy); });
+                      [&](const ToolZone& tool) { return !tool.supported && tool.touches(ix, iy); });
 }
 
 // Tiles whose slopes may have changed: those with particles, and changed ones as far as one check can carry.
@@ -143,14 +143,14 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
 }
 
 // Rule C: over-steep columns wake where soil is awake or a tool works, and slide as columns elsewhere.
-void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan) {
+void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, ActivationPlan& plan) {
   std::vector<OverSteep> found;
   for (const PlanKey& tile : tiles_to_scan(index, zones)) scan.scan(tile.second, tile.first, index, zones, found);
   for (const OverSteep& slope : found) plan_slope(slope, index, zones, plan);
 }
 
 void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
-                                 WakePlan& plan) {
+                                 ActivationPlan& plan) {
   // Awake soil in the block of any column on the way, or in a block beside it, counts as near: there particles carry on
   // what starts to slide.
   bool near = false;
@@ -171,19 +171,19 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
   for (int l = 0; l < found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
     // Columns on the way that are lower already stay where they are.
-    if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low) plan_wake(plan, ix, iy, bottom);
+    if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low) plan_activation(plan, ix, iy, bottom);
   }
 }
 
 // Drops the requests farthest from tools until the particles to come fit the budget.
-void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan) {
+void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t active, double time, ActivationPlan& plan) {
   // An upper bound but for columns of many thin soils, so that the budget is rather missed from below.
-  const auto bound = [&](const WakePlan::value_type& entry) {
+  const auto bound = [&](const ActivationPlan::value_type& entry) {
     const double bottom = ground.datum() + entry.second * ground.cell();
     return static_cast<std::size_t>(
-        waker.particle_bound(ground.height(entry.first.second, entry.first.first) - bottom));
+        activator.particle_bound(ground.height(entry.first.second, entry.first.first) - bottom));
   };
-  std::size_t sum = awake;
+  std::size_t sum = active;
   for (const auto& entry : plan) sum += bound(entry);
   if (sum <= max_particles) {
     over_budget = false;
@@ -224,17 +224,17 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
 }
 
 // Columns wake in the order of the map, so new particles come in the same order in every run.
-void Exchange::State::wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result) {
+void Exchange::State::activate_planned(const ColumnIndex& index, const ActivationPlan& plan, Result& result) {
   for (const auto& [column, bottom] : plan) {
     const std::size_t before = result.born.size();
     // What lies on a column as particles weighs on it, too; without that, woken soil would settle under them.
-    waker.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
+    activator.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
                kilograms(index.pile(column.second, column.first).mass), result.born);
-    result.woken_columns += result.born.size() > before ? 1 : 0;
+    result.activated_columns += result.born.size() > before ? 1 : 0;
   }
 }
 
-void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
+void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const ActivationPlan& plan,
                               double time, Result& result) {
   // New particles lie between the ground and those at rest in blocks that have just woken, or beside them.
   for (const auto& [column, bottom] : plan)
@@ -259,7 +259,7 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   std::erase_if(deposited, [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
 }
 
-int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
+int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const ActivationPlan& plan,
                                double elapsed) {
   // A column moves only while nothing rests on it, nothing is to wake in it and no tool stands in it: particles and
   // shells would not notice that the ground under them went. Nor does one that bears a tyre: what slid under it would
@@ -269,34 +269,34 @@ int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZon
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
     const double top = (ground.height(ix, iy) - ground.datum()) / ground.cell();
     return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && (tool.seated || tool.low < top); });
+                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && (tool.supported || tool.low < top); });
   };
   return slump.run(elapsed, blocked);
 }
 
 bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
-                                    std::span<const FootingPlace> footings, double time, Result& result) {
-  if (footings.empty() || index.particles().empty()) return false;
+                                    std::span<const SupportPlacement> support_areas, double time, Result& result) {
+  if (support_areas.empty() || index.particles().empty()) return false;
   std::set<PlanKey> blocks;
-  result.footing_columns = FootingDeposit(ground, index, zones).deposit(footings, result.removed, blocks);
+  result.support_columns = SupportDeposit(ground, index, zones).deposit(support_areas, result.removed, blocks);
   // What moves beside a wheel does not wake at once what was booked under it.
   for (const PlanKey& block : blocks) deposited[block] = time;
-  return result.footing_columns > 0;
+  return result.support_columns > 0;
 }
 
 void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone> zones,
-                             std::span<const FootingPlace> footings, double time, double elapsed, Result& result) {
+                             std::span<const SupportPlacement> support_areas, double time, double elapsed, Result& result) {
   // The plan collects all three rules before anything changes. One column may be asked for by several; the deepest
   // counts.
-  WakePlan plan;
-  wake_ahead_of_tools(ground, zones, plan);
-  wake_around_motion(
+  ActivationPlan plan;
+  activate_ahead_of_tools(ground, zones, plan);
+  activate_around_motion(
       ground, index, motion_threshold(zones), zones,
       [&](int ix, int iy) { return !rests_since_deposit(ix, iy, zones, time); }, plan);
   plan_slopes(index, zones, plan);
   // What bears a wheel would be booked back at the next check, and the wheel would have fallen meanwhile.
-  std::erase_if(plan, [&](const WakePlan::value_type& entry) {
-    return bears_footing(ground, index, zones, footings, entry.first.second, entry.first.first);
+  std::erase_if(plan, [&](const ActivationPlan::value_type& entry) {
+    return supports_machine(ground, index, zones, support_areas, entry.first.second, entry.first.first);
   });
   fit_budget(zones, index.particles().size(), time, plan);
 
@@ -304,7 +304,7 @@ void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone>
   // Deposit comes before waking, because it speaks of the particles given: what wakes now is not among them. Columns
   // slide last, on ground that has both.
   deposit(index, zones, plan, time, result);
-  wake_planned(index, plan, result);
+  activate_planned(index, plan, result);
   result.slumped_columns = run_slump(index, zones, plan, elapsed);
 }
 
@@ -314,10 +314,10 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   Result result;
   result.removed.assign(particles.size(), 0);
   const ColumnIndex index(particles, s.ground, s.grid);
-  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.awake_zone);
-  const std::vector<FootingPlace> footings = footing_places(standing.footings, s.ground, standing.interval);
-  if (!s.deposit_under(index, zones, footings, time, result)) {
-    s.decide(index, zones, footings, time, elapsed, result);
+  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.active_zone);
+  const std::vector<SupportPlacement> support_areas = support_placements(standing.support_areas, s.ground, standing.interval);
+  if (!s.deposit_under(index, zones, support_areas, time, result)) {
+    s.decide(index, zones, support_areas, time, elapsed, result);
     return result;
   }
   // The other rules see the ground with what was booked, and the particles without.
@@ -331,10 +331,10 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   Result others;
   others.removed.assign(left.size(), 0);
   const ColumnIndex index_left(left, s.ground, s.grid);
-  s.decide(index_left, tool_zones(s.ground, index_left, tools, s.awake_zone), footings, time, elapsed, others);
+  s.decide(index_left, tool_zones(s.ground, index_left, tools, s.active_zone), support_areas, time, elapsed, others);
   for (std::size_t i = 0; i < left.size(); ++i) result.removed[place[i]] = others.removed[i];
   others.removed = std::move(result.removed);
-  others.footing_columns = result.footing_columns;
+  others.support_columns = result.support_columns;
   return others;
 }
 
@@ -346,7 +346,7 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
   // Rows of the ground's own order, so that new particles come alike in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
-      s.waker.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
+      s.activator.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
   return born;
 }
 

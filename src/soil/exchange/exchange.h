@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
-#include "soil/exchange/footing.h"
+#include "soil/exchange/support_area.h"
 #include "soil/particles/particle.h"
 #include "soil/tools/tool_motion.h"
 
@@ -37,12 +37,12 @@ class Exchange {
   struct Result {
     std::vector<Particle> born;         ///< to be added (ids are given by the solver)
     std::vector<std::uint8_t> removed;  ///< one flag per particle given: booked into columns
-    int woken_columns = 0, deposited_blocks = 0, slumped_columns = 0;
-    int footing_columns = 0;  ///< that got soil because a wheel or belt comes onto it
+    int activated_columns = 0, deposited_blocks = 0, slumped_columns = 0;
+    int support_columns = 0;  ///< that got soil because a wheel or belt comes onto it
   };
   /// What stands and rolls on the ground, and how long at most until the next check [s].
   struct Standing {
-    std::span<const Footing> footings;
+    std::span<const SupportArea> support_areas;
     double interval = 0;
   };
   /// One check. `particles` in a repeatable order; `time` is simulated [s] and `elapsed` since the last check. The

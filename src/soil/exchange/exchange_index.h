@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 

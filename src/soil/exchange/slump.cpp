@@ -58,7 +58,7 @@ bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
 
   // Loosening on the way, soil raises the low column by more than it lowers the high one.
   const auto& soils = ground_.setup().soils;
-  const auto loose = [&](const heightfield::Layer& layer) {
+  const auto loose = [&](const heightfield::SoilLayer& layer) {
     return std::max(layer.specific_volume, static_cast<float>(soils[layer.soil].swell));
   };
   ground_.column(high.second, high.first, taken_);
@@ -74,7 +74,7 @@ bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
   taken_.clear();
   // In integers, so that no mass is lost whatever the heights round to.
   ground_.take_above(high.second, high.first, top - depth, taken_);
-  for (heightfield::Layer& layer : taken_) {
+  for (heightfield::SoilLayer& layer : taken_) {
     layer.specific_volume = loose(layer);
     layer.plastic_shear = std::max(layer.plastic_shear, scene::remoulded_shear(soils[layer.soil]));
     ground_.put(low.second, low.first, layer);

@@ -57,7 +57,7 @@ class Slump {
   std::map<PlanKey, Sliding> sliding_;
   double debt_ = 0;  ///< share of a sweep carried to the next check
   // Scratch, kept for its memory.
-  std::vector<heightfield::Layer> taken_;
+  std::vector<heightfield::SoilLayer> taken_;
 };
 
 // The four colours keep the pairs of one colour apart, so a sweep does not depend on the order within a colour; their

@@ -13,7 +13,7 @@ namespace {
 /// quantum's and the float heights' rounding, below the shallowest rut that matters.
 constexpr double kGrown = 0.01;
 /// The same where the low side is awake: where its highest particle lies jumps by half a cell.
-constexpr double kGrownAwake = 0.5;
+constexpr double kGrownActive = 0.5;
 // Both ways along axes and diagonals: the directions in which columns lie at whole steps.
 constexpr int kDirections[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
@@ -28,13 +28,13 @@ void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIn
       for (int dx = -1; dx <= 1; ++dx) seen.insert({block.first + dy, block.second + dx});
   for (const PlanKey& key : seen) {
     auto& block = blocks_[key];
-    const bool awake = deposited.count(key) == 0;
+    const bool active = deposited.count(key) == 0;
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
       const int ix = grid_.column_x(key, c), iy = grid_.column_y(key, c);
       // What still lies on the ground as particles counts where it is awake. Deposited blocks have none any more; the
       // index is older than the deposit and would count them twice.
       const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
-      block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (awake ? index.pile_height(ix, iy) : 0.0));
+      block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (active ? index.pile_height(ix, iy) : 0.0));
     }
   }
 }
@@ -56,8 +56,8 @@ bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const 
   if (!hold_ && !(high_known && low_known)) return false;
   if (!high_known) high = (ground_.start_height(ix, iy) - ground_.datum()) / ground_.cell();
   if (!low_known) low = (ground_.start_height(lx, ly) - ground_.datum()) / ground_.cell();
-  const bool awake = top_[at(lx, ly)] > rest_[at(lx, ly)];
-  return drop <= high - low + (awake ? kGrownAwake : kGrown);
+  const bool active = top_[at(lx, ly)] > rest_[at(lx, ly)];
+  return drop <= high - low + (active ? kGrownActive : kGrown);
 }
 
 void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {

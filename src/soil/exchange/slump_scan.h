@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "soil/exchange/slump_table.h"
-#include "soil/exchange/wake_rules.h"
+#include "soil/exchange/activation_rules.h"
 
 namespace navvy::soil {
 
@@ -82,7 +82,7 @@ class SlumpScan {
   bool hold_;
   int x0_ = 0, y0_ = 0;            // least column of the window
   std::vector<float> rest_, top_;  // surface without and with the soil on it [cells above datum]
-  std::vector<heightfield::Layer> layers_;
+  std::vector<heightfield::SoilLayer> layers_;
   double limit_[2][SlumpTable::kReach + 1] = {};  // weakest drop, [diagonal][steps] [cells]
 };
 

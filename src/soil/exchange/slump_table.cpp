@@ -88,11 +88,11 @@ double SlumpTable::start(std::uint16_t soil, float shear, float specific_volume,
   return start_[place(soil, level, steps, diagonal)];
 }
 
-double SlumpTable::start(std::span<const heightfield::Layer> layers, double low, double high, int steps,
+double SlumpTable::start(std::span<const heightfield::SoilLayer> layers, double low, double high, int steps,
                          bool diagonal) const {
   // From the datum up, as layers are stored.
   double least = kHighest, bottom = 0;
-  for (const heightfield::Layer& layer : layers) {
+  for (const heightfield::SoilLayer& layer : layers) {
     const double top = bottom + kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                                     (soils_[layer.soil].bank_density * cell_ * cell_);
     // Only layers that the drop lays bare: what lies below the low column is held from the sides.

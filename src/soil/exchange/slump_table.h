@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/soil.h"
 
 namespace navvy::soil {
@@ -29,7 +29,7 @@ class SlumpTable {
   double start(std::uint16_t soil, float shear, float specific_volume, int steps, bool diagonal) const;
   /// The least that the layers between two heights of a column allow. `layers` bottom first, heights in m above datum.
   /// Layers that the drop does not lay bare have no say; 100 m when none is.
-  double start(std::span<const heightfield::Layer> layers, double low, double high, int steps, bool diagonal) const;
+  double start(std::span<const heightfield::SoilLayer> layers, double low, double high, int steps, bool diagonal) const;
   /// No soil slides below this drop [m]. The first question of every scan: it spares reading the layers of nearly all
   /// columns.
   double weakest(int steps, bool diagonal) const { return weakest_[place(0, 0, steps, diagonal)]; }

@@ -36,14 +36,14 @@ class BlockIndex {
 
 /// Home blocks (with particles) and active blocks (homes and their 26 neighbours: all nodes particles can reach).
 struct BlockTable {
-  std::vector<BlockKey> homes;   ///< sorted
+  std::vector<BlockKey> particle_blocks;   ///< sorted
   std::vector<BlockKey> active;  ///< sorted
   std::vector<int> neighbours;   ///< 27 per home: index of the neighbour among active
   std::vector<int> around;       ///< 27 per active: index of the neighbour among homes or -1
-  BlockIndex home_index, active_index;
+  BlockIndex particle_block_index, active_index;
 
   /// `homes` sorted and unique.
-  void build(std::vector<BlockKey> sorted_homes);
+  void build(std::vector<BlockKey> sorted_keys);
 };
 
 }  // namespace navvy::soil

@@ -22,17 +22,17 @@ void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& veloci
                              double cell) {
   // The farthest way apart is one of a transfer: its steps share it.
   kernel_
-      .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
+      .args(store.state(), store.capacity(), store.particle_blocks_buffer(), neighbours_, velocity, near.velocity1, near.slot,
             near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),
             static_cast<float>(packed_mass(store.densest(), cell)),
             static_cast<float>(filled_mass(store.densest(), cell)),
             static_cast<float>(closing_share() * std::min(1.0, part)), static_cast<float>(dt / crowding_shear()),
             static_cast<float>(farthest_apart() * std::min(1.0, part)))
-      .enqueue_groups(store.homes().size());
+      .enqueue_groups(store.particle_blocks().size());
 }
 
 void GridToParticle::enqueue_end(ParticleStore& store) {
-  end_kernel_.args(store.state(), store.capacity(), store.homes_buffer()).enqueue_groups(store.homes().size());
+  end_kernel_.args(store.state(), store.capacity(), store.particle_blocks_buffer()).enqueue_groups(store.particle_blocks().size());
 }
 
 }  // namespace navvy::soil

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/near_nodes.h"
 #include "soil/particles/particle_store.h"
 
@@ -27,7 +27,7 @@ class GridToParticle {
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_, end_kernel_;
   device::Buffer<std::int32_t> neighbours_;  ///< 27 active indices per home
 };

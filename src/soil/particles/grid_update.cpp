@@ -33,13 +33,13 @@ void GridUpdate::enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNo
   const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
                                      0.0f};
   far_kernel_
-      .args(far_list_, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), floors_, velocity_, dv_f,
+      .args(far_list_, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(), floors_, velocity_, dv_f,
             hold ? 1 : 0)
       .enqueue_groups(far_);
   // The near kernel leaves the floor to contact_apply: tools act before the ground holds.
   if (near.count == 0) return;
   near_kernel_
-      .args(near.list, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), store.home_surface(),
+      .args(near.list, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(), store.block_surface(),
             near.split, near.before0, near.before1, near.surface, velocity_, near.velocity1, dv_f, hold ? 1 : 0)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }

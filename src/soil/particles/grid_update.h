@@ -8,7 +8,7 @@
 
 #include "core/math.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/near_nodes.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/particle_to_grid.h"
@@ -34,7 +34,7 @@ class GridUpdate {
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel far_kernel_, near_kernel_;
   std::size_t far_ = 0;                                      ///< active blocks that are not near
   device::Buffer<std::int32_t> far_list_;                    ///< their active indices

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 
 namespace navvy::soil {
@@ -20,7 +20,7 @@ class MassCount {
 
   /// Makes room for a count of so many homes: a step asks before it queues its first kernel, so that a full device does
   /// not stop it half-way. @throws DeviceError when there is none.
-  void make_room(std::size_t homes);
+  void reserve(std::size_t particle_blocks);
   /// Queues the count of what is stored now and its way to the host.
   void queue(ParticleStore& store);
   /// The sums of the last `queue`, once something queued after it was waited for; zeros when there are none.
@@ -29,7 +29,7 @@ class MassCount {
  private:
   device::Device& device_;
   std::size_t soils_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_;
   device::Buffer<std::int64_t> masses_;
   std::optional<device::Mapped<const std::int64_t>> sums_;

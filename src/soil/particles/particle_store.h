@@ -57,15 +57,15 @@ class ParticleStore {
   int count() const { return count_; }
   int capacity() const { return capacity_[now_]; }
   const BlockTable& table() const { return table_; }
-  const std::vector<Home>& homes() const { return homes_; }
+  const std::vector<ParticleBlock>& particle_blocks() const { return particle_blocks_; }
   device::Buffer<float>& state() { return state_[now_]; }
   const device::Buffer<float>& state() const { return state_[now_]; }
   device::Buffer<SoilRow>& soils() { return soils_; }
   /// Largest bank density of all soils [kg/m3].
   double densest() const;
-  device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
-  device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
-  device::Buffer<ContactSoil>& home_surface() { return home_surface_; }
+  device::Buffer<ParticleBlock>& particle_blocks_buffer() { return particle_blocks_buffer_; }
+  device::Buffer<std::array<std::int32_t, 4>>& block_keys() { return block_keys_; }
+  device::Buffer<ContactSoil>& block_surface() { return block_surface_; }
 
   /// Home by home the block and every word of every particle as it stands on the device; padding and room to spare are
   /// not state. @throws InputError for homes that do not ascend or a soil that the scene does not have.
@@ -78,8 +78,8 @@ class ParticleStore {
   void lay_out(const std::vector<int>& counts);
   /// The state arrays of a side hold at least `slots`, made for `wanted` when they must be made. Changes nothing when
   /// the device has no room.
-  void make_room(int side, int slots, int wanted);
-  void upload_homes();  ///< @pre their buffers have room
+  void reserve(int side, int slots, int wanted);
+  void upload_particle_blocks();  ///< @pre their buffers have room
   /// Mean over the particles of each home.
   std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
   std::vector<Particle> drop_outside();
@@ -90,15 +90,15 @@ class ParticleStore {
   // On the device; written by `assign` and by re-binning, the state by the transfer in every step, too.
   device::Buffer<SoilRow> soils_;             ///< one per soil, constant
   device::Buffer<float> state_[2];            ///< FIELD_COUNT x capacity words, field after field (particle_fields.h)
-  device::Buffer<ContactSoil> home_surface_;  ///< one per home, mean over its particles
+  device::Buffer<ContactSoil> block_surface_;  ///< one per home, mean over its particles
   std::vector<SoilRow> soil_rows_;
   int capacity_[2] = {0, 0};
   int now_ = 0;  ///< which of the two states stands; re-binning writes the other
   int count_ = 0;
   BlockTable table_;
-  std::vector<Home> homes_;
-  device::Buffer<Home> homes_buffer_, old_homes_buffer_;   ///< one per home, as `homes_`; before the last re-bin
-  device::Buffer<std::array<std::int32_t, 4>> home_keys_;  ///< block (x, y, z, 0) of each home
+  std::vector<ParticleBlock> particle_blocks_;
+  device::Buffer<ParticleBlock> particle_blocks_buffer_, old_particle_blocks_buffer_;   ///< one per home, as `homes_`; before the last re-bin
+  device::Buffer<std::array<std::int32_t, 4>> block_keys_;  ///< block (x, y, z, 0) of each home
 };
 
 }  // namespace navvy::soil

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/particles/particle.h"
 

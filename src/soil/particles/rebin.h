@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 
@@ -30,7 +30,7 @@ RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts);
 struct StoredParticles {
   device::Buffer<float>& state;  ///< FIELD_COUNT x capacity words
   int capacity;
-  device::Buffer<Home>& homes;
+  device::Buffer<ParticleBlock>& particle_blocks;
 };
 
 /// The kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
@@ -40,21 +40,21 @@ class Rebin {
 
   /// Counts where particles go, kRebinCodes per home; waits. `site`: x and y of its lower left and its upper right
   /// corner in G [cells]. No homes: no counts.
-  std::vector<int> count(const StoredParticles& now, std::size_t homes,
+  std::vector<int> count(const StoredParticles& now, std::size_t particle_blocks,
                          const device::Buffer<std::array<std::int32_t, 4>>& keys,
                          const std::array<std::int32_t, 4>& site);
   /// Code of every slot as of the last count; waits. Slots that hold no particle have none.
   std::vector<std::uint8_t> codes() const { return codes_.read(); }
   /// Makes room for a plan of this many homes and slots; throws before anything changed when there is none.
-  void make_room(std::size_t homes, std::size_t slots);
+  void reserve(std::size_t particle_blocks, std::size_t slots);
   /// Queues moving the counted particles into their new homes (laid out in `next.homes`), by cell and in the order of
   /// arrival, and the homes' mean surfaces.
   void move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
-            const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& home_surface);
+            const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface);
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel count_kernel_, gather_kernel_, move_kernel_;
   // Of the last count and move.
   device::Buffer<std::uint8_t> codes_, cells_;  ///< per old slot (rebin_count)

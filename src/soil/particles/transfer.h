@@ -41,7 +41,7 @@ class Transfer {
     double push = 0;   ///< out of a plate [cells]
     std::uint64_t crossed = 0;
   };
-  Largest read_report(std::size_t homes) const;
+  Largest read_report(std::size_t particle_blocks) const;
 
   device::Buffer<float>& velocity() { return grid_.velocity(); }
   device::Buffer<Report>& report() { return report_; }

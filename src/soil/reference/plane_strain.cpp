@@ -148,12 +148,12 @@ void PlaneStrain::scatter(double dt, bool first) {
   kinetic_before_ = moving;
 }
 
-double PlaneStrain::room_at(int i, int k) const {
+double PlaneStrain::free_fraction_at(int i, int k) const {
   double room = kernel_share(k - floor);
   if (has_plate && k > plate.tip) room *= kernel_share(i - plate.x);
   if (wall_x0 >= 0) room *= kernel_share(i - wall_x0);
   if (wall_x1 >= 0) room *= kernel_share(wall_x1 - i);
-  return std::max(room, static_cast<double>(LEAST_ROOM));
+  return std::max(room, static_cast<double>(MIN_FREE_FRACTION));
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
@@ -202,7 +202,7 @@ void PlaneStrain::update_nodes(double dt, bool first) {
       if (k <= floor + kHeldMargin) node.vx = node.vz = 0;
       node.moved_x += dt * node.vx;
       node.moved_z += dt * node.vz;
-      if (first) node.room = node.mass / room_at(i, k);
+      if (first) node.room = node.mass / free_fraction_at(i, k);
     }
 }
 
@@ -216,8 +216,8 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
     lean_x += w * node.room * (i - at.fx);
     lean_z += w * node.room * (k - at.fz);
   });
-  p.x += way_apart(share, lean_x, mass, farthest_apart());
-  p.z += way_apart(share, lean_z, mass, farthest_apart());
+  p.x += crowding_displacement(share, lean_x, mass, farthest_apart());
+  p.z += crowding_displacement(share, lean_z, mass, farthest_apart());
 }
 
 void PlaneStrain::gather(double dt, bool last) {

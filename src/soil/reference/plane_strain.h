@@ -106,7 +106,7 @@ class PlaneStrain {
   void meet_plate(Node& node, int i, int k, double dt);
   void gather(double dt, bool last);
   void spread(PlanePoint& p, double dt_interval);
-  double room_at(int i, int k) const;
+  double free_fraction_at(int i, int k) const;
 
   scene::Soil soil_;
   LawSoil law_;

@@ -132,7 +132,7 @@ void ReferenceSolver::update_grid(double dt, bool hold) {
     if (!empty && !fixed) node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
     if (contact && !empty && !fixed) node.velocity += contact(at, node.mass, node.velocity) / node.mass;
     // Mass per room is what the particles ask for.
-    node.room_mass = node.mass / room_above(above);
+    node.free_fraction_mass = node.mass / free_fraction_above(above);
   }
 }
 
@@ -151,8 +151,8 @@ void ReferenceSolver::gather(double dt) {
     const Weights weights = weights_at(p.x - p.moved);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
       const Node& node = nodes_.at(at);
-      mass += w * node.room_mass;
-      lean += w * node.room_mass * (place - weights.f);
+      mass += w * node.free_fraction_mass;
+      lean += w * node.free_fraction_mass * (place - weights.f);
       v += w * node.velocity;
       moment += w * node.velocity * place.transpose();
     });
@@ -163,7 +163,7 @@ void ReferenceSolver::gather(double dt) {
     Vec3 way = (dt / cell_) * v;
     const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
     p.j = seen_opening(p.j, p.j0, mass, filled, closing);
-    for (int axis = 0; axis < 3; ++axis) way[axis] += way_apart(share, lean[axis], mass, most);
+    for (int axis = 0; axis < 3; ++axis) way[axis] += crowding_displacement(share, lean[axis], mass, most);
     p.x += way;
     p.moved += way;
     fastest_ = std::max(fastest_, way.cwiseAbs().maxCoeff() * cell_ / dt);

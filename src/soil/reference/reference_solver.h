@@ -61,7 +61,7 @@ class ReferenceSolver {
   void update_grid(double dt, bool hold);
   void gather(double dt);  ///< back to the points, which move
   struct Node {
-    double mass = 0, room_mass = 0;
+    double mass = 0, free_fraction_mass = 0;
     Vec3 momentum = Vec3::Zero(), velocity = Vec3::Zero();
   };
   std::vector<scene::Soil> soils_;

@@ -9,7 +9,7 @@
 
 #include "core/math.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
 #include "soil/tools/marks.h"
@@ -53,7 +53,7 @@ class Contact {
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
 
   /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
-  /// lays out tiles again (near_homes, near_slot).
+  /// lays out tiles again (near_particle_blocks, near_slot).
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
   /// Takes the tools' twists and places for a step that the transfer under way holds: lists, sides of nodes and plates
   /// stay those of its start, and levers are those of now.
@@ -64,7 +64,7 @@ class Contact {
   void go_on(Transfer& transfer);
   /// Builds the near lists for the poses they were last built for (after `visit` has loaded).
   void list_near(const BlockTable& table);
-  const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
+  const std::vector<std::uint8_t>& near_particle_blocks() const { return near_particle_blocks_; }
   const std::vector<int>& near_slot() const { return near_slot_; }
   NearNodes& nodes() { return nodes_; }
   /// What the last step did to near nodes, two entries a node; of blocks that are marked as touched.
@@ -121,7 +121,7 @@ class Contact {
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
   void set_window(Registered& tool) const;
-  void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
+  void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
   void upload_tools();
   Tool tool_now(std::size_t index) const;
   template <class... Tail>
@@ -135,9 +135,9 @@ class Contact {
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
   ShellQuery shells_;
-  device::Program contact_program_;
+  device::KernelProgram contact_program_;
   device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
-  std::vector<std::uint8_t> near_homes_;
+  std::vector<std::uint8_t> near_particle_blocks_;
   std::vector<int> near_slot_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;

@@ -122,7 +122,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
   return again;
 }
 
-void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
+void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const {
   // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
   const double far = settings_.band + settings_.margin;
   for (const Registered& tool : tools_) {
@@ -139,7 +139,7 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
       const int triangle = tool.first_triangle + piece.triangle;
       // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
-      offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
+      offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.particle_block_index, particle_blocks);
     }
   }
 }
@@ -147,44 +147,44 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
 void Contact::list_near(const BlockTable& table) {
   std::size_t triangles = 0;  // of all tools, which count on from one another
   for (const Registered& tool : tools_) triangles += tool.geometry->triangles().size();
-  Marks node_marks(table.active.size(), triangles), home_marks(table.homes.size(), triangles);
-  find_candidates(table, node_marks, home_marks);
+  Marks node_marks(table.active.size(), triangles), particle_block_marks(table.particle_blocks.size(), triangles);
+  find_candidates(table, node_marks, particle_block_marks);
   near_slot_.assign(table.active.size(), -1);
-  near_homes_.assign(table.homes.size(), 0);
+  near_particle_blocks_.assign(table.particle_blocks.size(), 0);
   near_keys_.clear();
   // Candidate triangles per near block, in ascending order of blocks.
-  std::vector<std::int32_t> near_list, near_homes;
-  CandidateRows of_blocks, of_homes;
+  std::vector<std::int32_t> near_list, near_particle_blocks;
+  CandidateRows node_candidates, particle_candidates;
   for (std::size_t b = 0; b < table.active.size(); ++b) {
     if (!node_marks.any(b)) continue;
     near_slot_[b] = static_cast<int>(near_list.size());
     near_list.push_back(static_cast<int>(b));
     near_keys_.push_back(table.active[b]);
-    of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+    node_candidates.first.push_back(static_cast<std::int32_t>(node_candidates.triangles.size()));
     node_marks.each(b,
-                    [&](std::size_t triangle) { of_blocks.triangles.push_back(static_cast<std::int32_t>(triangle)); });
+                    [&](std::size_t triangle) { node_candidates.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
-  of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+  node_candidates.first.push_back(static_cast<std::int32_t>(node_candidates.triangles.size()));
   // Without near blocks no kernel of contact runs, and no buffer needs room.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
-  for (std::size_t h = 0; h < table.homes.size(); ++h) {
+  for (std::size_t h = 0; h < table.particle_blocks.size(); ++h) {
     // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
-    bool near = home_marks.any(h);
+    bool near = particle_block_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
     if (!near) continue;
-    near_homes_[h] = 1;
-    near_homes.push_back(static_cast<std::int32_t>(h));
-    of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
-    home_marks.each(h,
-                    [&](std::size_t triangle) { of_homes.triangles.push_back(static_cast<std::int32_t>(triangle)); });
+    near_particle_blocks_[h] = 1;
+    near_particle_blocks.push_back(static_cast<std::int32_t>(h));
+    particle_candidates.first.push_back(static_cast<std::int32_t>(particle_candidates.triangles.size()));
+    particle_block_marks.each(h,
+                    [&](std::size_t triangle) { particle_candidates.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
-  of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
+  particle_candidates.first.push_back(static_cast<std::int32_t>(particle_candidates.triangles.size()));
 
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
-  shells_.set_near(of_blocks, of_homes, near_homes);
+  shells_.set_near(node_candidates, particle_candidates, near_particle_blocks);
   const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_.split, nodes);
   ensure(device_, nodes_.before0, 4 * nodes);

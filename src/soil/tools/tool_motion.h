@@ -42,7 +42,7 @@ struct ToolImpulse {
 /// Where a tool is, for waking ahead of it and for keeping soil near it awake.
 struct ToolRegion {
   int tool = -1;                                ///< from add_tool
-  bool seated = false;                          ///< it stands on ground that bears it: keeps no soil awake
+  bool supported = false;                          ///< it stands on ground that bears it: keeps no soil awake
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< box of the shell in W [m]
   Vec3 velocity = Vec3::Zero();                 ///< of the box centre [m/s]
 };

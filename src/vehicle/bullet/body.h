@@ -9,7 +9,7 @@
 
 #include "core/archive.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 

@@ -14,7 +14,7 @@ constexpr double kSliding = 0.05;  // [m/s]
 /// Slower blows do not rebound, or nothing would come to rest: Bullet's own threshold [m/s].
 constexpr double kBlow = 0.2;
 /// Time in which a soft contact gives way to a load [s]: it creeps there and does not swing.
-constexpr double kGivesWay = 0.05;
+constexpr double kYields = 0.05;
 /// A gap that no body closes in a step [m].
 constexpr double kFar = 1e3;
 
@@ -121,7 +121,7 @@ void ContactMaterials::soften(btDispatcher& dispatcher, const btCollisionObject&
   for_soft_points([](const scene::MaterialPair& together, const int& bearing, btManifoldPoint& point) {
     if ((point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) return;  // a blow
     point.m_combinedContactStiffness1 = 1 / (together.softness * bearing);
-    point.m_combinedContactDamping1 = kGivesWay * point.m_combinedContactStiffness1;
+    point.m_combinedContactDamping1 = kYields * point.m_combinedContactStiffness1;
     point.m_contactPointFlags |= BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
   });
 }

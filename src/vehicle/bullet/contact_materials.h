@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scene/material.h"
-#include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/bullet_machine.h"
 
 namespace navvy::vehicle {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vehicle/kinematics.h"
-#include "vehicle/pump.h"
+#include "vehicle/hydraulic_pump.h"
 
 namespace navvy::vehicle {
 
@@ -38,8 +38,8 @@ class Hydraulics {
   OilDemand demand(int cylinder, double opened, double effort, bool flows) const;
 
   /// Its memory is the machine's state; asked only when there is one.
-  Pump& pump() { return pump_; }
-  const Pump& pump() const { return pump_; }
+  HydraulicPump& pump() { return pump_; }
+  const HydraulicPump& pump() const { return pump_; }
 
  private:
   // Map of the linkage (constant), and what it gives at the present place.
@@ -53,7 +53,7 @@ class Hydraulics {
   const scene::Machine& machine_;
   std::vector<Cylinder> cylinders_;  // by machine.cylinders
   std::vector<int> of_joint_;
-  Pump pump_;
+  HydraulicPump pump_;
 };
 
 }  // namespace navvy::vehicle

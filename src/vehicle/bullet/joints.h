@@ -48,7 +48,7 @@ class MachineJoints {
   /// Of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
   /// The machine's, idle where it has none.
-  const Pump& pump() const { return hydraulics_.pump(); }
+  const HydraulicPump& pump() const { return hydraulics_.pump(); }
   /// Fastest turning of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 

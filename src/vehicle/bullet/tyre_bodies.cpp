@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/limits.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -31,7 +31,7 @@ void TyreBodies::touch(const BulletMachine& own, Disc& disc, double friction, bt
   touches_.clear();
   for (const MetBody& body : bodies_.all()) {
     if (body.machine == &own) continue;
-    if (const auto at = MetBodies::touch(disc, body, friction, world)) touches_.push_back({*at, &body});
+    if (const auto at = ContactCandidates::touch(disc, body, friction, world)) touches_.push_back({*at, &body});
   }
 }
 
@@ -76,7 +76,7 @@ void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCo
     for (std::size_t w = 0; w < machines[m]->wheels().size(); ++w) {
       machines[m]->wheels()[w].body_W.setZero();
       if (machines[m]->wheels().about(w).track)
-        belts_.push(*machines[m], m, w, bodies_, world, dt);
+        tracks_.push(*machines[m], m, w, bodies_, world, dt);
       else
         push_tyre(*machines[m], m, w, world, dt);
     }

@@ -14,7 +14,7 @@ namespace {
 
 // Of a crawler's travel motor to an error of speed [s]: the oil of a pump goes through it, and it shall turn a machine
 // whose belts resist with half its weight. With the time of wheels a robot asked for 0.5 rad/s has 0.1 after 8 s.
-constexpr double kBeltResponse = 0.05;
+constexpr double kTrackResponse = 0.05;
 
 // One overload a kind: a new kind does not build until it has both.
 std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels) {
@@ -59,7 +59,7 @@ DriveLine::Group DriveLine::driven_side(const std::vector<DriveWheel>& wheels, b
 }
 
 DriveLine::DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
-                     const std::optional<scene::DriveEngine>& engine)
+                     const std::optional<scene::CombustionEngine>& engine)
     : powertrain_(powertrain), groups_(std::move(groups)) {
   if (engine) engine_.emplace(*engine, powertrain.engine_power > 0);
 }
@@ -77,7 +77,7 @@ DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>
     wheels.spin += turns[w].spin;
     wheels.radius += turns[w].radius;
     wheels.spin_inertia += turns[w].spin_inertia;
-    if (turns[w].belt) wheels.response = kBeltResponse;
+    if (turns[w].running_track) wheels.response = kTrackResponse;
     ++wheels.count;
   }
   if (wheels.count == 0) return wheels;
@@ -105,18 +105,18 @@ double DriveLine::engine_torque(Group& group, const DriveInput& input, const Dri
   const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
   const double goal = std::clamp(input.speed, -most, most);
   // The reverser stands as is asked, or at speed 0 as it rolls.
-  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin), cage = way * wheels.spin;
+  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin), carrier = way * wheels.spin;
   const double asked = group.governor.ask(goal, wheels, dt);
-  engine_->shift(input.gear, cage, way * asked * wheels.radius, dt);
-  const GearedEngine::Bounds most_torque = engine_->bounds(cage, pump_power);
-  if (engine_->about().kind == scene::DriveEngine::Kind::kSpeedSource) {
-    held_ = HeldCage{group.governor.asked() / wheels.radius, most_torque.high};
+  engine_->shift(input.gear, carrier, way * asked * wheels.radius, dt);
+  const GearedEngine::Bounds most_torque = engine_->bounds(carrier, pump_power);
+  if (engine_->about().kind == scene::CombustionEngine::Kind::kSpeedSource) {
+    held_ = HeldCarrier{group.governor.asked() / wheels.radius, most_torque.high};
     return 0;
   }
   double low = most_torque.low / wheels.radius, high = most_torque.high / wheels.radius;
   if (way < 0) low = -std::exchange(high, -low);
   const double torque = group.governor.give(asked, low, high, wheels, dt) * wheels.radius;
-  state_ = engine_->state(cage, way * torque, pump_power);
+  state_ = engine_->state(carrier, way * torque, pump_power);
   return torque / wheels.count;
 }
 
@@ -126,7 +126,7 @@ void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& t
   torque.assign(turns.size(), 0);
   held_.reset();
   if (powertrain_.engine_power <= 0) pump_power = 0;
-  state_ = engine_ ? engine_->state(0, 0, pump_power) : EngineState{0, 0, pump_power, 0};
+  state_ = engine_ ? engine_->state(0, 0, pump_power) : CombustionEngineState{0, 0, pump_power, 0};
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const DrivenWheels wheels = on_line(group, turns, mass);
@@ -143,8 +143,8 @@ void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& t
   }
 }
 
-void DriveLine::settle(double cage, double torque) {
-  if (held_) state_ = engine_->state(cage, torque, 0);
+void DriveLine::settle(double carrier, double torque) {
+  if (held_) state_ = engine_->state(carrier, torque, 0);
 }
 
 void DriveLine::visit(Archive& a) {

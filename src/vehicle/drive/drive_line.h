@@ -34,7 +34,7 @@ struct Coupled {
 };
 
 /// A cage that turns as it is told, over the next step.
-struct HeldCage {
+struct HeldCarrier {
   double speed = 0;   ///< [rad/s]
   double torque = 0;  ///< at most [N m]
 };
@@ -45,7 +45,7 @@ struct WheelTurn {
   double spin = 0;          ///< positive rolls forward [rad/s]
   double radius = 0;        ///< loaded [m]
   double spin_inertia = 0;  ///< [kg m2]
-  bool belt = false;        ///< a sprocket
+  bool running_track = false;        ///< a sprocket
 };
 
 /// How a wheel moves, for engines that move the machine by it.
@@ -92,12 +92,12 @@ class DriveLine {
   void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
                std::vector<double>& torque, double pump_power = 0);
   /// After that: the mean of all driven wheels as a source of speed holds it; nothing otherwise.
-  const std::optional<HeldCage>& held() const { return held_; }
+  const std::optional<HeldCarrier>& held() const { return held_; }
   /// Tells the speed that it came to [rad/s] and the torque that it took [N m].
-  void settle(double cage, double torque);
+  void settle(double carrier, double torque);
 
   /// Zeros where neither gears nor a shared engine are.
-  const EngineState& engine() const { return state_; }
+  const CombustionEngineState& engine() const { return state_; }
 
   /// Memory of the governors and of the engine.
   void visit(Archive& a);
@@ -110,7 +110,7 @@ class DriveLine {
     SpeedGovernor governor;
   };
   DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
-            const std::optional<scene::DriveEngine>& engine = std::nullopt);
+            const std::optional<scene::CombustionEngine>& engine = std::nullopt);
   static Group all_driven(const std::vector<DriveWheel>& wheels);
   /// Half the machine: the driven wheels of the left or right side.
   static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);
@@ -127,8 +127,8 @@ class DriveLine {
   scene::Powertrain powertrain_;
   std::vector<Group> groups_;
   std::optional<GearedEngine> engine_;  // of a line of one group
-  std::optional<HeldCage> held_;        // of the present step
-  EngineState state_;
+  std::optional<HeldCarrier> held_;        // of the present step
+  CombustionEngineState state_;
 };
 
 /// The line of machine.drive.

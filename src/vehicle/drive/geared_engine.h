@@ -23,9 +23,9 @@ namespace navvy::vehicle {
 class GearedEngine {
  public:
   /// @throws InputError without gears, or without two points of a torque curve.
-  GearedEngine(scene::DriveEngine about, bool drives_pump);
+  GearedEngine(scene::CombustionEngine about, bool drives_pump);
 
-  const scene::DriveEngine& about() const { return about_; }
+  const scene::CombustionEngine& about() const { return about_; }
   /// Of engine to cage, in a gear from 1 on, or in the one that is in.
   double ratio(int gear) const;
   double ratio() const { return ratio(gear_); }
@@ -36,14 +36,14 @@ class GearedEngine {
   /// speed `cage` [rad/s], or where none does, the strongest; for a change upwards a quarter more than it, or than what
   /// the gear that is in gives. It changes once a second at most unless the engine would leave its range. A source of
   /// speed stays in the first.
-  void shift(int command, double cage, double torque, double dt);
+  void shift(int command, double carrier, double torque, double dt);
   /// Torque of the cage [N m] that is to be had at its speed while a pump takes `pump_power` [W], which goes first.
   struct Bounds {
     double low = 0, high = 0;
   };
-  Bounds bounds(double cage, double pump_power) const;
+  Bounds bounds(double carrier, double pump_power) const;
   /// What the engine does at these; its power is the pump's and the drive's together.
-  EngineState state(double cage, double torque, double pump_power) const;
+  CombustionEngineState state(double carrier, double torque, double pump_power) const;
 
   /// The gear, and when it was put in.
   void visit(Archive& a);
@@ -55,12 +55,12 @@ class GearedEngine {
   /// Speed of the engine [rad/s] for that of its clutch's other side.
   double engine_speed(double shaft) const;
   /// Most torque at the cage [N m] in a gear: forwards, and holding back.
-  double pull(int gear, double cage) const;
-  double hold(int gear, double cage) const;
+  double pull(int gear, double carrier) const;
+  double hold(int gear, double carrier) const;
   /// In a gear the engine would neither slip nor race at this speed of the cage.
-  bool fits(int gear, double cage) const;
+  bool fits(int gear, double carrier) const;
 
-  scene::DriveEngine about_;
+  scene::CombustionEngine about_;
   double slowest_ = 0;  // [rad/s]
   int gear_ = 1;
   double held_;  // since the last change [s]

@@ -12,7 +12,7 @@
 #include "core/limits.h"
 #include "core/log.h"
 #include "folder.h"
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 
 namespace navvy::geometry {
 namespace {

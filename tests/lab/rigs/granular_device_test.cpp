@@ -9,7 +9,7 @@
 namespace navvy::lab {
 namespace {
 
-TEST(LabColumn, PlaneRunOutLiesInTheBandAndAHardFloorOutsideIt) {
+TEST(LabColumn, PlaneRunOutIsInTheBandAndAHardFloorOutsideIt) {
   const Report report = run_rig("column", {});  // 30 cells, as the band demands
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through a plate"), 0);
@@ -93,7 +93,7 @@ TEST(LabRigs, SayWhatTheyMeasureAndRefuseNonsense) {
   EXPECT_THROW(find_rig("rest").run(setup), InputError);
 }
 
-TEST(Lab, RefusesGeometryThatMeansNothingAndTellsEveryFault) {
+TEST(Lab, RejectsMeaninglessGeometryAndReportsEveryFault) {
   lab::Setup setup = default_setup(find_rig("column"), test_device());
   EXPECT_NO_THROW(check(find_rig("column"), setup));
   setup.geometry["l0"] = -1;

@@ -69,7 +69,7 @@ TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
   ASSERT_NE(wedge, nullptr);
   EXPECT_TRUE(force->judged());
   EXPECT_NE(force->source.find("[Lancellotta 2002]"), std::string::npos);
-  EXPECT_FALSE(wedge->has_gate());
+  EXPECT_FALSE(wedge->has_tolerance());
   // The wedge is an upper bound: the gate ends below it.
   EXPECT_GT(wedge->expected, force->high);
   EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // three cells deep
@@ -86,7 +86,7 @@ TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
   // What is expected is the residual soil's; the intact one's stands beside it without a gate.
   EXPECT_NEAR(force->expected, 0.5 * 16e2 * kGravity * 0.09 * 3.6902 + 2 * 500 * 0.3 * std::sqrt(3.6902), 1);
   ASSERT_NE(report.find("horizontal force, were the soil intact"), nullptr);
-  EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_gate());
+  EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_tolerance());
 }
 
 /// The series of that name; empty when there is none.
@@ -121,7 +121,7 @@ TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
   EXPECT_LT(run_rig("wall", quick, coarse).simulated_time, 0.5 * slow.simulated_time);
 }
 
-TEST(LabWall, TellsWhatSoilKeepsWhenTheWallStops) {
+TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
   std::map<std::string, double> small = {{"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
   const char* const kept = "force it is held by / force before it stopped";
@@ -138,7 +138,7 @@ TEST(LabWall, TellsWhatSoilKeepsWhenTheWallStops) {
   EXPECT_GT(report.simulated_time, 0.05 + 0.04 / 0.1 + 0.3);
 }
 
-TEST(LabFooting, BearsFourTimesTheCohesionAtHalfTheCellsOfTheGate) {
+TEST(LabFooting, CarriesFourTimesTheCohesionAtHalfTheCellsOfTheTolerance) {
   // Ten cells of breadth read 0.85 of Prandtl's 5.14, twenty 0.96, which the gate asks for. With a transfer in every
   // step ten read more: the transfers' viscosity bore the rest.
   const Report report = run_rig("footing", {}, [](lab::Setup& s) { s.cell = 0.1; });

@@ -24,7 +24,7 @@ Report roll(double slip, double delta_degrees) {
                  });
 }
 
-TEST(LabWheel, BearsItsLoadAndPullsMoreTheMoreItSlips) {
+TEST(LabWheel, CarriesItsLoadAndPullsMoreTheMoreItSlips) {
   double before = -1e9;
   for (const double slip : {-0.5, 0.0, 0.5}) {  // a locked one would go on sinking
     const Report report = roll(slip, 20);

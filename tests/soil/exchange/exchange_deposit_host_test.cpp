@@ -48,7 +48,7 @@ TEST(ExchangeDeposit, AHeapComesBackWithItsMassVolumeAndShape) {
     const Exchange::Result result = site.checks(kRest);
     EXPECT_TRUE(site.particles.empty());
     EXPECT_GT(result.deposited_blocks, 8);
-    EXPECT_EQ(site.open_books(), site.closed());
+    EXPECT_EQ(site.mass_errors(), site.closed());
     // The density state alone decides: the specific volume of a layer is a float.
     EXPECT_NEAR(raised(site), volume, 1e-5 * volume);
     double sum = 0, most = 0;
@@ -69,7 +69,7 @@ TEST(ExchangeDeposit, AHeapComesBackWithItsMassVolumeAndShape) {
     EXPECT_LT(most, 0.030);
     // What lies there now stays there: neither wakes nor slides.
     const Exchange::Result after = site.checks(2);
-    EXPECT_EQ(after.woken_columns, 0);
+    EXPECT_EQ(after.activated_columns, 0);
     EXPECT_EQ(after.slumped_columns, 0);
   }
 }
@@ -92,7 +92,7 @@ TEST(ExchangeDeposit, VolumeIsMassTimesDensityStateClampedToSwell) {
   }
 }
 
-TEST(ExchangeDeposit, WakingAndBookingBackAgainAndAgainChangesNothing) {
+TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
   Site site({sand(), loam()}, 48, 40, {{"loam", 0.25}, {"sand", 9}},
             [](int ix, int iy) { return 0.2 * std::sin(0.2 * ix) * std::cos(0.15 * iy); });
   const std::vector<float> start = site.heights();
@@ -100,7 +100,7 @@ TEST(ExchangeDeposit, WakingAndBookingBackAgainAndAgainChangesNothing) {
     site.wake({8, 8, 32, 28}, -0.55);
     site.checks(kRest);
     ASSERT_TRUE(site.particles.empty());
-    EXPECT_EQ(site.open_books(), site.closed());
+    EXPECT_EQ(site.mass_errors(), site.closed());
     double most = 0, sum = 0;
     int count = 0;
     const std::vector<float> now = site.heights();
@@ -123,7 +123,7 @@ TEST(ExchangeDeposit, FlatGroundComesBackAsItWas) {
   site.wake({8, 8, 32, 28}, -0.55);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
   // Sub-millimetre: heights are sampled every half cell and interpolated.
   for (const float h : site.heights()) EXPECT_NEAR(h, 0, 5e-4);
 }
@@ -136,11 +136,11 @@ TEST(ExchangeDeposit, RefusesAnArchAndASlabInTheAir) {
   const std::size_t count = site.particles.size();
   EXPECT_EQ(site.checks(2 * kRest).deposited_blocks, 0);
   EXPECT_EQ(site.particles.size(), count);
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
   // What has stood for good is booked as fallen in.
   EXPECT_EQ(site.checks(5).deposited_blocks, 2);
   EXPECT_TRUE(site.particles.empty());
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
 }
 
 TEST(ExchangeDeposit, RefusesSoilUnderAToolUntilItLeaves) {
@@ -169,7 +169,7 @@ TEST(ExchangeDeposit, WaitsForMovingSoilInAndBesideTheBlock) {
   for (Particle& p : site.particles) p.v[1] = 0;
   site.checks(2 * kRest);
   EXPECT_TRUE(site.particles.empty());
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
 }
 
 TEST(ExchangeDeposit, SoilThatCameToRestSteepStandsUntilItsDropGrows) {
@@ -179,9 +179,9 @@ TEST(ExchangeDeposit, SoilThatCameToRestSteepStandsUntilItsDropGrows) {
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   Exchange::Result result = site.checks(2);
-  EXPECT_EQ(result.woken_columns, 0);
+  EXPECT_EQ(result.activated_columns, 0);
   EXPECT_EQ(result.slumped_columns, 0);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 16; iy < 24; ++iy) site.ground.take_above(15, iy, -0.1, taken);
   result = site.checks(1);
   EXPECT_GT(result.slumped_columns, 0);
@@ -195,7 +195,7 @@ TEST(ExchangeDeposit, CrowdedSoilIsStoredDenserInsteadOfRisingIntoAPillar) {
   site.add(block);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
   // 15 % above the iso-surface, whose volume is that of the box within a few per cent; the 44 columns along its cliffs
   // keep all they have.
   EXPECT_NEAR(raised(site), (1.15 * 100 + 1.25 * 44) * 4 * kCell * kCell * kCell, 0.05 * raised(site));
@@ -218,7 +218,7 @@ TEST(ExchangeDeposit, AVerticalCutThroughTheMiddleOfAColumnStaysWhereItIs) {
   EXPECT_NEAR(risen(10), 1.0, 0.02);
 }
 
-TEST(ExchangeDeposit, BooksTwoSoilsAsTwoLayersInTheirOrder) {
+TEST(ExchangeDeposit, DepositsTwoSoilsAsTwoLayersInTheirOrder) {
   Site site({sand(), loam()});
   site.add(fill(
       site, {16, 16, kFlat}, {20, 20, kFlat + 2}, 1.10f, [](double, double, double) { return true; }, 0, 1));
@@ -226,7 +226,7 @@ TEST(ExchangeDeposit, BooksTwoSoilsAsTwoLayersInTheirOrder) {
       site, {16, 16, kFlat + 2}, {20, 20, kFlat + 3}, 1.05f, [](double, double, double) { return true; }, 0, 0));
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
-  EXPECT_EQ(site.open_books(), site.closed());
+  EXPECT_EQ(site.mass_errors(), site.closed());
   for (int ix = 16; ix < 20; ++ix) {
     const auto layers = site.ground.layers(ix, 18);
     ASSERT_EQ(layers.size(), 3u);

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/exchange/exchange.h"
 
@@ -88,7 +88,7 @@ struct Site {
     Exchange::Result sum;
     for (int n = static_cast<int>(std::lround(seconds / step)); n > 0; --n) {
       const Exchange::Result one = check(tools);
-      sum.woken_columns += one.woken_columns;
+      sum.activated_columns += one.activated_columns;
       sum.deposited_blocks += one.deposited_blocks;
       sum.slumped_columns += one.slumped_columns;
     }
@@ -110,7 +110,7 @@ struct Site {
     }
   }
   /// Columns and particles against the start, per soil; all zero when the books are closed.
-  std::vector<std::int64_t> open_books() const {
+  std::vector<std::int64_t> mass_errors() const {
     std::vector<std::int64_t> sum = ground.mass_change();
     for (std::size_t s = 0; s < inserted.size(); ++s) sum[s] -= inserted[s];
     for (const Particle& p : particles) sum[p.soil] += p.mass;

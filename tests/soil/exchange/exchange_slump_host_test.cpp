@@ -13,7 +13,7 @@ namespace {
 
 // Takes the soil above `height` off the columns with x < 24: a cliff that somebody dug.
 void cut(Site& site, double height) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < site.ground.ny(); ++iy)
     for (int ix = 0; ix < 24; ++ix) site.ground.take_above(ix, iy, height, taken);
 }
@@ -66,10 +66,10 @@ TEST(ExchangeSlump, ACliffEndsAtTheSameAngleHoweverOftenItIsLookedAt) {
     Site site({sand()});
     site.step = step;
     cut(site, -1);
-    const std::vector<std::int64_t> books = site.open_books();
+    const std::vector<std::int64_t> books = site.mass_errors();
     EXPECT_GT(site.checks(8).slumped_columns, 0);
     EXPECT_EQ(site.checks(2).slumped_columns, 0) << "not at rest after 8 s";
-    EXPECT_EQ(site.open_books(), books);
+    EXPECT_EQ(site.mass_errors(), books);
     angles.push_back(slope_of(site).mean);
     print_value("cliff 1 m, slope with a check every " + std::to_string(step) + " s [deg]", angles.back(),
                 "all within 1", "[docs/validation.md, Slopes, walls and cuts]");
@@ -172,19 +172,19 @@ TEST(ExchangeSlump, GroundThatWasSteepHoldsUntilItIsTouched) {
   // A rut on top and mere reading do not matter; digging at the foot does.
   site.ground.compact_to(30, 20, 1.48);
   EXPECT_EQ(site.checks(0.5).slumped_columns, 0);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   site.ground.take_above(23, 20, -0.2, taken);
   EXPECT_GT(site.checks(0.5).slumped_columns, 0);
 }
 
-TEST(ExchangeSlump, OverSteepColumnsBesideAwakeSoilWakeInstead) {
+TEST(ExchangeSlump, OverSteepColumnsBesideActiveSoilActivateInstead) {
   Site site({sand()});
   cut(site, -1);
   site.wake({18, 18, 23, 22}, -1.2);
-  const std::vector<std::int64_t> before = site.open_books();
+  const std::vector<std::int64_t> before = site.mass_errors();
   const Exchange::Result result = site.check();
-  EXPECT_GT(result.woken_columns, 0);
-  EXPECT_EQ(site.open_books(), before);
+  EXPECT_GT(result.activated_columns, 0);
+  EXPECT_EQ(site.mass_errors(), before);
   EXPECT_LT(site.ground.height(24, 20), -0.9);
 }
 
@@ -193,7 +193,7 @@ TEST(ExchangeSlump, ColumnsSlideWhenNoParticleMayBeAdded) {
   world.solver.max_particles = 0;
   heightfield::Ground ground = make_ground(world, 48, 40, {{"sand", 9}});
   Exchange exchange(world, ground);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 40; ++iy)
     for (int ix = 0; ix < 24; ++ix) ground.take_above(ix, iy, -1, taken);
   ToolRegion tool;  // stands beside the face

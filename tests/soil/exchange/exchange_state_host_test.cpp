@@ -19,7 +19,7 @@ std::string digest(const Site& site) {
 
 // A heap at rest, a cliff, moving soil beside a pit and a tool that drags through all of it.
 void set_scene(Site& site) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 16; ++iy)
     for (int ix = 0; ix < 12; ++ix) site.ground.take_above(ix, iy, -1, taken);
   site.add(fill(
@@ -38,10 +38,10 @@ ToolRegion tool_at(const Site& site, double time) {
   return tool;
 }
 
-TEST(ExchangeState, BooksStayClosedThroughRandomWork) {
+TEST(ExchangeState, MassBalanceHoldsThroughRandomWork) {
   Site site({sand(), loam()}, 48, 40, {{"loam", 0.4}, {"sand", 9}});
   set_scene(site);
-  const std::vector<std::int64_t> before = site.open_books();
+  const std::vector<std::int64_t> before = site.mass_errors();
   Random random(11);
   int woken = 0, deposited = 0, slumped = 0;
   for (int n = 0; n < 120; ++n) {
@@ -52,8 +52,8 @@ TEST(ExchangeState, BooksStayClosedThroughRandomWork) {
     }
     const Exchange::Result result =
         site.check(n < 60 ? std::vector{tool_at(site, site.time)} : std::vector<ToolRegion>{});
-    ASSERT_EQ(site.open_books(), before) << "check " << n;
-    woken += result.woken_columns;
+    ASSERT_EQ(site.mass_errors(), before) << "check " << n;
+    woken += result.activated_columns;
     deposited += result.deposited_blocks;
     slumped += result.slumped_columns;
   }

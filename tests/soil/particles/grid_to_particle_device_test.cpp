@@ -27,7 +27,7 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
       nodes[4 * i + 3] = 1e-3f;  // loose: nothing is moved apart
     }
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();
@@ -47,7 +47,7 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
       fastest = std::max(fastest, v.cwiseAbs().maxCoeff());
     }
     double reported = 0;
-    for (const Report& report : stages.report.map_read(0, table.homes.size()))
+    for (const Report& report : stages.report.map_read(0, table.particle_blocks.size()))
       reported = std::max(reported, static_cast<double>(report.speed));
     EXPECT_NEAR(reported, fastest, 2e-6);
   }
@@ -68,7 +68,7 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
       nodes[4 * i + 3] = static_cast<float>(1.2 * full + slope * x);
     }
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();
@@ -105,7 +105,7 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
     std::vector<float> nodes(stages.grid.velocity().size(), 0.0f);
     for (std::size_t i = 3; i < nodes.size(); i += 4) nodes[i] = static_cast<float>(mass);
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();

@@ -38,7 +38,7 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
   }
 }
 
-TEST(GridUpdate, HoldsNodesInTheGroundAndTellsMassPerRoomAboveIt) {
+TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
   // Ground through the middle of the strewn particles.
   const std::vector<Particle> particles = strewn(200);
   Stages open(particles), stages(particles, 40);
@@ -51,7 +51,7 @@ TEST(GridUpdate, HoldsNodesInTheGroundAndTellsMassPerRoomAboveIt) {
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_EQ(nodes[4 * i + k], above <= kHeldMargin ? 0.0f : free_nodes[4 * i + k]);
     // One float division more than without ground.
-    EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::room_above(above), mass, 1e-6 * mass);
+    EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::free_fraction_above(above), mass, 1e-6 * mass);
     held += mass > 0 && above <= kHeldMargin;
   }
   EXPECT_GT(held, 10);

@@ -45,7 +45,7 @@ struct Stages {
         gather(rig::Rig::device()) {
     store.assign(particles);
     const BlockTable& table = store.table();
-    scatter.set_blocks(table.homes.size(), store.set_near(std::vector<std::uint8_t>(table.homes.size(), 0)));
+    scatter.set_blocks(table.particle_blocks.size(), store.set_near(std::vector<std::uint8_t>(table.particle_blocks.size(), 0)));
     grid.set_blocks(table, std::vector<int>(table.active.size(), -1));
     gather.set_blocks(table);
     std::vector<BlockFloor> floors(table.active.size());
@@ -56,7 +56,7 @@ struct Stages {
         for (float& height : floors[b].around[n]) height = level;
       }
     grid.set_floor(floors);
-    report = device::Buffer<Report>(rig::Rig::device(), table.homes.size() + 1);
+    report = device::Buffer<Report>(rig::Rig::device(), table.particle_blocks.size() + 1);
     near.slot =
         device::Buffer<std::int32_t>(rig::Rig::device(), std::vector<std::int32_t>(table.active.size() + 1, -1));
     // Never read without near blocks, but arguments of the kernels.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "soil/reference/double_contact.h"
 #include "soil/reference/reference_solver.h"
 #include "soil/rig.h"
@@ -67,7 +67,7 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
     node.mu = std::tan(soil.tool_friction_angle);
     node.share = reference::contact_share(clearance, inset, &reach);
     if (!(node.share > 0)) return Vec3(Vec3::Zero());
-    const double fill = mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance));
+    const double fill = mass / (soil.bank_density * cell * cell * cell * reference::free_fraction_above(clearance));
     node.settling = reference::contact_settling(clearance, fill, -node.n.z(), &reach);
     const double area = factor * reference::contact_touch(fill) * reference::contact_area(clearance, inset, &reach);
     node.stick = reference::contact_stick(soil.adhesion, area, &reach);

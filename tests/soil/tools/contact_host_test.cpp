@@ -34,7 +34,7 @@ double area_of(double length, double offset, double across) {
   return sum;
 }
 
-TEST(ContactLaw, AreasOfNodesSumUpToThePlateWhereverItLies) {
+TEST(ContactLaw, NodeAreasSumUpToThePlateWhereverItIs) {
   // Exact on a lattice along the plate's axes: hats and ramps as wide as a cell add up to one. Two edges must not share
   // a node: from 2 x 2.3 cells on.
   for (const double length : {5.0, 7.3, 12.0})
@@ -110,7 +110,7 @@ TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
   EXPECT_NEAR(impulse_on(node, 0, Vec3(0.7, 0, 0)).z(), 2 * 0.3, 1e-12) << "sideways is no advance";
 }
 
-TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAPlateThatStandsAndBearsItsWholeLoadMeanwhile) {
+TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAStandingPlateThatCarriesItsWholeLoad) {
   // 0.02 m/s are left to the node; what is more is taken from its whole mass, however slowly it came.
   ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.28, 1e-12);
@@ -127,7 +127,7 @@ TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAPlateThatStandsAndBearsIts
   }
 }
 
-TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotBearIt) {
+TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotSupportIt) {
   // A load in a bucket and soil before a blade are held whatever the node has (above): they would leak at their
   // surface.
   const Reach r = shipped();

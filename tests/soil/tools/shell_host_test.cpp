@@ -69,7 +69,7 @@ TEST(ShellGeometry, PiecesCoverTheShellWithoutGapsAndStaySmall) {
   EXPECT_NEAR(area, 0.8 + 2 * 0.6 * 1.8, 1e-9);
 }
 
-TEST(ShellGeometry, HoldsWhatLiesInsideAndHeapedOverTheMouth) {
+TEST(ShellGeometry, HoldsSoilInsideAndHeapedOverTheMouth) {
   const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
   EXPECT_TRUE(box.holds(Vec3(0, 0, 0.3)));
   EXPECT_TRUE(box.holds(Vec3(0, 0, 0.75)));  // in the heap

@@ -45,6 +45,6 @@ Dig Dig::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Dig::activity(Workplace& place) const { return std::make_unique<Digging>(place, *this); }
+std::unique_ptr<Activity> Dig::activity(OperatorContext& place) const { return std::make_unique<Digging>(place, *this); }
 
 }  // namespace navvy::control

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
@@ -12,7 +12,7 @@ namespace navvy::control {
 /// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the cycles it was ordered. It is
 /// done when little is left of the design, or all its cycles were made; its account tells what is left and how deep it
 /// came.
-struct Dig final : Step {
+struct Dig final : ProgramStep {
   static constexpr const char* kElement = "dig";
   Vec2 from = Vec2::Zero(),
        to = Vec2::Zero();         ///< ends of the centre line at the surface [m] in W; far end first or not
@@ -29,7 +29,7 @@ struct Dig final : Step {
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// Digging: phases of the cycle, and a look round at the end.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
 };

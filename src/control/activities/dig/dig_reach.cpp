@@ -123,7 +123,7 @@ class DigReach {
 
   const Dig& dig_;
   ReachCheck& check_;
-  const Arm arm_;
+  const ArmKinematics arm_;
   const Pose X_WS_;  // frame of the swing axis
 };
 

@@ -22,7 +22,7 @@ constexpr double kHeldUp = 0.4;       // of a slice: raised by more on the whole
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
 // On the last floor a scoop that brings less is not made a second time: a high wall sheds as much again and again.
-constexpr double kCrumbs = 0.15;
+constexpr double kLooseParticles = 0.15;
 constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
 // What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
 // so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
@@ -57,7 +57,7 @@ double heap_height(const SurfaceView& surface, const Vec2& p) {
 template <class Use>
 auto with_surface(const Observation& seen, Use use) {
   if (seen.surface) return use(*seen.surface);
-  const GroundSurface resting(*seen.ground);
+  const GroundSurfaceView resting(*seen.ground);
   return use(static_cast<const SurfaceView&>(resting));
 }
 
@@ -251,7 +251,7 @@ bool Digging::conclude(const Observation& seen) {
   return true;
 }
 
-std::vector<Figure> Digging::account(const Observation& seen) const {
+std::vector<Measurement> Digging::account(const Observation& seen) const {
   const TrenchState now = with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
   return {{"cycles", static_cast<double>(cycles())},
           {"design_volume_m3", plan_.design_volume()},
@@ -305,7 +305,7 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
       if (!move(seen)) break;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       // A pass along the whole floor may well bring little; a scoop that does shows soil that cannot be dug.
-      if (m.cleaning == 0 && seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kCrumbs) * m.full_mass)
+      if (m.cleaning == 0 && seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass)
         with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
       tell(CycleEvent::kDumpStart);
       start_dump(seen);

@@ -37,13 +37,13 @@ struct DiggingMemory {
 /// then a look round. digging.cpp has the sequence, scoop.cpp the tip's paths through the soil.
 class Digging final : public ActivityWith<DiggingMemory> {
  public:
-  Digging(Workplace& place, const Dig& dig) : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
+  Digging(OperatorContext& place, const Dig& dig) : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
 
   /// Takes how the machine stands and the surface before the dig, and goes to the first scoop.
   void begin(const Observation& seen) override;
   const char* phase() const override;
   /// Cycles, design volume and what is left of it, depth asked for and reached.
-  std::vector<Figure> account(const Observation& seen) const override;
+  std::vector<Measurement> account(const Observation& seen) const override;
   /// Memory and plan.
   void visit(Archive& a) override;
 
@@ -97,7 +97,7 @@ class Digging final : public ActivityWith<DiggingMemory> {
   bool overdue(double limit) const;
 
   const Dig& dig_;
-  const Arm& arm_;
+  const ArmKinematics& arm_;
   DigPlan plan_;
 };
 

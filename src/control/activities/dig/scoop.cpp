@@ -22,7 +22,7 @@ constexpr double kCurlTime = 2.2;                   // [s]
 constexpr double kCurlSpeed = 0.7, kCutOn = 0.7, kFair = 0.5;
 // A curl on the spot pours out what it turns: so much of the way to the near end is left to it, whatever the load.
 // tuned: on a trench 1.6 m deep passes along the floor that dragged on to the end lost 190 of 250 kg in the curl.
-constexpr double kCurlWay = 0.6;  // [m]
+constexpr double kCurlPath = 0.6;  // [m]
 // The bucket turns by this share about its pin and by the rest about its lip. About the lip the heel bears on the floor
 // that was just cut and the boom pushes it down. tuned: on the trench's first scoop the soil pushes the bucket up by
 // 40, 24, 1 and 1 kN at 0, 0.4, 0.6 and 1, and the load is 415, 400, 361 and 344 kg.
@@ -75,7 +75,7 @@ bool Digging::drag(const Observation& seen, double dt) {
   // Before it has turned in, its heel is at the far end, and the curl would press it into the wall.
   const bool full = seen.payload >= m.full_mass && m.tip.angle <= wish + kTurnedIn;
   const bool planned = m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
-  if (!(full || planned || m.s <= std::min(kCurlWay, 0.5 * m.scoop_start) || overdue(kPhaseLimit))) return false;
+  if (!(full || planned || m.s <= std::min(kCurlPath, 0.5 * m.scoop_start) || overdue(kPhaseLimit))) return false;
   // The curl begins where the arm is, not where it was wished to be.
   m.curl_angle = m.tip.angle = m.tip.reached;
   m.curl_z = m.tip.z = m.tip.z + m.tip.lift;
@@ -88,7 +88,7 @@ bool Digging::curl(const Observation& seen, double dt) {
   // A held bucket still curls, slowly; one that tips the machine waits.
   const double least = m.stance.footing(seen.X_WB) < 1 ? 0 : 0.1;
   m.progress = std::min(1.0, m.progress + std::max(least, m.tip.slow) * dt / kCurlTime);
-  if (m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlWay))
+  if (m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath))
     m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
   m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
   const double arc = arm_.bucket_length() * (std::sin(m.tip.reached) - std::sin(m.curl_angle));
