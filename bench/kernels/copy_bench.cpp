@@ -11,7 +11,8 @@ int main() {
   using namespace navvy;
   try {
     device::Device device;
-    for (const std::size_t bytes : {std::size_t{1} << 20, std::size_t{1} << 24, std::size_t{1} << 28}) {
+    for (const std::size_t bytes :
+         {std::size_t{1} << 20, std::size_t{1} << 24, std::size_t{1} << 28}) {
       const double bandwidth = bench::copy_bandwidth(device, bytes);
       bench::Row row;
       row.bench = "copy";

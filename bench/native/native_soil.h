@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same transfers, law,
-// mixing and closing as kernels/soil, without tools, on level ground; float4 nodes on a dense grid, particles sorted by
-// cell.
+// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same
+// transfers, law, mixing and closing as kernels/soil, without tools, on level ground; float4 nodes
+// on a dense grid, particles sorted by cell.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 namespace navvy::bench {
 
-/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the installed library.
+/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the
+/// installed library.
 class NativeSoil {
  public:
   /// `ground`: height of the resting ground [cells of the grid frame].
@@ -53,7 +54,7 @@ class NativeSoil {
   bool sum_openings(const ParticleBlock& home);
   void scatter(const ParticleBlock& home, float dt, bool hold);
   void update_grid(float dt, bool hold);
-  void end_transfer();                       ///< particles go the way that was booked
+  void end_transfer();                                ///< particles go the way that was booked
   float gather(const ParticleBlock& home, float dt);  ///< the fastest velocity component
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +

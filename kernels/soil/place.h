@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a home's particles are
-// to tools. One source for both schedules; included after their dialect.
+// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a
+// home's particles are to tools. One source for both schedules; included after their dialect.
 #ifndef NAVVY_KERNELS_SOIL_PLACE_H
 #define NAVVY_KERNELS_SOIL_PLACE_H
 
@@ -18,8 +18,8 @@ typedef struct Place {
   uchar cell;  // of its base node in the block it goes to, 0..63, x fastest
 } Place;
 
-// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and of the upper right
-// corner of the site, from there too.
+// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and
+// of the upper right corner of the site, from there too.
 static inline Place place_of(float x, float y, float z, float4 site) {
   const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
   const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);

@@ -11,11 +11,13 @@
 
 namespace navvy::control {
 
-/// Where the bucket is in the swing plane: frame S of the swing axis (origin on the axis, z along it).
+/// Where the bucket is in the swing plane: frame S of the swing axis (origin on the axis, z along
+/// it).
 struct BucketPose {
   double reach = 0;   ///< tip's distance from the swing axis [m]
   double height = 0;  ///< tip above S's origin [m]
-  double angle = 0;   ///< of the line pin to tip above the horizontal, outward positive [rad]; -pi/2 points down
+  /// Of the line pin to tip above the horizontal, outward positive [rad]; -pi/2 points down.
+  double angle = 0;
 };
 
 /// Joint angles of boom, stick and bucket [rad].
@@ -31,12 +33,13 @@ class ArmKinematics {
   BucketPose forward(const ArmAngles& q) const;
   /// The joint angles of a pose; false when it is out of reach or limits, `q` is undefined then.
   bool inverse(const BucketPose& pose, ArmAngles& q) const;
-  /// Same with the bucket angle nearest to the wish that is possible, within 120 deg; `pose.angle` is changed to it.
-  /// Continuous where the limit is: the angle is found to 1e-6 rad.
+  /// Same with the bucket angle nearest to the wish that is possible, within 120 deg; `pose.angle`
+  /// is changed to it. Continuous where the limit is: the angle is found to 1e-6 rad.
   bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
   /// How far the shell's lowest point hangs below the tip when the bucket is at `angle` [m], >= 0.
   double below_tip(double angle) const;
-  /// How far the part of the shell less than `height` [m] above the tip stands outward of it [m], >= 0.
+  /// How far the part of the shell less than `height` [m] above the tip stands outward of it [m],
+  /// >= 0.
   double beyond_tip(double angle, double height) const;
   /// Pin to tip [m].
   double bucket_length() const { return bucket_; }
@@ -54,7 +57,8 @@ class ArmKinematics {
   /// Direction of the cutting edge relative to the line pin to tip [rad].
   double cut_angle() const { return cut_angle_; }
   const scene::Bucket& bucket() const { return bucket_data_; }
-  /// Limits of boom (0), stick (1), bucket (2) [rad]; half a turn either way where the joint has none.
+  /// Limits of boom (0), stick (1), bucket (2) [rad]; half a turn either way where the joint has
+  /// none.
   double lower(int i) const { return lower_[static_cast<std::size_t>(i)]; }
   double upper(int i) const { return upper_[static_cast<std::size_t>(i)]; }
   /// Without limits the upper structure turns round and round: the bounds mean nothing then.

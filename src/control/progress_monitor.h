@@ -17,10 +17,11 @@ class ProgressMonitor {
  public:
   /// From here on.
   void begin(const PlanePose& at);
-  /// One control step of driving at `speed` [m/s] with `left` [m] to the target. Not kRunning: the machine has stood
-  /// for its whole patience, 5 s or what a slower drive needs, and `reason` says so and what holds it.
-  StepState look(const Observation& seen, const scene::Machine& machine, double speed, double left, double dt,
-                 std::string& reason);
+  /// One control step of driving at `speed` [m/s] with `left` [m] to the target. Not kRunning: the
+  /// machine has stood for its whole patience, 5 s or what a slower drive needs, and `reason` says
+  /// so and what holds it.
+  StepState look(const Observation& seen, const scene::Machine& machine, double speed, double left,
+                 double dt, std::string& reason);
 
   void visit(Archive& a) {
     a("anchor", anchor_);
@@ -30,8 +31,8 @@ class ProgressMonitor {
   }
 
  private:
-  // Since the machine last got on: where that was, how long ago [s], how far its wheels have rolled [m], and the sum of
-  // the tyres' force over time [N s].
+  // Since the machine last got on: where that was, how long ago [s], how far its wheels have rolled
+  // [m], and the sum of the tyres' force over time [N s].
   Vec3 anchor_ = Vec3::Zero();  // x, y [m], yaw [rad]
   double stuck_ = 0, rolled_ = 0;
   Vec3 push_ = Vec3::Zero();

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
-#include "coupling/support_areas.h"
 #include "coupling/hitching.h"
 #include "coupling/machine_placing.h"
+#include "coupling/support_areas.h"
 
 namespace navvy::coupling {
 namespace {
@@ -16,7 +16,8 @@ constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and
 
 }  // namespace
 
-Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine, vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
+Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
+                   vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
     : world_(world),
       dynamic_(engine),
@@ -48,7 +49,9 @@ Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine, ve
 }
 
 double Coupling::payload(const ToolLoad& tool) const {
-  const auto pose = [&](const ToolLoad& t) { return engine(t.machine).link(index(t.machine), t.link).X_WL; };
+  const auto pose = [&](const ToolLoad& t) {
+    return engine(t.machine).link(index(t.machine), t.link).X_WL;
+  };
   const auto machine = [&](const ToolLoad& t) -> const scene::Machine& {
     return world_.machines[static_cast<std::size_t>(t.machine)].machine;
   };
@@ -66,7 +69,8 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
     const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
     // Soil before a blade lies on the ground, whatever the blade's hull says.
     if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
-      containers.push_back({tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
+      containers.push_back(
+          {tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
   }
   return solver_.held(particles, containers);
 }
@@ -75,7 +79,8 @@ void Coupling::step(double dt) {
   // Soil acts over the interval that starts at these poses.
   std::vector<Pose> before;
   before.reserve(tools_.size());
-  for (const ToolLoad& tool : tools_) before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
+  for (const ToolLoad& tool : tools_)
+    before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
   {
     const Lap lap(time_share_.vehicle);
     if (dynamic_.machine_count() > 0) {
@@ -129,7 +134,8 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.rock_W += blend * (rock - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine)
-          .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W, dt);
+          .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W,
+                                 impulse.p_W, dt);
   }
 }
 
@@ -143,7 +149,8 @@ std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
       // What moves as it is told stands on nothing.
       if (machine.kinematic) continue;
-      add_support_areas(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
+      add_support_areas(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load,
+                        kRutInterval * dt, out);
     }
   }
   return out;
@@ -159,7 +166,8 @@ void Coupling::press_ruts(double dt) {
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const int wheel = static_cast<int>(w);
       if (machine.wheels[w].track)
-        for (const terramechanics::TrackPatch& patch : engine.track_patches(placed_[m].index, wheel))
+        for (const terramechanics::TrackPatch& patch :
+             engine.track_patches(placed_[m].index, wheel))
           running_tracks.push_back(patch);
       else
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
@@ -171,7 +179,8 @@ void Coupling::press_ruts(double dt) {
 }
 
 void ToolLoad::visit(Archive& a) {
-  // Which shell it is, the scene says. All of the last step is what outputs show until the next one.
+  // Which shell it is, the scene says. All of the last step is what outputs show until the next
+  // one.
   a("force_W", force_W);
   a("moment_W", moment_W);
   a("smooth_W", smooth_W);

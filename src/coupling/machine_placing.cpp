@@ -11,7 +11,8 @@
 namespace navvy::coupling {
 namespace {
 
-/// The points of the wheels that touch the machine's own ground plane, its x and y axes, when it stands at X_WM [m].
+/// The points of the wheels that touch the machine's own ground plane, its x and y axes, when it
+/// stands at X_WM [m].
 std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
   std::vector<double> q;
   for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
@@ -23,7 +24,8 @@ std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
     if (joint < 0) continue;
     if (wheel.track) {
       const int carrier = machine.joints[static_cast<std::size_t>(joint)].parent;
-      for (const Vec3& p : wheel.track->lower_run()) out.push_back(X_WL[static_cast<std::size_t>(carrier)] * p);
+      for (const Vec3& p : wheel.track->lower_run())
+        out.push_back(X_WL[static_cast<std::size_t>(carrier)] * p);
       continue;
     }
     const int link = machine.joints[static_cast<std::size_t>(joint)].child;
@@ -41,11 +43,13 @@ Pose base_pose(const scene::Machine& machine, const Pose& X_WM) {
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   Pose X_WM = placed.X_WM;
   if (!placed.on_ground) return X_WM;
-  // As the machine would stand by itself: level, on the ground below its origin, turned about the vertical only.
+  // As the machine would stand by itself: level, on the ground below its origin, turned about the
+  // vertical only.
   const Vec3 origin(X_WM.translation().x(), X_WM.translation().y(),
                     ground.sample(X_WM.translation().x(), X_WM.translation().y()));
   const Vec3 ahead = X_WM.linear().col(0);
-  Pose standing = make_pose(origin.x(), origin.y(), origin.z(), 0, 0, std::atan2(ahead.y(), ahead.x()));
+  Pose standing =
+      make_pose(origin.x(), origin.y(), origin.z(), 0, 0, std::atan2(ahead.y(), ahead.x()));
   X_WM.translation().z() += origin.z();
   const std::vector<Vec3> feet = contacts(placed.machine, standing);
   if (feet.size() < 3) return X_WM;

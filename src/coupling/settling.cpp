@@ -27,7 +27,8 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
   add_hitches(scene, *engine, [&of](int machine) {
-    return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) - of.begin());
+    return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) -
+                            of.begin());
   });
   Ruts ruts(ground);
   TrackRuts track_ruts(ground, ruts);
@@ -47,12 +48,14 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
           tyres.push_back({wheels[w], engine->wheel(machine, wheel)});
           continue;
         }
-        for (const terramechanics::TrackPatch& patch : engine->track_patches(machine, wheel)) running_tracks.push_back(patch);
+        for (const terramechanics::TrackPatch& patch : engine->track_patches(machine, wheel))
+          running_tracks.push_back(patch);
       }
     }
     const double interval = kRutInterval * dt;
     ruts.press(tyres, interval);
-    if (!running_tracks.empty()) track_ruts.press(running_tracks, kSinkSpeed * interval, tyres.empty());
+    if (!running_tracks.empty())
+      track_ruts.press(running_tracks, kSinkSpeed * interval, tyres.empty());
   }
   for (std::size_t i = 0; i < of.size(); ++i)
     out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),

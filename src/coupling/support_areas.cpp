@@ -8,10 +8,11 @@
 namespace navvy::coupling {
 namespace {
 
-void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel, soil::SupportArea footing,
-               std::vector<soil::SupportArea>& support_areas) {
+void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+               soil::SupportArea footing, std::vector<soil::SupportArea>& support_areas) {
   const Pose& X = wheel.X_WWheel;
-  // Round in every direction of its way: however the machine leans, its lowest point is plumb below the axle.
+  // Round in every direction of its way: however the machine leans, its lowest point is plumb below
+  // the axle.
   footing.ahead_W = Vec3(X.linear()(0, 0), X.linear()(1, 0), 0).normalized();
   footing.left_W = X.linear().col(1);
   footing.radius = tyre.radius;
@@ -28,8 +29,9 @@ void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel, soil:
 }
 
 /// One for the idler, one for the run from the first roller to the last, one for the sprocket.
-void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier, const Vec3& p_WSprocket,
-              soil::SupportArea footing, std::vector<soil::SupportArea>& support_areas) {
+void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier,
+               const Vec3& p_WSprocket, soil::SupportArea footing,
+               std::vector<soil::SupportArea>& support_areas) {
   const scene::Track& track = *wheel.track;
   const Pose& X = carrier.X_WL;
   footing.ahead_W = X.linear().col(0);
@@ -49,21 +51,25 @@ void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier, con
 
 }  // namespace
 
-void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine, int index, int wheel, double load,
-                  double ready, std::vector<soil::SupportArea>& support_areas) {
+void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
+                       int index, int wheel, double load, double ready,
+                       std::vector<soil::SupportArea>& support_areas) {
   const scene::Wheel& about = machine.wheels[static_cast<std::size_t>(wheel)];
   const vehicle::WheelState state = engine.wheel(index, wheel);
   soil::SupportArea footing;
   footing.half_width = 0.5 * about.width;
   footing.ready = ready;
   if (!about.track) {
-    footing.give = std::clamp(load / about.stiffness, 0.0, terramechanics::kMaxDeflection * about.radius);
+    footing.give =
+        std::clamp(load / about.stiffness, 0.0, terramechanics::kMaxDeflection * about.radius);
     add_tyres(about, state, footing, support_areas);
     return;
   }
-  const scene::Joint& joint = machine.joints[static_cast<std::size_t>(machine.joint_index(about.joint))];
+  const scene::Joint& joint =
+      machine.joints[static_cast<std::size_t>(machine.joint_index(about.joint))];
   footing.give = std::max(0.0, state.force_W.z() / about.stiffness);
-  add_track(about, engine.link(index, joint.parent), state.X_WWheel.translation(), footing, support_areas);
+  add_track(about, engine.link(index, joint.parent), state.X_WWheel.translation(), footing,
+            support_areas);
 }
 
 }  // namespace navvy::coupling

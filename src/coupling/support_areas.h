@@ -10,10 +10,11 @@
 
 namespace navvy::coupling {
 
-/// Adds the tyres of wheel `wheel` of machine `index` of `engine`, pressed flat by `load` [N] as ruts count it, or the
-/// idler, the rollers and the sprocket of its belt. The ground must be there `ready` [s] before them
-/// [docs/exchange.md, footings].
-void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine, int index, int wheel, double load,
-                  double ready, std::vector<soil::SupportArea>& support_areas);
+/// Adds the tyres of wheel `wheel` of machine `index` of `engine`, pressed flat by `load` [N] as
+/// ruts count it, or the idler, the rollers and the sprocket of its belt. The ground must be there
+/// `ready` [s] before them [docs/exchange.md, footings].
+void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
+                       int index, int wheel, double load, double ready,
+                       std::vector<soil::SupportArea>& support_areas);
 
 }  // namespace navvy::coupling

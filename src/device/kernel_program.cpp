@@ -46,26 +46,30 @@ namespace {
 std::unique_ptr<SlowCall> log_if_slow(const Device::State& device, const std::string& what) {
   const std::string& folder = prepare_kernel_cache().folder;
   return std::make_unique<SlowCall>(
-      "the OpenCL driver (" + device.info.platform + ") is still compiling " + what + " for " + device.info.name +
-      ", after " + std::to_string(static_cast<int>(SlowCall::kPatience)) + " s; some drivers take minutes" +
+      "the OpenCL driver (" + device.info.platform + ") is still compiling " + what + " for " +
+      device.info.name + ", after " + std::to_string(static_cast<int>(SlowCall::kPatience)) +
+      " s; some drivers take minutes" +
       (folder.empty() ? "" : ", once: the result is kept in " + folder));
 }
 
 // Drivers end logs with zeros or empty lines, which would split an error's text.
 std::string build_log(cl_program program, const Device::State& device) {
   std::size_t size = 0;
-  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS) return "";
+  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) !=
+      CL_SUCCESS)
+    return "";
   std::string log(size, '\0');
-  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr) != CL_SUCCESS) {
+  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, size, log.data(),
+                            nullptr) != CL_SUCCESS) {
     return "";
   }
   while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
   return log;
 }
 
-/// Compilers are written in C++ and take what they need by `new`: out of memory they throw through the driver's C code,
-/// which then keeps its locks for ever. All that the driver made is given up with them: releasing any program, also one
-/// that was built before, would wait for one.
+/// Compilers are written in C++ and take what they need by `new`: out of memory they throw through
+/// the driver's C code, which then keeps its locks for ever. All that the driver made is given up
+/// with them: releasing any program, also one that was built before, would wait for one.
 cl_int build_or_give_up(KernelProgram::State& state, const std::string& flags) {
   try {
     return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
@@ -78,8 +82,9 @@ cl_int build_or_give_up(KernelProgram::State& state, const std::string& flags) {
   }
 }
 
-std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& name, const std::string& text,
-                                      const std::vector<std::string>& options) {
+std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& name,
+                                            const std::string& text,
+                                            const std::vector<std::string>& options) {
   auto state = std::make_shared<KernelProgram::State>();
   state->device = device.state();
   state->name = name;
@@ -96,8 +101,9 @@ std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& n
   const auto slow = log_if_slow(*state->device, "kernels/" + name);
   code = build_or_give_up(*state, flags);
   if (code != CL_SUCCESS) {
-    throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " + device.info().name +
-                          ", options: " + flags + "\n" + build_log(state->program, *state->device),
+    throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " +
+                          device.info().name + ", options: " + flags + "\n" +
+                          build_log(state->program, *state->device),
                       code);
   }
   return state;
@@ -105,7 +111,9 @@ std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& n
 
 }  // namespace
 
-std::string define(const std::string& name, int value) { return "-D" + name + "=" + std::to_string(value); }
+std::string define(const std::string& name, int value) {
+  return "-D" + name + "=" + std::to_string(value);
+}
 
 std::string define(const std::string& name, float value) {
   // Hexadecimal keeps every bit; brackets keep a sign apart from what stands before it.
@@ -115,7 +123,9 @@ std::string define(const std::string& name, float value) {
 }
 
 // Text goes in as it is, so it must hold no blanks: flags are joined by them.
-std::string define(const std::string& name, const std::string& value) { return "-D" + name + "=" + value; }
+std::string define(const std::string& name, const std::string& value) {
+  return "-D" + name + "=" + value;
+}
 
 std::vector<std::string> compiler_flags(const DeviceInfo& device) {
   std::vector<std::string> flags;
@@ -123,23 +133,27 @@ std::vector<std::string> compiler_flags(const DeviceInfo& device) {
   flags.emplace_back("-cl-std=CL1.2");
   // Without it a GPU may round a quotient 2.5 ulp and a root 3 ulp off, each vendor in its own way.
   if (device.correct_divide_sqrt) flags.emplace_back("-cl-fp32-correctly-rounded-divide-sqrt");
-  // Not here on purpose: -cl-fast-relaxed-math, -cl-finite-math-only, -cl-unsafe-math-optimizations, -cl-mad-enable.
-  // They gain nothing measurable, hide NaNs and change bits. Contraction is switched off by common/portable.h, as
-  // OpenCL C has a pragma for it and no flag.
+  // Not here on purpose: -cl-fast-relaxed-math, -cl-finite-math-only,
+  // -cl-unsafe-math-optimizations, -cl-mad-enable. They gain nothing measurable, hide NaNs and
+  // change bits. Contraction is switched off by common/portable.h, as OpenCL C has a pragma for it
+  // and no flag.
   return flags;
 }
 
-KernelProgram::KernelProgram(Device& device, const std::string& path, const std::vector<std::string>& options)
+KernelProgram::KernelProgram(Device& device, const std::string& path,
+                             const std::vector<std::string>& options)
     : state_(build(device, path, kernel_source(path), options)) {}
 
-KernelProgram KernelProgram::from_text(Device& device, const std::string& name, const std::string& text,
-                           const std::vector<std::string>& options) {
+KernelProgram KernelProgram::from_text(Device& device, const std::string& name,
+                                       const std::string& text,
+                                       const std::vector<std::string>& options) {
   KernelProgram program;
   program.state_ = build(device, name, text, options);
   return program;
 }
 
-Kernel::Kernel(const KernelProgram& program, const std::string& name) : state_(std::make_shared<State>()) {
+Kernel::Kernel(const KernelProgram& program, const std::string& name)
+    : state_(std::make_shared<State>()) {
   state_->program = program.state();
   state_->name = name;
   const Device::State& device = *state_->program->device;
@@ -147,12 +161,14 @@ Kernel::Kernel(const KernelProgram& program, const std::string& name) : state_(s
   state_->kernel = clCreateKernel(state_->program->program, name.c_str(), &code);
   // The message names the file, as a wrong name is mostly one that was renamed there.
   check(code, "clCreateKernel", device, name + " of kernels/" + state_->program->name);
-  check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments, &state_->arguments, nullptr),
+  check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments,
+                        &state_->arguments, nullptr),
         "clGetKernelInfo", device, name);
-  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_COMPILE_WORK_GROUP_SIZE, sizeof state_->group,
-                                 state_->group, nullptr),
+  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_COMPILE_WORK_GROUP_SIZE,
+                                 sizeof state_->group, state_->group, nullptr),
         "clGetKernelWorkGroupInfo", device, name);
-  for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);  // 0: it asks for none
+  // 0: it asks for none
+  for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);
 }
 
 const std::string& Kernel::name() const { return state_->name; }
@@ -160,15 +176,16 @@ const std::string& Kernel::name() const { return state_->name; }
 std::size_t Kernel::max_work_group() const {
   const Device::State& device = *state_->program->device;
   std::size_t size = 0;
-  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_WORK_GROUP_SIZE, sizeof size, &size, nullptr),
+  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_WORK_GROUP_SIZE,
+                                 sizeof size, &size, nullptr),
         "clGetKernelWorkGroupInfo", device, state_->name);
   return size;
 }
 
 void Kernel::expect(std::size_t count) const {
   if (count == state_->arguments) return;
-  throw DeviceError("kernel " + state_->name + " takes " + std::to_string(state_->arguments) + " arguments, " +
-                        std::to_string(count) + " were given",
+  throw DeviceError("kernel " + state_->name + " takes " + std::to_string(state_->arguments) +
+                        " arguments, " + std::to_string(count) + " were given",
                     CL_INVALID_KERNEL_ARGS);
 }
 
@@ -178,17 +195,20 @@ void Kernel::set_buffer(unsigned index, const RawBuffer& buffer) {
 }
 
 void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes) {
-  // Set at every launch anew by some callers, so the text of an error is put together only when there is one.
+  // Set at every launch anew by some callers, so the text of an error is put together only when
+  // there is one.
   const cl_int code = clSetKernelArg(state_->kernel, index, bytes, data);
   if (code == CL_SUCCESS) return;
-  check(code, "clSetKernelArg", *state_->program->device, state_->name + ", argument " + std::to_string(index));
+  check(code, "clSetKernelArg", *state_->program->device,
+        state_->name + ", argument " + std::to_string(index));
 }
 
 void Kernel::enqueue(WorkSize global) { launch(global, nullptr); }
 
 void Kernel::enqueue(WorkSize global, WorkSize local) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (local.n[axis] == 0) throw DeviceError("kernel " + state_->name + ": a work-group needs at least one work-item");
+    if (local.n[axis] == 0)
+      throw DeviceError("kernel " + state_->name + ": a work-group needs at least one work-item");
     // The kernel guards its index against the work-items this adds.
     global.n[axis] = (global.n[axis] + local.n[axis] - 1) / local.n[axis] * local.n[axis];
   }
@@ -204,14 +224,15 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
   Device::State& device = *state_->program->device;
   cl_event event = nullptr;
-  // The driver may compile a kernel's machine code at its first launch and not at the build; the notice ends at the
-  // next wait.
-  if (!state_->launched && !device.compiling) device.compiling = log_if_slow(device, "kernel " + state_->name);
+  // The driver may compile a kernel's machine code at its first launch and not at the build; the
+  // notice ends at the next wait.
+  if (!state_->launched && !device.compiling)
+    device.compiling = log_if_slow(device, "kernel " + state_->name);
   state_->launched = true;
   // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
-  check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0, nullptr,
-                               device.profiling ? &event : nullptr),
+  check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0,
+                               nullptr, device.profiling ? &event : nullptr),
         "clEnqueueNDRangeKernel", device, state_->name);
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);

@@ -23,20 +23,25 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 bool known(float value) { return value == value; }
 
-[[noreturn]] void fail(const std::string& file, int line, const std::string& value, const std::string& rule,
-                       const std::string& remedy) {
+[[noreturn]] void fail(const std::string& file, int line, const std::string& value,
+                       const std::string& rule, const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, file, line, "navvy:design", value, rule, remedy});
 }
 
-Vec2 centre(const Terrain& site, int ix, int iy) { return site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5); }
+Vec2 centre(const Terrain& site, int ix, int iy) {
+  return site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5);
+}
 
 /// Columns whose centres may lie in a box of W.
 CellRect columns_in(const Terrain& site, const Vec2& low, const Vec2& high) {
   // Clamped as doubles: a surface may reach far beyond any site.
   const Vec2 most(site.nx(), site.ny());
-  const Vec2 a = ((low - site.origin()) / site.cell()).array().floor().max(0).min(most.array()).matrix();
-  const Vec2 b = ((high - site.origin()) / site.cell()).array().ceil().max(0).min(most.array()).matrix();
-  return {static_cast<int>(a.x()), static_cast<int>(a.y()), static_cast<int>(b.x()), static_cast<int>(b.y())};
+  const Vec2 a =
+      ((low - site.origin()) / site.cell()).array().floor().max(0).min(most.array()).matrix();
+  const Vec2 b =
+      ((high - site.origin()) / site.cell()).array().ceil().max(0).min(most.array()).matrix();
+  return {static_cast<int>(a.x()), static_cast<int>(a.y()), static_cast<int>(b.x()),
+          static_cast<int>(b.y())};
 }
 
 DesignSurface nowhere(const CellRect& rect) {
@@ -53,8 +58,8 @@ float& value(DesignSurface& design, int ix, int iy) {
 
 /// Where W lies in the coordinates of surveyors, in metres.
 Vec3 to_survey(const GroundSetup& setup) {
-  return {setup.easting * setup.file_unit - setup.origin.x(), setup.northing * setup.file_unit - setup.origin.y(),
-          setup.height_offset};
+  return {setup.easting * setup.file_unit - setup.origin.x(),
+          setup.northing * setup.file_unit - setup.origin.y(), setup.height_offset};
 }
 
 /// The EPSG code of the element whose bracket stands at `open`, not of what lies in it; 0: none.
@@ -75,8 +80,8 @@ int code_of(const std::string& wkt, std::size_t open) {
   return 0;
 }
 
-/// EPSG codes that name the plane coordinates of a WKT2: that of its projected CRS, which may be part of a compound
-/// one, and then that of the compound.
+/// EPSG codes that name the plane coordinates of a WKT2: that of its projected CRS, which may be
+/// part of a compound one, and then that of the compound.
 std::vector<int> codes_of(const std::string& wkt) {
   std::vector<int> out;
   const std::size_t projected = wkt.find("PROJCRS[");
@@ -89,8 +94,10 @@ std::vector<int> codes_of(const std::string& wkt) {
 
 std::string epsg_text(int code) { return "EPSG:" + std::to_string(code); }
 
-void warn(const scene::Tin& tin, const std::string& value, const std::string& rule, const std::string& remedy) {
-  log_warning(Fault{Fault::Severity::kWarning, tin.file, 0, "navvy:design", value, rule, remedy}.text());
+void warn(const scene::Tin& tin, const std::string& value, const std::string& rule,
+          const std::string& remedy) {
+  log_warning(
+      Fault{Fault::Severity::kWarning, tin.file, 0, "navvy:design", value, rule, remedy}.text());
 }
 
 void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
@@ -99,25 +106,32 @@ void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
     warn(tin, epsg_text(tin.epsg),
          setup.crs_wkt.empty() ? "the site has no CRS, so nobody knows whether the two count alike"
                                : "the CRS of the site's map has no EPSG code to compare with",
-         "give the ground's map its code: gdal_translate -a_srs EPSG:CODE IN OUT.tif; a procedural site counts in W");
+         "give the ground's map its code: gdal_translate -a_srs EPSG:CODE IN OUT.tif; a procedural "
+         "site counts in W");
   if (site.empty()) return;
   if (tin.epsg == 0)
     warn(tin, "", "the file names no EPSG code, the site's map is in " + epsg_text(site[0]),
-         "see that both are the same and add <CoordinateSystem epsgCode=\"" + std::to_string(site[0]) + "\"/>");
+         "see that both are the same and add <CoordinateSystem epsgCode=\"" +
+             std::to_string(site[0]) + "\"/>");
   else if (std::find(site.begin(), site.end(), tin.epsg) == site.end())
     fail(tin.file, 0, epsg_text(tin.epsg), "the site's map is in " + epsg_text(site[0]),
          "export both in one coordinate system");
 }
 
-/// The two feet differ by two parts in a million: nothing on the site, metres at coordinates of millions.
+/// The two feet differ by two parts in a million: nothing on the site, metres at coordinates of
+/// millions.
 void warn_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
   const double off = std::abs(tin.metres / setup.file_unit - 1);
   if (!(off > 1e-7) || off > 1e-5) return;
   char units[80], apart[32];
-  std::snprintf(units, sizeof units, "counts in %.10g m, the site's map in %.10g m", tin.metres, setup.file_unit);
-  std::snprintf(apart, sizeof apart, "%.2g", off * Vec2(setup.easting, setup.northing).norm() * setup.file_unit);
-  warn(tin, "", std::string(units) + ": US survey feet and international feet lie " + apart + " m apart here",
-       "if the coordinates are the same numbers, correct linearUnit (USSurveyFoot or foot)");
+  std::snprintf(units, sizeof units, "counts in %.10g m, the site's map in %.10g m", tin.metres,
+                setup.file_unit);
+  std::snprintf(apart, sizeof apart, "%.2g",
+                off * Vec2(setup.easting, setup.northing).norm() * setup.file_unit);
+  warn(
+      tin, "",
+      std::string(units) + ": US survey feet and international feet lie " + apart + " m apart here",
+      "if the coordinates are the same numbers, correct linearUnit (USSurveyFoot or foot)");
 }
 
 DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
@@ -135,7 +149,9 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   DesignSurface out = nowhere(columns_in(site, (low - shift).head<2>(), (high - shift).head<2>()));
   bool any = false;
   for (const auto& face : tin.faces) {
-    const auto corner = [&](std::size_t i) -> Vec3 { return tin.points[static_cast<std::size_t>(face[i])] - shift; };
+    const auto corner = [&](std::size_t i) -> Vec3 {
+      return tin.points[static_cast<std::size_t>(face[i])] - shift;
+    };
     const Vec3 a = corner(0), b = corner(1) - a, c = corner(2) - a;
     const double twice = b.x() * c.y() - b.y() * c.x();
     // A sliver that is upright or a line covers no column.
@@ -146,15 +162,18 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix) {
         const Vec2 p = centre(site, ix, iy) - a.head<2>();
-        const double u = (p.x() * c.y() - p.y() * c.x()) / twice, v = (b.x() * p.y() - b.y() * p.x()) / twice;
-        // A centre on an edge belongs to both faces, which agree there; rounding may not open a seam.
+        const double u = (p.x() * c.y() - p.y() * c.x()) / twice,
+                     v = (b.x() * p.y() - b.y() * p.x()) / twice;
+        // A centre on an edge belongs to both faces, which agree there; rounding may not open a
+        // seam.
         if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
         value(out, ix, iy) = static_cast<float>(a.z() + u * b.z() + v * c.z());
         any = true;
       }
   }
   if (any) return out;
-  const Vec2 corner = shift.head<2>() + site.origin(), size = site.cell() * Vec2(site.nx(), site.ny());
+  const Vec2 corner = shift.head<2>() + site.origin(),
+             size = site.cell() * Vec2(site.nx(), site.ny());
   const auto meets_site = [&](const Vec2& from, const Vec2& to) {
     return (from.array() < (corner + size).array()).all() && (to.array() > corner.array()).all();
   };
@@ -163,9 +182,10 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   fail(tin.file, 0, span_text(low.head<2>(), high.head<2>()),
        "the surface '" + tin.name + "' covers no column of the site, which reaches over " +
            span_text(corner, corner + size) + " [m]",
-       there     ? "its faces have no area, or are smaller than a column: look at linearUnit"
-       : swapped ? "northing and easting are swapped: LandXML's points are northing easting elevation"
-                 : "give both in the same coordinates and check the unit; a procedural site counts in W");
+       there ? "its faces have no area, or are smaller than a column: look at linearUnit"
+       : swapped
+           ? "northing and easting are swapped: LandXML's points are northing easting elevation"
+           : "give both in the same coordinates and check the unit; a procedural site counts in W");
 }
 
 // --- Areas.
@@ -196,8 +216,8 @@ Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
 }
 
 /// One area on the columns of a rectangle; kNone where it says nothing.
-DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const CellRect& rect, double floor,
-                      DesignSurface& floors) {
+DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const CellRect& rect,
+                      double floor, DesignSurface& floors) {
   DesignSurface sides = nowhere(rect);
   const Vec2 down = std::tan(area.fall) * Vec2(std::cos(area.fall_yaw), std::sin(area.fall_yaw));
   const bool upright = area.batter > radians(89.99), pit = area.depth > 0;
@@ -210,7 +230,8 @@ DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const 
       if (at.inside) {
         value(floors, ix, iy) = static_cast<float>(base);
       } else if (!upright) {
-        const double z = base + (pit ? 1 : -1) * at.distance * rise, ground = site.start_height(ix, iy);
+        const double z = base + (pit ? 1 : -1) * at.distance * rise,
+                     ground = site.start_height(ix, iy);
         // Sides end in daylight.
         if (pit ? z < ground : z > ground) value(sides, ix, iy) = static_cast<float>(z);
       }
@@ -230,7 +251,8 @@ bool touches_edge(const DesignSurface& design, const CellRect& whole) {
 }
 
 /// Adds an area: floors lie over what was there, sides only where they cut deeper or fill higher.
-void add_area(const scene::DesignArea& area, const std::string& file, const Terrain& site, DesignSurface& out) {
+void add_area(const scene::DesignArea& area, const std::string& file, const Terrain& site,
+              DesignSurface& out) {
   Vec2 low = area.polygon[0], high = low;
   for (const Vec2& corner : area.polygon) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
   const Vec2i first = site.column_at(area.polygon[0].x(), area.polygon[0].y());
@@ -277,7 +299,8 @@ std::vector<float> DesignSurface::over(int nx, int ny) const {
   std::vector<float> out(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), kNone);
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix)
-      out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)] = at(ix, iy);
+      out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
+          static_cast<std::size_t>(ix)] = at(ix, iy);
   return out;
 }
 
@@ -305,7 +328,8 @@ DesignComparison against_design(const Terrain& ground, const DesignSurface& desi
     for (int ix = design.rect.x0; ix < design.rect.x1; ++ix) {
       const auto wanted = static_cast<double>(design.at(ix, iy));
       if (wanted != wanted) continue;
-      const double z = ground.height(ix, iy), start = ground.start_height(ix, iy), error = z - wanted;
+      const double z = ground.height(ix, iy), start = ground.start_height(ix, iy),
+                   error = z - wanted;
       ++columns;
       add(start - wanted, out.design_cut, out.design_fill);
       add(z - start, out.fill, out.cut);

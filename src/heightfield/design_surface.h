@@ -24,19 +24,20 @@ struct DesignSurface {
   std::vector<float> over(int nx, int ny) const;
 };
 
-/// The design of `scene` on the columns of its site; nothing where it has none. Of `site` the place, the georeference
-/// and the untouched heights are used.
+/// The design of `scene` on the columns of its site; nothing where it has none. Of `site` the
+/// place, the georeference and the untouched heights are used.
 ///
-/// A TIN is its triangles at the columns' centres; a raster is bilinear, at the edge of what it knows the nearest cell;
-/// an area's sides end where they meet the untouched ground. Costs some 20 ns for a column and each edge of an area.
-/// A TIN's own unit is converted. A warning goes to the log where only one of TIN and site has an EPSG code, and where
-/// one counts in international feet and the other in those of US surveys.
-/// @throws InputError naming file or line: a file that cannot be read, another CRS than the site's, a surface that
-/// covers no column, an area that does not lie on the site.
+/// A TIN is its triangles at the columns' centres; a raster is bilinear, at the edge of what it
+/// knows the nearest cell; an area's sides end where they meet the untouched ground. Costs some 20
+/// ns for a column and each edge of an area. A TIN's own unit is converted. A warning goes to the
+/// log where only one of TIN and site has an EPSG code, and where one counts in international feet
+/// and the other in those of US surveys.
+/// @throws InputError naming file or line: a file that cannot be read, another CRS than the site's,
+/// a surface that covers no column, an area that does not lie on the site.
 std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrain& site);
 
-/// The ground against its design, over the columns that have one. `cut` and `fill` are against the untouched site,
-/// volumes as the soil lies.
+/// The ground against its design, over the columns that have one. `cut` and `fill` are against the
+/// untouched site, volumes as the soil lies.
 struct DesignComparison {
   double area = 0;           ///< [m2]
   double design_cut = 0;     ///< untouched site above the design [m3]

@@ -53,7 +53,8 @@ heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOpti
   return out;
 }
 
-/// The pose after `dt` with this twist; the rotation is exact, so that a turning tool keeps its shape.
+/// The pose after `dt` with this twist; the rotation is exact, so that a turning tool keeps its
+/// shape.
 Pose turned(const Pose& X, const Vec3& v, const Vec3& w, double dt) {
   Pose out = X;
   const double angle = w.norm() * dt;
@@ -74,7 +75,8 @@ std::function<double(double, double)> pit(const SiteBox& box) {
   };
 }
 
-Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, const SiteOptions& options)
+Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell,
+           const SiteOptions& options)
     : device_(&device),
       world_(make_world(std::move(soils), cell, options)),
       ground_(make_ground(world_, options)),
@@ -94,7 +96,8 @@ Site::Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions
 }
 
 void Site::make_solver() {
-  // Tools first exist in the solver: their numbers are the order in which they are added, here as before.
+  // Tools first exist in the solver: their numbers are the order in which they are added, here as
+  // before.
   solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_);
   for (const scene::Shell& shell : shells_) solver_->add_tool(shell);
   solver_->set_crowding(crowding_);
@@ -103,8 +106,10 @@ void Site::make_solver() {
 
 soil::Particle Site::particle(const Vec3& p_W, double volume, int soil) const {
   soil::Particle p;
-  // Positions are stored within a block of cells: a float then resolves micrometres anywhere on the site.
-  const Vec3 grid = (p_W - Vec3(ground_.origin().x(), ground_.origin().y(), ground_.datum())) / cell();
+  // Positions are stored within a block of cells: a float then resolves micrometres anywhere on the
+  // site.
+  const Vec3 grid =
+      (p_W - Vec3(ground_.origin().x(), ground_.origin().y(), ground_.datum())) / cell();
   for (int a = 0; a < 3; ++a) {
     p.block[a] = static_cast<int>(std::floor(grid[a] / soil::kBlockCells));
     p.x[a] = static_cast<float>(grid[a] - soil::kBlockCells * p.block[a]);
@@ -115,12 +120,15 @@ soil::Particle Site::particle(const Vec3& p_W, double volume, int soil) const {
   return p;
 }
 
-std::vector<soil::Particle> Site::fill(const SiteBox& box, const std::function<bool(const Vec3&)>& keep, int soil) const {
+std::vector<soil::Particle> Site::fill(const SiteBox& box,
+                                       const std::function<bool(const Vec3&)>& keep,
+                                       int soil) const {
   std::vector<soil::Particle> out;
   const double h = cell() / 2;
   // Rounded: a box that is meant to be whole half cells is, in spite of its sums.
   const Vec3 count = (box.high - box.low) / h;
-  const int nx = static_cast<int>(std::lround(count.x())), ny = static_cast<int>(std::lround(count.y())),
+  const int nx = static_cast<int>(std::lround(count.x())),
+            ny = static_cast<int>(std::lround(count.y())),
             nz = static_cast<int>(std::lround(count.z()));
   // x fastest, so that neighbours in memory are neighbours in the soil.
   for (int k = 0; k < nz; ++k)
@@ -132,8 +140,8 @@ std::vector<soil::Particle> Site::fill(const SiteBox& box, const std::function<b
   return out;
 }
 
-void Site::rest(std::vector<soil::Particle>& particles, const std::function<double(double, double)>& surface,
-                double surcharge) const {
+void Site::rest(std::vector<soil::Particle>& particles,
+                const std::function<double(double, double)>& surface, double surcharge) const {
   for (soil::Particle& p : particles) {
     const scene::Soil& soil = world_.soils[p.soil];
     const Vec3 p_W = position(p);
@@ -143,7 +151,8 @@ void Site::rest(std::vector<soil::Particle>& particles, const std::function<doub
     const double k0 = soil.poisson / (1 - soil.poisson);
     const double sz = soil.bank_density * world_.gravity.z() * depth - surcharge;
     const double mean = -(1 + 2 * k0) * sz / 3;
-    // The pressure lives in the volume ratio, the rest of the stress in the deviator s = (xx, yy, zz, ...).
+    // The pressure lives in the volume ratio, the rest of the stress in the deviator s = (xx, yy,
+    // zz, ...).
     p.j = static_cast<float>(p.j0 * (1 - mean / soil::law_constants(soil, cell()).bulk));
     p.s[0] = p.s[1] = static_cast<float>(k0 * sz + mean);
     p.s[2] = static_cast<float>(sz + mean);
@@ -157,13 +166,15 @@ void Site::rest(std::vector<soil::Particle>& particles, double surface, double s
 
 Vec3 Site::position(const soil::Particle& particle) const {
   Vec3 grid;
-  for (int a = 0; a < 3; ++a) grid[a] = soil::kBlockCells * particle.block[a] + static_cast<double>(particle.x[a]);
+  for (int a = 0; a < 3; ++a)
+    grid[a] = soil::kBlockCells * particle.block[a] + static_cast<double>(particle.x[a]);
   return grid * cell() + Vec3(ground_.origin().x(), ground_.origin().y(), ground_.datum());
 }
 
 double Site::pressure(const soil::Particle& particle) const {
   const double bulk = soil::law_constants(world_.soils[particle.soil], cell()).bulk;
-  return bulk * std::max(0.0, 1.0 - static_cast<double>(particle.j) / static_cast<double>(particle.j0));
+  return bulk *
+         std::max(0.0, 1.0 - static_cast<double>(particle.j) / static_cast<double>(particle.j0));
 }
 
 int Site::add_tool(const scene::Shell& shell, const Pose& X_WT) {
@@ -188,7 +199,8 @@ double Site::step_limit(double speed) const {
 
 void Site::push_tool(Tool& tool, double dt) const {
   soil::ToolMotion& motion = tool.motion;
-  // A tool without mass does not answer impulses: infinitely heavy for the solver, driven by its twist.
+  // A tool without mass does not answer impulses: infinitely heavy for the solver, driven by its
+  // twist.
   motion.inverse_mass = Mat6::Zero();
   if (!(tool.mass > 0)) return;
   // One free direction; the others are the carriage's.
@@ -233,9 +245,11 @@ void Site::step(double dt) {
     const soil::ToolImpulse& impulse = impulses_[i];
     tools_[i].impulse = impulse;
     // Action and reaction: what tools and nodes got must cancel, relative to what was exchanged.
-    if (impulse.scale > 0) worst_residual_ = std::max(worst_residual_, impulse.residual.norm() / impulse.scale);
+    if (impulse.scale > 0)
+      worst_residual_ = std::max(worst_residual_, impulse.residual.norm() / impulse.scale);
     if (impulse.scale_moment > 0)
-      worst_residual_ = std::max(worst_residual_, impulse.residual_moment.norm() / impulse.scale_moment);
+      worst_residual_ =
+          std::max(worst_residual_, impulse.residual_moment.norm() / impulse.scale_moment);
     move_tool(tools_[i], dt);
   }
   time_ += dt;
@@ -283,7 +297,8 @@ std::string Site::digest() const { return hash_of(*solver_).hex(); }
 
 void Site::finish(Report& report) const {
   const soil::SolverStats& stats = solver_->stats();
-  // A rig may run several sites into one report: counts and times add up, the hash is the last one's.
+  // A rig may run several sites into one report: counts and times add up, the hash is the last
+  // one's.
   report.particles_peak = std::max(report.particles_peak, stats.particles_peak);
   report.steps += stats.steps;
   report.simulated_time += time_;

@@ -33,10 +33,13 @@ std::string ParameterRange::text() const {
   // A count says so first: most ranges are of lengths.
   const std::string kind = whole ? "a whole number, " : "";
   // Both ends closed is the common case and has the shortest form; anything else is said in words.
-  if (from && to && !open_least && !open_most) return kind + short_text(least) + " .. " + short_text(most);
+  if (from && to && !open_least && !open_most)
+    return kind + short_text(least) + " .. " + short_text(most);
   std::string out;
   if (from) out = (open_least ? "above " : "at least ") + short_text(least);
-  if (to) out += (from ? " and " : "") + std::string(open_most ? "below " : "at most ") + short_text(most);
+  if (to)
+    out +=
+        (from ? " and " : "") + std::string(open_most ? "below " : "at most ") + short_text(most);
   if (out.empty()) return whole ? "a whole number" : "a finite number";
   return kind + out;
 }
@@ -93,7 +96,8 @@ std::string Parameter::text(double wanted) const {
 std::optional<double> Parameter::read(const std::string& written) const {
   for (const Choice& choice : choices)
     if (choice.word == written) return choice.number;
-  // from_chars takes no leading '+', which people write before angles and travels that may be negative.
+  // from_chars takes no leading '+', which people write before angles and travels that may be
+  // negative.
   const char* begin = written.data() + (written.rfind('+', 0) == 0 ? 1 : 0);
   const char* end = written.data() + written.size();
   double number = 0;
@@ -111,10 +115,12 @@ Parameter choice(const std::string& name, const std::string& word, const std::st
     out.value = one.number;
     return out;
   }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, name, word, out.rule(), "the default must be a choice"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, name, word, out.rule(),
+                         "the default must be a choice"});
 }
 
-Parameter yes_no(const std::string& name, bool value, const std::string& yes, const std::string& no) {
+Parameter yes_no(const std::string& name, bool value, const std::string& yes,
+                 const std::string& no) {
   // Kept as 1 and 0 in the setup and in result files.
   return choice(name, value ? "yes" : "no", "", {{"yes", 1, yes}, {"no", 0, no}});
 }

@@ -11,9 +11,11 @@ namespace navvy::lab {
 scene::Shell open_box(double length, double width, double height) {
   scene::Shell s;
   s.name = "box";
-  // Corners counter-clockwise from above, floor first; triangles are seen counter-clockwise from inside.
+  // Corners counter-clockwise from above, floor first; triangles are seen counter-clockwise from
+  // inside.
   const double x = length / 2, y = width / 2, h = height;
-  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
+  s.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0},
+                {-x, -y, h}, {x, -y, h}, {x, y, h}, {-x, y, h}};
   s.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
                  {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
   return s;
@@ -91,7 +93,8 @@ scene::Shell drum(double radius, double width, int sides) {
       s.vertices.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
   }
   for (int i = 0; i < sides; ++i) {
-    const int a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % sides);  // at -y; their partners at +y are one further
+    // At -y; their partners at +y are one further
+    const int a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % sides);
     // Two for the tread, one for either side.
     s.triangles.push_back({a, b, b + 1});
     s.triangles.push_back({a, b + 1, a + 1});

@@ -22,12 +22,14 @@ std::atomic<CrashSummary*> speaking{nullptr};
 /// A part of a summary in which no program goes on: the run is over when it is read.
 std::string ended(std::string text) {
   const std::string running = "\"state\": \"running\"", over = "\"state\": \"interrupted\"";
-  for (std::size_t at = text.find(running); at != std::string::npos; at = text.find(running, at + over.size()))
+  for (std::size_t at = text.find(running); at != std::string::npos;
+       at = text.find(running, at + over.size()))
     text.replace(at, running.size(), over);
   return text;
 }
 
-// What follows is called in handlers of signals: no memory is taken, no lock, no errno of anybody changed for good.
+// What follows is called in handlers of signals: no memory is taken, no lock, no errno of anybody
+// changed for good.
 bool put(int file, const char* text, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(file, text, size);
@@ -43,7 +45,9 @@ bool put(int file, const char* text, std::size_t size) {
 bool put_text(int file, const char* text) {
   for (; *text != '\0'; ++text) {
     const char c = *text == '\n' ? ';' : *text;
-    if (c == '"' ? !put(file, "'", 1) : (c < ' ' || c == '\\' || c > '~') ? !put(file, " ", 1) : !put(file, &c, 1))
+    if (c == '"'                            ? !put(file, "'", 1)
+        : (c < ' ' || c == '\\' || c > '~') ? !put(file, " ", 1)
+                                            : !put(file, &c, 1))
       return false;
   }
   return true;
@@ -72,11 +76,13 @@ CrashSummary::~CrashSummary() {
   ::unlink(reserve_.c_str());
 }
 
-/// Written and not only asked for: file systems that compress or copy on writing promise more than they keep.
+/// Written and not only asked for: file systems that compress or copy on writing promise more than
+/// they keep.
 bool CrashSummary::take_capacity(std::size_t bytes) {
   const std::string blank(4096, ' ');
   for (; room_ < bytes; room_ += blank.size())
-    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(room_)) != static_cast<ssize_t>(blank.size())) {
+    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(room_)) !=
+        static_cast<ssize_t>(blank.size())) {
       if (errno == 0) errno = ENOSPC;
       return false;
     }
@@ -95,7 +101,8 @@ void CrashSummary::keep(const std::string& summary) {
 }
 
 bool CrashSummary::write(const std::string& text) noexcept {
-  if (file_ < 0 || ::lseek(file_, 0, SEEK_SET) != 0 || !put(file_, text.data(), text.size())) return false;
+  if (file_ < 0 || ::lseek(file_, 0, SEEK_SET) != 0 || !put(file_, text.data(), text.size()))
+    return false;
   if (::ftruncate(file_, static_cast<off_t>(text.size())) != 0) return false;
   ::fsync(file_);
   ::close(std::exchange(file_, -1));
@@ -105,9 +112,12 @@ bool CrashSummary::write(const std::string& text) noexcept {
 bool CrashSummary::leave(const char* status, const char* message) noexcept {
   const int ready = ready_;
   if (file_ < 0 || ready < 0 || ::lseek(file_, 0, SEEK_SET) != 0) return false;
-  const auto put_all = [&](const std::string& text) { return put(file_, text.data(), text.size()); };
-  const bool written = put_all(texts_[ready].before) && put(file_, "\"message\": \"", 12) && put_text(file_, message) &&
-                       put(file_, "\",\n  \"status\": \"", 16) && put_text(file_, status) && put(file_, "\"", 1) &&
+  const auto put_all = [&](const std::string& text) {
+    return put(file_, text.data(), text.size());
+  };
+  const bool written = put_all(texts_[ready].before) && put(file_, "\"message\": \"", 12) &&
+                       put_text(file_, message) && put(file_, "\",\n  \"status\": \"", 16) &&
+                       put_text(file_, status) && put(file_, "\"", 1) &&
                        put_all(texts_[ready].after);
   const off_t end = ::lseek(file_, 0, SEEK_CUR);
   if (!written || ::ftruncate(file_, end) != 0) return false;

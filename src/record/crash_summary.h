@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A summary that can still be written when nothing else can: on a full disk, beside a thread that hangs, in a signal's
-// handler.
+// A summary that can still be written when nothing else can: on a full disk, beside a thread that
+// hangs, in a signal's handler.
 #pragma once
 
 #include <atomic>
@@ -10,20 +10,23 @@ namespace navvy::record {
 
 /// Room on the disk for one summary, taken before the run, and the text for it, kept ready.
 ///
-/// The last of these that was made is the one that `write_crash_summary` speaks for. Not thread-safe apart from that.
+/// The last of these that was made is the one that `write_crash_summary` speaks for. Not
+/// thread-safe apart from that.
 class CrashSummary {
  public:
-  /// Takes the room as `reserve`; `target` is what it becomes. @throws FileError when there is no room.
+  /// Takes the room as `reserve`; `target` is what it becomes. @throws FileError when there is no
+  /// room.
   CrashSummary(std::string reserve, std::string target);
   /// Gives the room back.
   ~CrashSummary();
   CrashSummary(const CrashSummary&) = delete;
   CrashSummary& operator=(const CrashSummary&) = delete;
 
-  /// Keeps `summary`, whose status is "running", as what is known so far. A disk without room for a longer one leaves
-  /// the text before it. Costs a copy.
+  /// Keeps `summary`, whose status is "running", as what is known so far. A disk without room for a
+  /// longer one leaves the text before it. Costs a copy.
   void keep(const std::string& summary);
-  /// Puts `text` into the room and gives it the target's name. False when the disk refuses even that.
+  /// Puts `text` into the room and gives it the target's name. False when the disk refuses even
+  /// that.
   bool write(const std::string& text) noexcept;
 
  private:
@@ -41,8 +44,9 @@ class CrashSummary {
   std::atomic<int> ready_{-1};  ///< which of the two holds; -1: none yet
 };
 
-/// Gives the summary of the run that is going on this status and message and the time of its last checkpoint. Once;
-/// safe in a signal's handler and from any thread, which is why it takes plain text. False when there is no such run.
+/// Gives the summary of the run that is going on this status and message and the time of its last
+/// checkpoint. Once; safe in a signal's handler and from any thread, which is why it takes plain
+/// text. False when there is no such run.
 bool write_crash_summary(const char* status, const char* message) noexcept;
 
 }  // namespace navvy::record

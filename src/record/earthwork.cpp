@@ -11,8 +11,8 @@ namespace navvy::record {
 namespace {
 
 /// Bank volume of each soil in a column [m3].
-void bank_volumes(const std::vector<heightfield::SoilLayer>& column, const std::vector<scene::Soil>& soils,
-                  std::vector<double>& volumes) {
+void bank_volumes(const std::vector<heightfield::SoilLayer>& column,
+                  const std::vector<scene::Soil>& soils, std::vector<double>& volumes) {
   // The caller keeps the vector: this is called for every touched column.
   volumes.assign(soils.size(), 0.0);
   for (const heightfield::SoilLayer& layer : column)
@@ -28,7 +28,8 @@ Earthwork measure_earthwork(const sim::World& world) {
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;
-  const heightfield::TerrainView surface = ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
+  const heightfield::TerrainView surface =
+      ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
   std::map<std::pair<int, int>, std::vector<double>> active;  // bank volumes on columns [m3]
   for (const heightfield::LooseGrain& grain : lying.grains()) {
     std::vector<double>& volumes = active[{grain.ix, grain.iy}];
@@ -57,15 +58,19 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
       double gain = 0;
       // By soil: a layer dug away and another dumped in its place are both earthwork.
       for (std::size_t i = 0; i < soils.size(); ++i) {
-        const double change = after[i] + (above == active.end() ? 0.0 : above->second[i]) - before[i];
+        const double change =
+            after[i] + (above == active.end() ? 0.0 : above->second[i]) - before[i];
         gain += change;
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained. Spoil
-      // that a wheel pressed may lie lower than the ground was; it has no negative volume.
+      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where
+      // it gained. Spoil that a wheel pressed may lie lower than the ground was; it has no negative
+      // volume.
       if (gain < -least) sum.bank_volume -= gain;
-      if (gain > least) sum.loose_volume += area * std::max(0.0, surface.height(ix, iy) - surface.start_height(ix, iy));
+      if (gain > least)
+        sum.loose_volume +=
+            area * std::max(0.0, surface.height(ix, iy) - surface.start_height(ix, iy));
     }
   return sum;
 }

@@ -46,21 +46,26 @@ json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
 json cycle_list(const session::Session& session) {
   json cycles = json::array();
   for (const session::Cycle& cycle : session.cycles())
-    cycles.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
-                      {"start_s", cycle.start},
-                      {"curl_s", cycle.curl},
-                      {"lift_out_s", cycle.lift_out},
-                      {"dump_start_s", cycle.dump_start},
-                      {"end_s", cycle.end},
-                      {"payload_at_lift_out_kg", cycle.payload_lift_out},
-                      {"payload_at_dump_kg", cycle.payload_dump},
-                      {"force_peak_n", cycle.force_peak},
-                      {"draft_peak_n", cycle.draft_peak},
-                      {"uplift_peak_n", cycle.uplift_peak}});
-  // From the end of the cycle before, or from the start: together they are the run's up to the last one's end.
+    cycles.push_back(
+        {{"machine",
+          session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
+         {"start_s", cycle.start},
+         {"curl_s", cycle.curl},
+         {"lift_out_s", cycle.lift_out},
+         {"dump_start_s", cycle.dump_start},
+         {"end_s", cycle.end},
+         {"payload_at_lift_out_kg", cycle.payload_lift_out},
+         {"payload_at_dump_kg", cycle.payload_dump},
+         {"force_peak_n", cycle.force_peak},
+         {"draft_peak_n", cycle.draft_peak},
+         {"uplift_peak_n", cycle.uplift_peak}});
+  // From the end of the cycle before, or from the start: together they are the run's up to the last
+  // one's end.
   const auto& ends = session.energy_at_ends();
   for (std::size_t i = 0; i < std::min(ends.size(), cycles.size()); ++i)
-    if (ends[i]) cycles[i]["soil_energy_j"] = soil_energy(*ends[i], i > 0 && ends[i - 1] ? &*ends[i - 1] : nullptr);
+    if (ends[i])
+      cycles[i]["soil_energy_j"] =
+          soil_energy(*ends[i], i > 0 && ends[i - 1] ? &*ends[i - 1] : nullptr);
   return cycles;
 }
 
@@ -68,11 +73,13 @@ json cycle_list(const session::Session& session) {
 json tip_list(const session::Session& session) {
   json tips = json::array();
   for (const session::BedTip& tip : session.tips())
-    tips.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
-                    {"start_s", tip.start},
-                    {"end_s", tip.end},
-                    {"payload_at_start_kg", tip.payload_start},
-                    {"payload_at_end_kg", tip.payload_end}});
+    tips.push_back(
+        {{"machine",
+          session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
+         {"start_s", tip.start},
+         {"end_s", tip.end},
+         {"payload_at_start_kg", tip.payload_start},
+         {"payload_at_end_kg", tip.payload_end}});
   return tips;
 }
 
@@ -104,9 +111,11 @@ json ledger(const session::Session& session, const sim::ActivePlaces& active) {
 }
 
 /// The ground against its design; awake soil counts where it lies.
-json design_comparison(const sim::World& world, const sim::ActivePlaces& active, const heightfield::DesignSurface& design) {
+json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
+                       const heightfield::DesignSurface& design) {
   const heightfield::DesignComparison f = heightfield::against_design(
-      world.ground().view(world.time()).with(active.lying, heightfield::SurfaceKind::kMapped), design);
+      world.ground().view(world.time()).with(active.lying, heightfield::SurfaceKind::kMapped),
+      design);
   return {{"area_m2", f.area},
           {"design_cut_m3", f.design_cut},
           {"design_fill_m3", f.design_fill},
@@ -141,15 +150,18 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["render_time_s"] = status.render_time;
   out["simulated_time_s"] = world.time();
   // Of the time this process simulated, pictures and files apart.
-  out["real_time_factor"] = status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
+  out["real_time_factor"] =
+      status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
-  for (const auto& [stage, seconds] : world.soil_stage_times()) out["soil_stage_s"][stage] = seconds;
+  for (const auto& [stage, seconds] : world.soil_stage_times())
+    out["soil_stage_s"][stage] = seconds;
   // What the programs came to.
   out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();
-  for (const session::Cycle& cycle : session.cycles()) out["payload_kg"].push_back(cycle.payload_lift_out);
+  for (const session::Cycle& cycle : session.cycles())
+    out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
   // What became of the ground.

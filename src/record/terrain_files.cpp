@@ -24,7 +24,8 @@ void write_terrain(const sim::World& world, const std::string& path) {
                              active ? kAwake : std::vector<std::string>{});
 #else
   (void)world;
-  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+  throw FileError("cannot write '" + path +
+                  "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }
 

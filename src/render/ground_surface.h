@@ -20,25 +20,29 @@ struct ColumnRect {
   std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
   /// The smallest that holds both.
   ColumnRect with(const ColumnRect& other) const {
-    return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1), std::max(y1, other.y1)};
+    return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1),
+            std::max(y1, other.y1)};
   }
   /// With `cells` more on every side, as far as a ground of nx x ny columns reaches.
   ColumnRect grown(int cells, int nx, int ny) const {
-    return {std::max(0, x0 - cells), std::max(0, y0 - cells), std::min(nx, x1 + cells), std::min(ny, y1 + cells)};
+    return {std::max(0, x0 - cells), std::max(0, y0 - cells), std::min(nx, x1 + cells),
+            std::min(ny, y1 + cells)};
   }
 };
 
-/// Keeps a copy of the ground's heights and, per column, albedo, share of sun and sky, and the lit colour.
+/// Keeps a copy of the ground's heights and, per column, albedo, share of sun and sky, and the lit
+/// colour.
 ///
-/// Soil gives the base colour; the old surface is weathered, dug ground darker and moist, dumped ground lighter and
-/// uneven; a faint tint follows height. The sun is traced over the heights up to kShadowReach columns away.
+/// Soil gives the base colour; the old surface is weathered, dug ground darker and moist, dumped
+/// ground lighter and uneven; a faint tint follows height. The sun is traced over the heights up to
+/// kShadowReach columns away.
 class GroundSurface {
  public:
   static constexpr int kShadowReach = 28;  ///< columns a shadow of the ground may fall
   static constexpr int kOpenReach = 5;     ///< columns of the neighbourhood that hides the sky
 
-  /// Takes over what changed in `ground`; returns rectangles of the columns whose vertices or colours are new (none:
-  /// nothing is).
+  /// Takes over what changed in `ground`; returns rectangles of the columns whose vertices or
+  /// colours are new (none: nothing is).
   std::vector<ColumnRect> update(const scene::FrameGround& ground, const Lighting& lighting);
 
   // The ground as last taken over; columns and origin as in scene::FrameGround.
@@ -48,8 +52,8 @@ class GroundSurface {
   float height(int ix, int iy) const { return height_[index(ix, iy)]; }
   /// Column centre in W [m].
   Vec3f point(int ix, int iy) const {
-    return {x0_ + (static_cast<float>(ix) + 0.5f) * cell_, y0_ + (static_cast<float>(iy) + 0.5f) * cell_,
-            height_[index(ix, iy)]};
+    return {x0_ + (static_cast<float>(ix) + 0.5f) * cell_,
+            y0_ + (static_cast<float>(iy) + 0.5f) * cell_, height_[index(ix, iy)]};
   }
   /// Colour in the light, RGBA.
   const std::array<std::uint8_t, 4>& lit(int ix, int iy) const { return lit_[index(ix, iy)]; }
@@ -62,7 +66,8 @@ class GroundSurface {
 
  private:
   std::size_t index(int ix, int iy) const {
-    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
+           static_cast<std::size_t>(ix);
   }
   /// What the frame tells, or what a comparison finds where a frame was missed.
   std::vector<ColumnRect> changed_cells(const scene::FrameGround& ground) const;

@@ -19,12 +19,15 @@ void see_standing(const sim::World& world, const sim::MachineHandle& machine,
     const vehicle::WheelState wheel = wheels[w].state();
     seen.tyre_force += wheel.force_W;
     // The resting ground alone: soil in flight buries nobody.
-    const Vec3 top = wheel.X_WWheel.translation() + Vec3(0, 0, machine.description().wheels[w].radius);
-    if (world.ground().sample(top.x(), top.y()) > top.z()) seen.wheels_under += 1.0 / double(wheels.size());
+    const Vec3 top =
+        wheel.X_WWheel.translation() + Vec3(0, 0, machine.description().wheels[w].radius);
+    if (world.ground().sample(top.x(), top.y()) > top.z())
+      seen.wheels_under += 1.0 / double(wheels.size());
   }
 }
 
-UncontrolledMachine::UncontrolledMachine(const sim::World& world, int machine) : world_(world), machine_(world.machine(machine)) {
+UncontrolledMachine::UncontrolledMachine(const sim::World& world, int machine)
+    : world_(world), machine_(world.machine(machine)) {
   for (std::size_t w = 0; w < machine_.description().wheels.size(); ++w)
     wheels_.push_back(machine_.wheel(static_cast<int>(w)));
 }

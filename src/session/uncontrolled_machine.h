@@ -13,18 +13,21 @@
 
 namespace navvy::session {
 
-/// How the machine stands and where, as watches and operators see it: pose, stability, wheels under the ground.
+/// How the machine stands and where, as watches and operators see it: pose, stability, wheels under
+/// the ground.
 void see_standing(const sim::World& world, const sim::MachineHandle& machine,
                   const std::vector<sim::WheelHandle>& wheels, control::Observation& seen);
 
-/// Watches one machine while inputs drive it or nobody does. Its fall is told once, as what a step came to.
+/// Watches one machine while inputs drive it or nobody does. Its fall is told once, as what a step
+/// came to.
 class UncontrolledMachine {
  public:
   /// `world` must outlive it.
   UncontrolledMachine(const sim::World& world, int machine);
 
   int index() const { return machine_.index(); }
-  /// To be called in each step in which no program drives the machine; `by_inputs`: what its report says of that.
+  /// To be called in each step in which no program drives the machine; `by_inputs`: what its report
+  /// says of that.
   void look(bool by_inputs);
   /// Of its fall: tipped or buried, with time and place; step 0, as no program's step was at fault.
   const std::optional<control::StepReport>& fall() const { return fall_; }

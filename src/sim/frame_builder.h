@@ -14,8 +14,8 @@ class ParticleClipper;
 
 /// Fills frames of one world; keeps the dense ground between calls and rewrites only what changed.
 ///
-/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, else the part around the machines,
-/// moved when one comes within a quarter of its edge.
+/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, else the part
+/// around the machines, moved when one comes within a quarter of its edge.
 class FrameBuilder {
  public:
   explicit FrameBuilder(const World& world);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles to the parts of a running world: a name or an index is resolved once, then reading takes neither a look-up
-// nor memory. `world.machine("excavator").link("boom").pose()`, `.joint("arm_joint").position()`,
-// `.tool("bucket").force()`, `.wheel(0).state().slip`.
+// Handles to the parts of a running world: a name or an index is resolved once, then reading takes
+// neither a look-up nor memory. `world.machine("excavator").link("boom").pose()`,
+// `.joint("arm_joint").position()`, `.tool("bucket").force()`, `.wheel(0).state().slip`.
 //
-// A handle is a few words, copied freely; it stays valid as long as its world lives and tells the state of the moment
-// in which it is read, also after a snapshot was loaded. Handles only read: World::command and World::set drive, and
-// Session's functions of the same names where a program may be running. Every look-up throws InputError for a name or
-// index that does not exist; for a name the message holds the nearest one.
+// A handle is a few words, copied freely; it stays valid as long as its world lives and tells the
+// state of the moment in which it is read, also after a snapshot was loaded. Handles only read:
+// World::command and World::set drive, and Session's functions of the same names where a program
+// may be running. Every look-up throws InputError for a name or index that does not exist; for a
+// name the message holds the nearest one.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +48,8 @@ class LinkHandle {
   int body_ = -1, index_ = -1;
 };
 
-/// A joint; units follow its type: [rad], [rad/s], [N m] of a revolute one, [m], [m/s], [N] of a prismatic one.
+/// A joint; units follow its type: [rad], [rad/s], [N m] of a revolute one, [m], [m/s], [N] of a
+/// prismatic one.
 class JointHandle {
  public:
   const std::string& name() const;
@@ -78,7 +80,8 @@ class WheelHandle {
  public:
   /// Name of its spin joint.
   const std::string& name() const;
-  /// Pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip [-], sinkage [m].
+  /// Pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip [-],
+  /// sinkage [m].
   vehicle::WheelState state() const;
 
  private:
@@ -88,7 +91,8 @@ class WheelHandle {
   int body_ = -1, index_ = -1;
 };
 
-/// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes of W.
+/// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes
+/// of W.
 class ToolHandle {
  public:
   /// Name of its shell, unique in its machine.
@@ -128,8 +132,8 @@ class MachineHandle {
   /// The data it was built from: names, counts, limits.
   const scene::Machine& description() const;
 
-  /// By name, or by index as in scene::Machine::links, joints, wheels (by the name of their spin joint), shells.
-  /// Link 0 is the base.
+  /// By name, or by index as in scene::Machine::links, joints, wheels (by the name of their spin
+  /// joint), shells. Link 0 is the base.
   LinkHandle link(const std::string& name) const;
   LinkHandle link(int index) const;
   JointHandle joint(const std::string& name) const;
@@ -141,7 +145,8 @@ class MachineHandle {
 
   /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
-  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a drive without one.
+  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a
+  /// drive without one.
   vehicle::CombustionEngineState engine() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;

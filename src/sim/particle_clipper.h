@@ -15,12 +15,13 @@ class ParticleClipper {
  public:
   explicit ParticleClipper(const World& world);
 
-  /// Moves every drawn particle that is nearer than `gap` [m] to a plate's face off it, on the side that it is on, as
-  /// far as the plates leave it room there. Then fills `room`: the distance to the closest plate's face [m], from 0 to
-  /// `reach`; `reach` for all that is farther.
+  /// Moves every drawn particle that is nearer than `gap` [m] to a plate's face off it, on the side
+  /// that it is on, as far as the plates leave it room there. Then fills `room`: the distance to
+  /// the closest plate's face [m], from 0 to `reach`; `reach` for all that is farther.
   ///
-  /// A particle is a point, and one that lies on steel lies on its very face: its lump would be drawn half within the
-  /// plate. Costs a box test a particle and shell, and a search among the shell's triangles for those near it.
+  /// A particle is a point, and one that lies on steel lies on its very face: its lump would be
+  /// drawn half within the plate. Costs a box test a particle and shell, and a search among the
+  /// shell's triangles for those near it.
   void keep_off(scene::FrameParticles& particles, double gap, double reach) const;
 
  private:

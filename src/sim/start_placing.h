@@ -11,15 +11,17 @@
 
 namespace navvy::sim {
 
-/// X_WB of every machine's base link at the start, in the scene's order: as a World of this scene and ground has them.
-/// Needs no device.
+/// X_WB of every machine's base link at the start, in the scene's order: as a World of this scene
+/// and ground has them. Needs no device.
 std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::Ground& ground);
 
 /// The columns of an awake box, rounded to whole ones and cut at the site's edge.
-heightfield::CellRect active_columns(const scene::ActiveSoil& active, const heightfield::Ground& ground);
+heightfield::CellRect active_columns(const scene::ActiveSoil& active,
+                                     const heightfield::Ground& ground);
 
-/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is asked for. Looks at
-/// as many columns as the budget has particles at most. @throws InputError naming the box.
+/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is
+/// asked for. Looks at as many columns as the budget has particles at most. @throws InputError
+/// naming the box.
 void check_active(const scene::Scene& scene, const heightfield::Ground& ground);
 
 }  // namespace navvy::sim

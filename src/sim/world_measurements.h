@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world counts and measures about itself, as plain values: no solver's header is behind them.
+// What a world counts and measures about itself, as plain values: no solver's header is behind
+// them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct SoilCounts {
   std::uint64_t particle_steps = 0;       ///< sum over steps of awake particles
   int particles = 0, particles_peak = 0;  ///< awake now; most at once
   std::uint64_t rebins = 0;               ///< times that particles were sorted anew
-  std::uint64_t activated_columns = 0;        ///< columns turned into particles
+  std::uint64_t activated_columns = 0;    ///< columns turned into particles
   std::uint64_t deposited_blocks = 0;     ///< blocks booked back into columns
   std::uint64_t shell_crossings = 0;      ///< particles found on the wrong side of a shell
 };
@@ -27,17 +28,19 @@ struct EnergyTerm {
   double joule = 0;
 };
 
-/// Where the energy of awake soil came from and went [docs/soil.md, energy], for readers that know no solver: always
-/// the same terms in the same order, the residual last.
+/// Where the energy of awake soil came from and went [docs/soil.md, energy], for readers that know
+/// no solver: always the same terms in the same order, the residual last.
 using SoilEnergy = std::vector<EnergyTerm>;
 
-/// Where the soil's mass is, one entry per soil of the scene, in units of kMassQuantum. Recounted when asked.
+/// Where the soil's mass is, one entry per soil of the scene, in units of kMassQuantum. Recounted
+/// when asked.
 struct MassLedger {
   std::vector<std::int64_t> columns;    ///< change of the ground against its start
   std::vector<std::int64_t> particles;  ///< awake
   std::vector<std::int64_t> left_site;  ///< went over the site's edge
   std::vector<std::int64_t> inserted;   ///< came in from outside, such as the load of a bed
-  std::int64_t error = 0;               ///< sum over soils of |columns + particles + left_site - inserted|; 0: closed
+  /// Sum over soils of |columns + particles + left_site - inserted|; 0: closed.
+  std::int64_t error = 0;
 };
 
 /// One awake particle as a mass over a column of the ground.
@@ -52,11 +55,15 @@ struct WallTimes {
   double vehicle = 0, soil = 0, ground = 0;
 };
 
-/// Proof that what a tool took, the soil gave: momentum of the last step's nodal solve, summed in double.
+/// Proof that what a tool took, the soil gave: momentum of the last step's nodal solve, summed in
+/// double.
 struct MomentumBalance {
-  Vec3 residual = Vec3::Zero();         ///< impulse on the tool + change of the nodes' momentum [N s]
-  Vec3 residual_moment = Vec3::Zero();  ///< the same of angular momentum about the link's origin [N m s]
-  double scale = 0, scale_moment = 0;   ///< sums of magnitudes behind them; 0: no contact in this step
+  /// Impulse on the tool + change of the nodes' momentum [N s].
+  Vec3 residual = Vec3::Zero();
+  /// The same of angular momentum about the link's origin [N m s].
+  Vec3 residual_moment = Vec3::Zero();
+  /// Sums of magnitudes behind them; 0: no contact in this step.
+  double scale = 0, scale_moment = 0;
 };
 
 }  // namespace navvy::sim

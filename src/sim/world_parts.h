@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world is made of: solver, engines and the exchange between them. For sim's own sources and for tests that
-// measure inside; a style test keeps this header out of the clients in src/.
+// What a world is made of: solver, engines and the exchange between them. For sim's own sources and
+// for tests that measure inside; a style test keeps this header out of the clients in src/.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ namespace navvy::sim {
 // The façade that owns the parts.
 class World;
 
-/// The parts in the order in which they are built: each refers to those above it, so it is neither copied nor moved.
+/// The parts in the order in which they are built: each refers to those above it, so it is neither
+/// copied nor moved.
 struct WorldParts {
   /// Lays the ground, places the machines on it, wakes and loads the soil that the scene says.
   /// @throws InputError for what cannot be built, device::DeviceError for the device.

@@ -14,8 +14,10 @@ heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
   const heightfield::Ground& ground = world.ground();
   const auto [ix, iy] = parts(world).soil.grid().column_of(p);
   // Heights of particles are counted in cells from bedrock.
-  const double z = ground.datum() + ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
-  const double volume = kilograms(p.mass) * static_cast<double>(p.j0) / world.description().soils[p.soil].bank_density;
+  const double z = ground.datum() +
+                   ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
+  const double volume = kilograms(p.mass) * static_cast<double>(p.j0) /
+                        world.description().soils[p.soil].bank_density;
   return {ix, iy, z, volume, static_cast<std::uint16_t>(p.soil), p.j0, p.mass};
 }
 
@@ -46,9 +48,11 @@ ActivePlaces active_places(const World& world) {
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;
-  if (surface == heightfield::SurfaceKind::kMapped) return columns.with(active_places(world).lying, surface);
+  if (surface == heightfield::SurfaceKind::kMapped)
+    return columns.with(active_places(world).lying, surface);
   std::vector<heightfield::LooseGrain> grains;
-  for (const soil::Particle& p : parts(world).soil.particles()) grains.push_back(grain_of(world, p));
+  for (const soil::Particle& p : parts(world).soil.particles())
+    grains.push_back(grain_of(world, p));
   return columns.with(heightfield::LooseSoil(columns, std::move(grains)), surface);
 }
 

@@ -12,7 +12,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Rounding of a volume ratio kept as a float, two units of its last place; a larger jump between two steps is mixing.
+/// Rounding of a volume ratio kept as a float, two units of its last place; a larger jump between
+/// two steps is mixing.
 constexpr double kRoundingOfJ = 2.5e-7;
 constexpr double kRounding = 1e-6;  ///< of a place within a block [cells]
 
@@ -38,13 +39,15 @@ std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t hom
       local = 4 * local + t[a] - 4 * d;
     }
     out[static_cast<std::size_t>(i)] =
-        static_cast<std::size_t>(table.neighbours[27 * home + static_cast<std::size_t>(n)]) * BLOCK_NODES +
+        static_cast<std::size_t>(table.neighbours[27 * home + static_cast<std::size_t>(n)]) *
+            BLOCK_NODES +
         static_cast<std::size_t>(local);
   }
   return out;
 }
 
-/// By node of the active blocks 0: one field, else 1 + own, own = 0 front, 1 back; as kernels/soil's node_split.
+/// By node of the active blocks 0: one field, else 1 + own, own = 0 front, 1 back; as
+/// kernels/soil's node_split.
 std::vector<std::int32_t> splits(std::size_t nodes, NearNodes& near) {
   std::vector<std::int32_t> out(nodes, 0);
   if (near.count == 0) return out;
@@ -79,7 +82,8 @@ template <class Visit>
 void EnergyLedger::for_particles(const ParticleStore& store, const Visit& visit) {
   const std::vector<ParticleBlock>& particle_blocks = store.particle_blocks();
   for (std::size_t h = 0; h < particle_blocks.size(); ++h)
-    for (int i = 0; i < particle_blocks[h].count; ++i) visit(h, static_cast<std::size_t>(particle_blocks[h].start + i));
+    for (int i = 0; i < particle_blocks[h].count; ++i)
+      visit(h, static_cast<std::size_t>(particle_blocks[h].start + i));
 }
 
 // The affine part holds a quarter of a cell squared: sum of w (x_i - x_p)^2 along an axis.
@@ -98,31 +102,35 @@ double EnergyLedger::elastic_energy(const ParticleStore& store, const Words& now
   double sum = 0;
   for_particles(store, [&](std::size_t, std::size_t slot) {
     const SoilRow& soil = soils_[static_cast<std::size_t>(now.bits(FIELD_TAG, slot) & 0xffff)];
-    const double bank = kMassQuantum * now.bits(FIELD_MASS, slot) * static_cast<double>(soil.inv_density);
+    const double bank =
+        kMassQuantum * now.bits(FIELD_MASS, slot) * static_cast<double>(soil.inv_density);
     double s[6];
     for (int a = 0; a < 6; ++a) s[a] = now.at(FIELD_S + a, slot);
     const double j = now.at(FIELD_J, slot);
-    sum += bank *
-           (volume_energy(soil, j, now.at(FIELD_J0, slot)) + j * dot_of(s, s) / (4 * static_cast<double>(soil.shear)));
+    sum += bank * (volume_energy(soil, j, now.at(FIELD_J0, slot)) +
+                   j * dot_of(s, s) / (4 * static_cast<double>(soil.shear)));
   });
   return sum;
 }
 
-// Mean stress over the step times its plastic strain; the law keeps the stress after the return only, along which the
-// strain went. Stress that is gone altogether went along the one before.
+// Mean stress over the step times its plastic strain; the law keeps the stress after the return
+// only, along which the strain went. Stress that is gone altogether went along the one before.
 void EnergyLedger::record_law(const ParticleStore& store, const Words& now, double dt) {
   for_particles(store, [&](std::size_t, std::size_t slot) {
     const SoilRow& soil = soils_[static_cast<std::size_t>(now.bits(FIELD_TAG, slot) & 0xffff)];
-    const double bank = kMassQuantum * now.bits(FIELD_MASS, slot) * static_cast<double>(soil.inv_density);
+    const double bank =
+        kMassQuantum * now.bits(FIELD_MASS, slot) * static_cast<double>(soil.inv_density);
     double c[9], s0[6], s1[6];
     for (int a = 0; a < 9; ++a) c[a] = before_.at(FIELD_C + a, slot);
-    for (int a = 0; a < 6; ++a) s0[a] = before_.at(FIELD_S + a, slot), s1[a] = now.at(FIELD_S + a, slot);
+    for (int a = 0; a < 6; ++a)
+      s0[a] = before_.at(FIELD_S + a, slot), s1[a] = now.at(FIELD_S + a, slot);
     const double j = now.at(FIELD_J, slot), before = before_.at(FIELD_J, slot);
     const double j00 = before_.at(FIELD_J0, slot), j01 = now.at(FIELD_J0, slot);
     const double trace = c[0] + c[4] + c[8], volume = bank * j;
     const double mixed = j / (1 + dt * trace);
     if (std::abs(mixed - before) > kRoundingOfJ)
-      account_.mixing -= bank * (volume_energy(soil, mixed, j00) - volume_energy(soil, before, j00));
+      account_.mixing -=
+          bank * (volume_energy(soil, mixed, j00) - volume_energy(soil, before, j00));
     const double slip = now.at(FIELD_SHEAR, slot) - before_.at(FIELD_SHEAR, slot);
     const double q = std::sqrt(0.5 * dot_of(s1, s1));
     const double along = q > 0 ? 0.5 * dot_of(s0, s1) / q : std::sqrt(0.5 * dot_of(s0, s0));
@@ -139,16 +147,16 @@ void EnergyLedger::record_law(const ParticleStore& store, const Words& now, doub
     if (p > 0) account_.viscous += dt * volume * (p - felt) * trace;
     // A way that no velocity went.
     for (int a = 0; a < 3; ++a) {
-      const double apart =
-          now.at(FIELD_MOVED + a, slot) - before_.at(FIELD_MOVED + a, slot) - dt / cell_ * now.at(FIELD_V + a, slot);
+      const double apart = now.at(FIELD_MOVED + a, slot) - before_.at(FIELD_MOVED + a, slot) -
+                           dt / cell_ * now.at(FIELD_V + a, slot);
       if (std::abs(apart) > kRounding)
         account_.apart -= kMassQuantum * now.bits(FIELD_MASS, slot) * gravity_[a] * apart * cell_;
     }
   });
 }
 
-// Masses and velocities of the nodes at the start of a transfer, as the scatter makes them: places and sides of now,
-// velocities and gradients of before.
+// Masses and velocities of the nodes at the start of a transfer, as the scatter makes them: places
+// and sides of now, velocities and gradients of before.
 void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact& contact) {
   const BlockTable& table = store.table();
   const std::size_t count = table.active.size() * BLOCK_NODES;
@@ -174,8 +182,8 @@ void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact
     const int side = reference::tile_of(now.bits(FIELD_TAG, slot) >> 16);
     for (int n = 0; n < 27; ++n) {
       const int i[3] = {n % 3, n / 3 % 3, n / 9};
-      const auto place =
-          static_cast<std::size_t>(base[0] + i[0] + 1 + 8 * (base[1] + i[1] + 1) + 64 * (base[2] + i[2] + 1));
+      const auto place = static_cast<std::size_t>(base[0] + i[0] + 1 + 8 * (base[1] + i[1] + 1) +
+                                                  64 * (base[2] + i[2] + 1));
       const std::size_t at = tile[place];
       // Neutral soil joins the side its node lies on; an unsplit node joins everything.
       const bool back = split[at] != 0 && (side == 0 ? split[at] == 2 : side == 2);
@@ -185,7 +193,8 @@ void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact
       node.v += share * (v + c * (Vec3(i[0], i[1], i[2]) - f));
     }
   });
-  for (Node& node : nodes_) node.v = node.mass > kMassQuantum ? Vec3(node.v / node.mass) : Vec3(Vec3::Zero());
+  for (Node& node : nodes_)
+    node.v = node.mass > kMassQuantum ? Vec3(node.v / node.mass) : Vec3(Vec3::Zero());
 }
 
 double EnergyLedger::nodes_energy() const {
@@ -198,7 +207,8 @@ std::vector<Vec3> EnergyLedger::velocities(Transfer& transfer, Contact& contact)
   const std::size_t count = nodes_.size() / 2;
   std::vector<Vec3> out(nodes_.size(), Vec3::Zero());
   const auto front = transfer.velocity().map_read(0, 4 * count);
-  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3(front[4 * i], front[4 * i + 1], front[4 * i + 2]);
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = Vec3(front[4 * i], front[4 * i + 1], front[4 * i + 2]);
   NearNodes& near = contact.nodes();
   if (near.count == 0) return out;
   const auto list = near.list.map_read(0, static_cast<std::size_t>(near.count));
@@ -212,9 +222,11 @@ std::vector<Vec3> EnergyLedger::velocities(Transfer& transfer, Contact& contact)
   return out;
 }
 
-// Tools work with the twist that the contact was solved for; what the nodes did not get of it slid or struck.
-void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after, std::span<const ToolMotion> motions,
-                            std::span<const ToolImpulse> impulses) {
+// Tools work with the twist that the contact was solved for; what the nodes did not get of it slid
+// or struck.
+void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after,
+                                std::span<const ToolMotion> motions,
+                                std::span<const ToolImpulse> impulses) {
   double work = 0, got = 0;
   for (std::size_t m = 0; m < motions.size(); ++m) {
     Vec6 twist, impulse;
@@ -232,11 +244,12 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
       const std::size_t node = i / 2, block = node / BLOCK_NODES;
       if (touched[block] == 0) continue;
       const ContactRecord& record = records[i];
-      const std::size_t at = static_cast<std::size_t>(list[block]) * BLOCK_NODES + node % BLOCK_NODES + (i % 2) * count;
+      const std::size_t at = static_cast<std::size_t>(list[block]) * BLOCK_NODES +
+                             node % BLOCK_NODES + (i % 2) * count;
       for (int a = 0; a < 3; ++a)
         got += static_cast<double>(record.mass) *
-               (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) * 0.5 *
-               (nodes_[at].v[a] + after[at][a]);
+               (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
+               0.5 * (nodes_[at].v[a] + after[at][a]);
     }
   }
   account_.tools += work;
@@ -246,15 +259,17 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
 void EnergyLedger::begin_step(const ParticleStore& store, bool hold) {
   before_ = words_of(store);
   if (hold) return;
-  // The transfer before has ended: what nodes had and particles did not take up is lost; then soil came and went.
+  // The transfer before has ended: what nodes had and particles did not take up is lost; then soil
+  // came and went.
   const double moving = moving_energy(store, before_), elastic = elastic_energy(store, before_);
   account_.transfer += account_.kinetic - moving_;
   account_.exchanged += moving - moving_ + elastic - account_.elastic;
   account_.kinetic = moving;
 }
 
-void EnergyLedger::end_step(const ParticleStore& store, Transfer& transfer, Contact& contact, double dt, bool hold,
-                          std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses) {
+void EnergyLedger::end_step(const ParticleStore& store, Transfer& transfer, Contact& contact,
+                            double dt, bool hold, std::span<const ToolMotion> motions,
+                            std::span<const ToolImpulse> impulses) {
   if (hold && nodes_.empty()) return;  // a transfer that was under way when the account was opened
   const Words now = words_of(store);
   record_law(store, now, dt);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a solver's energy account on the host, from what stands in the device's arrays before and after each step.
+// Keeps a solver's energy account on the host, from what stands in the device's arrays before and
+// after each step.
 //
-// Kernels know nothing of it: a run with an account is the run without, to the bit. In return the host goes through all
-// particles and nodes in every step, in doubles and one thread, which takes longer than the step itself.
+// Kernels know nothing of it: a run with an account is the run without, to the bit. In return the
+// host goes through all particles and nodes in every step, in doubles and one thread, which takes
+// longer than the step itself.
 #pragma once
 
 #include <span>
@@ -21,11 +23,13 @@ class EnergyLedger {
  public:
   EnergyLedger(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity);
 
-  /// Before a step's kernels are queued, with at least one particle. `hold`: not the first step of a transfer.
+  /// Before a step's kernels are queued, with at least one particle. `hold`: not the first step of
+  /// a transfer.
   void begin_step(const ParticleStore& store, bool hold);
   /// After its impulses were booked.
-  void end_step(const ParticleStore& store, Transfer& transfer, Contact& contact, double dt, bool hold,
-                std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses);
+  void end_step(const ParticleStore& store, Transfer& transfer, Contact& contact, double dt,
+                bool hold, std::span<const ToolMotion> motions,
+                std::span<const ToolImpulse> impulses);
 
   const EnergyAccount& account() const { return account_; }
 
@@ -53,8 +57,8 @@ class EnergyLedger {
   double nodes_energy() const;
   /// Velocities of the nodes after the step; takes the place of those before.
   std::vector<Vec3> velocities(Transfer& transfer, Contact& contact) const;
-  void record_tools(Contact& contact, const std::vector<Vec3>& after, std::span<const ToolMotion> motions,
-                  std::span<const ToolImpulse> impulses);
+  void record_tools(Contact& contact, const std::vector<Vec3>& after,
+                    std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses);
 
   std::vector<SoilRow> soils_;
   double cell_;

@@ -40,7 +40,8 @@ void Solver::State::check_masses() {
   for (std::size_t soil = 0; soil < counted.size(); ++soil) {
     if (counted[soil] == in_particles[soil]) continue;
     throw SimulationError(here() + "the particles of '" + world.soils[soil].name + "' weigh " +
-                          std::to_string(counted[soil] - in_particles[soil]) + " units of 2^-24 kg more than booked");
+                          std::to_string(counted[soil] - in_particles[soil]) +
+                          " units of 2^-24 kg more than booked");
   }
 }
 
@@ -53,7 +54,8 @@ std::vector<Particle> Solver::particles() const {
     for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
     p = in_cell_block(p);
   }
-  std::sort(out.begin(), out.end(), [](const Particle& a, const Particle& b) { return a.id < b.id; });
+  std::sort(out.begin(), out.end(),
+            [](const Particle& a, const Particle& b) { return a.id < b.id; });
   return out;
 }
 
@@ -63,7 +65,8 @@ std::vector<PointMass> Solver::State::masses_near(const Vec3& low, const Vec3& h
   for (const Particle& p : unplaced) {
     PointMass point;
     for (int a = 0; a < 3; ++a)
-      point.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
+      point.grid[a] =
+          kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
     point.mass = p.mass;
     out.push_back(point);
   }
@@ -87,12 +90,14 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
   for (const PointMass& p : state_->masses_near(low, high)) {
     const Vec3 p_W = state_->origin + p.grid * state_->cell;
     const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
-    if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds)) sum += p.mass;
+    if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds))
+      sum += p.mass;
   }
   return kilograms(sum);
 }
 
-std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles, std::span<const PlacedTool> tools) const {
+std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles,
+                                       std::span<const PlacedTool> tools) const {
   std::vector<std::uint8_t> out(particles.size(), 0);
   for (const PlacedTool& tool : tools) {
     const ShellGeometry& geometry = state_->contact.geometry(tool.tool);
@@ -170,8 +175,9 @@ void Solver::State::visit(Archive& a) {
   if (interval.open) visit_nodes(a);
 }
 
-// Velocities that the nodes keep while a transfer is under way, of every active block and of the near ones' backs: so
-// a run with snapshots is the run without. Masses and what lies near shells follow from particles and poses.
+// Velocities that the nodes keep while a transfer is under way, of every active block and of the
+// near ones' backs: so a run with snapshots is the run without. Masses and what lies near shells
+// follow from particles and poses.
 void Solver::State::visit_nodes(Archive& a) {
   if (a.loading()) {
     a("front", loaded_nodes[0]);

@@ -9,8 +9,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Soil of a seat's columns ends below the tool, or it would be within it when it wakes again [cells over its lowest,
-/// along the ground's normal].
+/// Soil of a seat's columns ends below the tool, or it would be within it when it wakes again
+/// [cells over its lowest, along the ground's normal].
 constexpr double kSoilOver = 0.5;
 
 /// A tool's lower side is what is no higher than this over its lowest, along the normal [cells].
@@ -25,11 +25,13 @@ bool in_plan(const ToolRegion& region, const Vec3& p_W) {
 
 Vec3 Solver::State::place_of(const Particle& p) const {
   Vec3 out;
-  for (int a = 0; a < 3; ++a) out[a] = static_cast<double>(kBlockCells) * p.block[a] + static_cast<double>(p.x[a]);
+  for (int a = 0; a < 3; ++a)
+    out[a] = static_cast<double>(kBlockCells) * p.block[a] + static_cast<double>(p.x[a]);
   return origin + cell * out;
 }
 
-Vec2 Solver::State::gradient_of_ground(const Vec2& from, const Vec2& to, std::span<const Particle> all) const {
+Vec2 Solver::State::gradient_of_ground(const Vec2& from, const Vec2& to,
+                                       std::span<const Particle> all) const {
   // Three columns each way at least: fewer have no plane.
   Vec2i low = ground.column_at(from.x(), from.y()), high = ground.column_at(to.x(), to.y());
   for (int a = 0; a < 2; ++a)
@@ -52,16 +54,19 @@ Vec2 Solver::State::gradient_of_ground(const Vec2& from, const Vec2& to, std::sp
       moment += (ground.height(ix, iy) / cell + index.pile_height(ix, iy)) * arm;
       square += arm.cwiseAbs2();
     }
-  return {square.x() > 0 ? moment.x() / square.x() : 0, square.y() > 0 ? moment.y() / square.y() : 0};
+  return {square.x() > 0 ? moment.x() / square.x() : 0,
+          square.y() > 0 ? moment.y() / square.y() : 0};
 }
 
-Vec3 Solver::State::normal_of_ground(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
+Vec3 Solver::State::normal_of_ground(const scene::Shell& shell, const ToolMotion& motion,
+                                     const ToolRegion& region,
                                      std::span<const Particle> all) const {
   const double across = (region.max - region.min).head<2>().maxCoeff();
   const Vec2 from = region.min.head<2>(), to = region.max.head<2>();
   const Vec3 first = normal_under(gradient_of_ground(from, to, all), across, cell);
   if (first == Vec3::UnitZ()) return first;
-  // On a slope a tool hangs over ground that it does not stand on: once more under its lower side alone.
+  // On a slope a tool hangs over ground that it does not stand on: once more under its lower side
+  // alone.
   double lowest = HUGE_VAL;
   for (const Vec3& v : shell.vertices) lowest = std::min(lowest, first.dot(motion.X_WT * v));
   Vec2 low = to, high = from;
@@ -75,7 +80,8 @@ Vec3 Solver::State::normal_of_ground(const scene::Shell& shell, const ToolMotion
 }
 
 void Solver::State::settle_tools(double elapsed, std::span<const ToolMotion> motions,
-                                 std::span<const ToolRegion> regions, std::span<const Particle> all) {
+                                 std::span<const ToolRegion> regions,
+                                 std::span<const Particle> all) {
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const ToolMotion& motion = motions[m];
     RestingContact& seat = resting_contacts[static_cast<std::size_t>(motion.tool)];
@@ -88,7 +94,9 @@ void Solver::State::settle_tools(double elapsed, std::span<const ToolMotion> mot
     const Vec3 up = seat.taken ? seat.up : normal_of_ground(shell, motion, region, all);
     // The tool as seen along the normal: on level ground its box.
     const std::array<Vec3, 2> along = along_ground(up);
-    const auto seen = [&](const Vec3& p) { return Vec3(along[0].dot(p), along[1].dot(p), up.dot(p)); };
+    const auto seen = [&](const Vec3& p) {
+      return Vec3(along[0].dot(p), along[1].dot(p), up.dot(p));
+    };
     Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
     for (const Vec3& v : shell.vertices) {
       low = low.cwiseMin(seen(motion.X_WT * v));
@@ -96,8 +104,8 @@ void Solver::State::settle_tools(double elapsed, std::span<const ToolMotion> mot
     }
     const auto over = [&](const Particle& p) {
       const Vec3 at = seen(place_of(p));
-      return at.z() > low.z() + kSoilOver * cell && at.x() >= low.x() && at.x() <= high.x() && at.y() >= low.y() &&
-             at.y() <= high.y();
+      return at.z() > low.z() + kSoilOver * cell && at.x() >= low.x() && at.x() <= high.x() &&
+             at.y() >= low.y() && at.y() <= high.y();
     };
     if (std::any_of(all.begin(), all.end(), over)) {
       seat.let_go();
@@ -110,18 +118,22 @@ void Solver::State::settle_tools(double elapsed, std::span<const ToolMotion> mot
   }
 }
 
-void Solver::State::release_contacts(std::span<const ToolRegion> regions, std::span<const Particle> born) {
+void Solver::State::release_contacts(std::span<const ToolRegion> regions,
+                                     std::span<const Particle> born) {
   for (const ToolRegion& region : regions)
-    if (region.supported &&
-        std::any_of(born.begin(), born.end(), [&](const Particle& p) { return in_plan(region, place_of(p)); }))
+    if (region.supported && std::any_of(born.begin(), born.end(), [&](const Particle& p) {
+          return in_plan(region, place_of(p));
+        }))
       resting_contacts[static_cast<std::size_t>(region.tool)].let_go();
 }
 
-void Solver::State::apply_resting_contacts(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
+void Solver::State::apply_resting_contacts(double dt, std::span<const ToolMotion> motions,
+                                           std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const scene::Shell& shell = contact.geometry(motions[m].tool).shell();
     // The next check must look at once: there may be no particles to fall on yet.
-    if (resting_contacts[static_cast<std::size_t>(motions[m].tool)].hold(shell, motions[m], dt, cell, impulses[m]))
+    if (resting_contacts[static_cast<std::size_t>(motions[m].tool)].hold(shell, motions[m], dt,
+                                                                         cell, impulses[m]))
       first_check = true;
   }
 }

@@ -10,8 +10,9 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr double kSpacing = 0.6;  // of stations, in radii: what lies between two reaches in by R / 22 at most
-constexpr int kMostPieces = 32;   // of a run between two wheels
+// Of stations, in radii: what lies between two reaches in by R / 22 at most
+constexpr double kSpacing = 0.6;
+constexpr int kMostPieces = 32;  // of a run between two wheels
 
 struct Circle {
   Vec3 p_C = Vec3::Zero();
@@ -30,25 +31,27 @@ Vec3 lower_tangent(const Circle& a, const Circle& b) {
   return slant * d + std::sqrt(1 - slant * slant) * Vec3(-d.z(), 0, d.x());
 }
 
-/// What each touch is of the whole belt's spring: a roller's share alone, shared with others of its line that are
-/// nearer than two rollers and are pressed the same way.
-std::vector<double> shares(const std::vector<TrackStation>& stations, const std::vector<TrackTouch>& touches,
-                           double roller, double reach) {
+/// What each touch is of the whole belt's spring: a roller's share alone, shared with others of its
+/// line that are nearer than two rollers and are pressed the same way.
+std::vector<double> shares(const std::vector<TrackStation>& stations,
+                           const std::vector<TrackTouch>& touches, double roller, double reach) {
   std::vector<double> out;
   for (const TrackTouch& one : touches) {
     double pressed = 0;
     for (const TrackTouch& other : touches) {
       if (other.line != one.line) continue;
-      const double near = 1 - std::abs(stations[other.station].along - stations[one.station].along) / reach;
-      if (near > 0) pressed += near * std::max(0.0, other.at.normal.dot(one.at.normal)) * other.at.depth;
+      const double near =
+          1 - std::abs(stations[other.station].along - stations[one.station].along) / reach;
+      if (near > 0)
+        pressed += near * std::max(0.0, other.at.normal.dot(one.at.normal)) * other.at.depth;
     }
     out.push_back(roller * one.at.depth / pressed);
   }
   return out;
 }
 
-/// The plane of a touch: along the belt and to the left; `runs` is the belt's share in its speed there, none where it
-/// is touched from its side.
+/// The plane of a touch: along the belt and to the left; `runs` is the belt's share in its speed
+/// there, none where it is touched from its side.
 struct Plane {
   Vec3 ahead, left;
   double runs = 0;
@@ -77,8 +80,8 @@ std::vector<double> sums(const std::vector<TrackTouch>& touches, const std::vect
 /// One step of a belt that touches bodies.
 class Step {
  public:
-  Step(const scene::Wheel& wheel, const std::vector<TrackStation>& stations, const TrackMotion& motion,
-       const std::vector<TrackTouch>& touches, double dt)
+  Step(const scene::Wheel& wheel, const std::vector<TrackStation>& stations,
+       const TrackMotion& motion, const std::vector<TrackTouch>& touches, double dt)
       : wheel_(wheel),
         stations_(stations),
         motion_(motion),
@@ -106,7 +109,8 @@ class Step {
       const Vec2 slip(v.dot(plane.ahead) - plane.runs * track_speed_, v.dot(plane.left));
       const double mass = mass_of(t);
       const TrackGrip bears = track_grip(at.friction * load_[t], kFirmShear, mass, dt_);
-      const Vec2 middle = carry_shear(before, slip, stations_[s].length, track_speed_, kMostShear * bears.K, dt_, here);
+      const Vec2 middle = carry_shear(before, slip, stations_[s].length, track_speed_,
+                                      kMostShear * bears.K, dt_, here);
       before = here;
       const Vec2 f = track_shear_force(bears, middle, slip, track_speed_, mass, dt_);
       out.f_W[t] += f.x() * plane.ahead + f.y() * plane.left;
@@ -130,15 +134,17 @@ class Step {
 
   void press() {
     const double rollers = static_cast<double>(wheel_.track->rollers.size());
-    const double reach = (wheel_.track->rollers.front() - wheel_.track->rollers.back()).norm() / (rollers - 1);
-    const std::vector<double> share = shares(stations_, touches_, 1 / (rollers * kTrackLines), reach);
+    const double reach =
+        (wheel_.track->rollers.front() - wheel_.track->rollers.back()).norm() / (rollers - 1);
+    const std::vector<double> share =
+        shares(stations_, touches_, 1 / (rollers * kTrackLines), reach);
     std::vector<double> depth;
     for (const TrackTouch& touch : touches_) depth.push_back(touch.at.depth);
     const std::vector<double> deep = sums(touches_, depth);
     for (std::size_t t = 0; t < touches_.size(); ++t) {
       const BodyTouch& at = touches_[t].at;
-      // In series with the body, which its touches share: an explicit step is stable while k dt^2 and c dt stay below
-      // what they move.
+      // In series with the body, which its touches share: an explicit step is stable while k dt^2
+      // and c dt stay below what they move.
       scene::Wheel soft;
       soft.radius = wheel_.radius;
       soft.stiffness = wheel_.stiffness;
@@ -148,7 +154,8 @@ class Step {
         soft.stiffness = std::min(soft.stiffness, 0.2 * part / dt_);
         soft.damping = std::min(soft.damping, 0.3 * part);
       }
-      const double deflection = std::min(at.depth, kMaxDeflection * stations_[touches_[t].station].radius);
+      const double deflection =
+          std::min(at.depth, kMaxDeflection * stations_[touches_[t].station].radius);
       load_.push_back(radial_force(soft, share[t], deflection, -at.normal.dot(velocity(at))));
       total_ += load_.back();
     }
@@ -159,7 +166,8 @@ class Step {
   double mass_of(std::size_t t) const {
     const double running_track = track_mass_ * load_[t] / total_;
     const double inverse = touches_[t].at.inverse_mass;
-    return inverse > 0 ? std::min(running_track, load_[t] / (on_body_[touches_[t].body] * inverse)) : running_track;
+    return inverse > 0 ? std::min(running_track, load_[t] / (on_body_[touches_[t].body] * inverse))
+                       : running_track;
   }
 
   /// The touch of a station that presses most; none: their number.
@@ -186,7 +194,8 @@ class Step {
 std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& p_sprocket) {
   const scene::Track& track = *wheel.track;
   std::vector<Circle> gear;
-  for (const Vec3& roller : track.rollers) gear.push_back({roller, track.roller_radius + track.thickness});
+  for (const Vec3& roller : track.rollers)
+    gear.push_back({roller, track.roller_radius + track.thickness});
   const Circle idler{track.p_idler, track.idler_radius + track.thickness};
   const Circle sprocket{p_sprocket, wheel.radius + track.thickness};
   const bool idler_ahead = idler.p_C.x() > sprocket.p_C.x();
@@ -196,11 +205,14 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   const double large = std::max(gear[1].radius, std::min(idler.radius, sprocket.radius));
 
   std::vector<TrackStation> out;
-  const auto touching = [&](const Vec3& foot, const Vec3& down) { out.push_back({foot - large * down, large, 0, 0}); };
+  const auto touching = [&](const Vec3& foot, const Vec3& down) {
+    out.push_back({foot - large * down, large, 0, 0});
+  };
   std::vector<Vec3> feet;
   for (std::size_t i = 0; i < gear.size(); ++i) {
     const bool outer = i == 0 || i + 1 == gear.size();
-    const Vec3 ahead = i > 0 ? lower_tangent(gear[i - 1], gear[i]) : lower_tangent(gear[0], gear[1]);
+    const Vec3 ahead =
+        i > 0 ? lower_tangent(gear[i - 1], gear[i]) : lower_tangent(gear[0], gear[1]);
     const Vec3 behind = i + 1 < gear.size() ? lower_tangent(gear[i], gear[i + 1]) : ahead;
     const Vec3 down = (ahead + behind).normalized();
     feet.push_back(gear[i].p_C + gear[i].radius * down);
@@ -210,8 +222,10 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
       touching(feet.back(), down);
     if (i + 1 == gear.size()) break;
     // The run to the next one.
-    const Vec3 from = gear[i].p_C + gear[i].radius * behind, to = gear[i + 1].p_C + gear[i + 1].radius * behind;
-    const double pieces = std::clamp(std::ceil((to - from).norm() / (kSpacing * large)), 1.0, double{kMostPieces});
+    const Vec3 from = gear[i].p_C + gear[i].radius * behind,
+               to = gear[i + 1].p_C + gear[i + 1].radius * behind;
+    const double pieces =
+        std::clamp(std::ceil((to - from).norm() / (kSpacing * large)), 1.0, double{kMostPieces});
     for (double k = 1; k < pieces; ++k) {
       feet.emplace_back(from + k / pieces * (to - from));
       touching(feet.back(), behind);
@@ -228,12 +242,14 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   return out;
 }
 
-TrackBodyForce track_body_force(const scene::Wheel& wheel, const std::vector<TrackStation>& stations,
-                              const TrackMotion& motion, const std::vector<TrackTouch>& touches, double dt,
-                              TrackBodyShear& shear) {
+TrackBodyForce track_body_force(const scene::Wheel& wheel,
+                                const std::vector<TrackStation>& stations,
+                                const TrackMotion& motion, const std::vector<TrackTouch>& touches,
+                                double dt, TrackBodyShear& shear) {
   TrackBodyForce out;
   const Step step(wheel, stations, motion, touches, dt);
-  for (std::size_t t = 0; t < touches.size(); ++t) out.f_W.emplace_back(step.load(t) * touches[t].at.normal);
+  for (std::size_t t = 0; t < touches.size(); ++t)
+    out.f_W.emplace_back(step.load(t) * touches[t].at.normal);
   for (std::size_t line = 0; line < kTrackLines; ++line) step.grip(line, shear, out);
   out.torque += step.resistance();
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Belt of a crawler on bodies: a kerb, a deck, a wall, another machine. The same springs and shear as on ground.
+// Belt of a crawler on bodies: a kerb, a deck, a wall, another machine. The same springs and shear
+// as on ground.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace navvy::terramechanics {
 
-/// A disc that stands for a piece of the belt's path: idler and sprocket themselves, and along the lower run discs that
-/// touch it from within, at every roller and between them.
+/// A disc that stands for a piece of the belt's path: idler and sprocket themselves, and along the
+/// lower run discs that touch it from within, at every roller and between them.
 struct TrackStation {
   Vec3 p_C = Vec3::Zero();  ///< middle, in the carrier [m]
   double radius = 0;        ///< to the belt's outside [m]
@@ -19,7 +20,8 @@ struct TrackStation {
   double along = 0;         ///< of the path, from the first one [m]
 };
 
-/// From front to rear. They lie so close that what reaches between two is felt within a sixteenth of their radius.
+/// From front to rear. They lie so close that what reaches between two is felt within a sixteenth
+/// of their radius.
 std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& p_sprocket);
 
 /// A belt meets bodies on two lines, each in the middle of half its width.
@@ -40,13 +42,15 @@ struct TrackBodyForce {
   double torque = 0;      ///< of the belt on its sprocket, against the carrier [N m]
 };
 
-/// Force of bodies on a belt over the next step dt [s]; moves the shear on. `touches` by line and station, as they
-/// come.
+/// Force of bodies on a belt over the next step dt [s]; moves the shear on. `touches` by line and
+/// station, as they come.
 ///
-/// A touch alone is as stiff as a roller, all of a flat floor together as all rollers: touches nearer than two rollers
-/// share. Several bodies at one station all press, the one that presses most also grips. Never pulls.
-TrackBodyForce track_body_force(const scene::Wheel& wheel, const std::vector<TrackStation>& stations,
-                              const TrackMotion& motion, const std::vector<TrackTouch>& touches, double dt,
-                              TrackBodyShear& shear);
+/// A touch alone is as stiff as a roller, all of a flat floor together as all rollers: touches
+/// nearer than two rollers share. Several bodies at one station all press, the one that presses
+/// most also grips. Never pulls.
+TrackBodyForce track_body_force(const scene::Wheel& wheel,
+                                const std::vector<TrackStation>& stations,
+                                const TrackMotion& motion, const std::vector<TrackTouch>& touches,
+                                double dt, TrackBodyShear& shear);
 
 }  // namespace navvy::terramechanics

@@ -12,8 +12,8 @@ TrackGrip track_grip(double most, double K, double mass, double dt) {
   return {most, std::max(K, most * dt * dt / (0.25 * mass))};
 }
 
-Vec2 track_shear_force(const TrackGrip& grip, const Vec2& shear, const Vec2& slip, double track_speed, double mass,
-                      double dt) {
+Vec2 track_shear_force(const TrackGrip& grip, const Vec2& shear, const Vec2& slip,
+                       double track_speed, double mass, double dt) {
   const auto [most, K] = grip;
   if (!(most > 0)) return Vec2::Zero();
   const double j = shear.norm(), share = mobilised_share(j, K);
@@ -23,8 +23,8 @@ Vec2 track_shear_force(const TrackGrip& grip, const Vec2& shear, const Vec2& sli
   return force.norm() > most ? Vec2(most * force.normalized()) : force;
 }
 
-Vec2 carry_shear(const Vec2& before, const Vec2& slip, double length, double track_speed, double most, double dt,
-                 Vec2& shear) {
+Vec2 carry_shear(const Vec2& before, const Vec2& slip, double length, double track_speed,
+                 double most, double dt, Vec2& shear) {
   const double carried = std::abs(track_speed) * dt / length;
   shear = (shear + dt * slip + carried * before) / (1 + carried);
   if (shear.norm() > most) shear *= most / shear.norm();

@@ -9,16 +9,22 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr double kReboundSpeed = 0.25;  // [m/s] tuned: BulletDrive.DropsIntoATrenchWithoutBeingLaunched
-constexpr double kBristleShare = 0.8;   // tangential over radial stiffness of a bias truck tyre, 0.5 to 1 (U)
-constexpr int kYieldSteps = 6;          // of Newton; what is left of the force is below 1e-4 of the limit
-constexpr double kFullyMobilised = 8;   // [K]: 0.9997 of the strength; a wheel that was dragged far forgets it in two l
-constexpr double kRelaxation = 0.6;     // of the radius [Pacejka 2012, 7.2: about the contact's half length to radius]
+// [m/s] tuned: BulletDrive.DropsIntoATrenchWithoutBeingLaunched
+constexpr double kReboundSpeed = 0.25;
+// Tangential over radial stiffness of a bias truck tyre, 0.5 to 1 (U)
+constexpr double kBristleShare = 0.8;
+// Of Newton; what is left of the force is below 1e-4 of the limit
+constexpr int kYieldSteps = 6;
+// [K]: 0.9997 of the strength; a wheel that was dragged far forgets it in two l
+constexpr double kFullyMobilised = 8;
+// Of the radius [Pacejka 2012, 7.2: about the contact's half length to radius]
+constexpr double kRelaxation = 0.6;
 
 }  // namespace
 
 double track_offset(const scene::Wheel& tyre) {
-  // The tyres of a pair, or the middles of the two halves of a single tyre, which then resists leaning.
+  // The tyres of a pair, or the middles of the two halves of a single tyre, which then resists
+  // leaning.
   return tyre.twin_spacing > 0 ? 0.5 * tyre.twin_spacing : 0.25 * tyre.width;
 }
 
@@ -47,9 +53,9 @@ void stretch(const scene::Wheel& tyre, const Vec2& slip, double rolling, double 
   bristle = (bristle + dt * slip) / (1 + dt * std::abs(rolling) / (kRelaxation * tyre.radius));
 }
 
-/// How far [m] soil yields until what it bears, sheared by so much more, is the pull of the bristle that slackens by
-/// as much: limit (1 - exp(-(j + d) / K)) = k (u - d). Newton's steps from below stay below, as the left side bends
-/// down; the start leaves a few K to go.
+/// How far [m] soil yields until what it bears, sheared by so much more, is the pull of the bristle
+/// that slackens by as much: limit (1 - exp(-(j + d) / K)) = k (u - d). Newton's steps from below
+/// stay below, as the left side bends down; the start leaves a few K to go.
 double yielding(const TrackShear& soil, double k, double stretched, double sheared) {
   double d = std::max(0.0, stretched - soil.limit / k);
   for (int i = 0; i < kYieldSteps; ++i) {
@@ -61,8 +67,8 @@ double yielding(const TrackShear& soil, double k, double stretched, double shear
 
 }  // namespace
 
-Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, double limit,
-                   double rim_mass, double dt, Vec2& bristle) {
+Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
+                   double limit, double rim_mass, double dt, Vec2& bristle) {
   const auto [k, c] = tread_of(tyre, share, rim_mass, dt);
   stretch(tyre, slip, rolling, dt, bristle);
   const double stretched = k * bristle.norm();
@@ -72,8 +78,9 @@ Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, dou
   return force;
 }
 
-Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling, const TrackShear& soil,
-                 double rim_mass, double dt, Vec2& bristle, double& sheared) {
+Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
+                 const TrackShear& soil, double rim_mass, double dt, Vec2& bristle,
+                 double& sheared) {
   const auto [k, c] = tread_of(tyre, share, rim_mass, dt);
   stretch(tyre, slip, rolling, dt, bristle);
   sheared /= 1 + dt * std::abs(rolling) / soil.half_length;

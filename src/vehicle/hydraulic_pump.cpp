@@ -12,7 +12,8 @@ constexpr double kSwashTime = 0.3;  // [s] tuned: BulletPump.LiftsWithItsPower h
 
 }  // namespace
 
-double HydraulicPump::share(const scene::Pump& pump, const std::vector<OilDemand>& demands, double dt) {
+double HydraulicPump::share(const scene::Pump& pump, const std::vector<OilDemand>& demands,
+                            double dt) {
   double asked = 0, load = 0;
   for (const OilDemand& demand : demands) {
     asked += demand.flow;

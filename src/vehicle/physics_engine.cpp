@@ -9,9 +9,10 @@ namespace navvy::vehicle {
 
 void PhysicsEngine::set_base(int machine, const BaseInput& input) {
   (void)input;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
-                         "forces move this machine: it cannot be put anywhere",
-                         "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
+  throw InputError(
+      Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
+            "forces move this machine: it cannot be put anywhere",
+            "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
 }
 
 int PhysicsEngine::add_mover(const scene::Machine& machine) {
@@ -19,12 +20,15 @@ int PhysicsEngine::add_mover(const scene::Machine& machine) {
   return -1;
 }
 
-void PhysicsEngine::move(int mover, const std::vector<LinkState>& links) { (void)mover, (void)links; }
+void PhysicsEngine::move(int mover, const std::vector<LinkState>& links) {
+  (void)mover, (void)links;
+}
 
 namespace {
 
 [[noreturn]] void refuse_hitch() {
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "", "a hitch joins machines that forces move",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "",
+                         "a hitch joins machines that forces move",
                          "set <navvy:engine>dynamic</navvy:engine>, or move it by its pose"});
 }
 

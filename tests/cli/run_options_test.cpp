@@ -18,7 +18,8 @@ class RunOptions : public test::ProgramRun {
  protected:
   /// A run of some steps, with more words.
   int short_run(const std::vector<std::string>& more, const std::string& input = "") {
-    std::vector<std::string> words = {"run", kScene, "--no-render", "--duration", "0.05", "--out", out()};
+    std::vector<std::string> words = {"run",  kScene,  "--no-render", "--duration",
+                                      "0.05", "--out", out()};
     words.insert(words.end(), more.begin(), more.end());
     return run(words, input);
   }
@@ -59,7 +60,8 @@ TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
 }
 
 TEST_F(RunOptions, ARunThatEndsBeforeTheSnapshotAskedForHasAStatusOfItsOwn) {
-  EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"}, "{\"end\": true}\n"),
+  EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"},
+                      "{\"end\": true}\n"),
             4);
   expect_reported("before --snapshot-at 0.04");
 }
@@ -107,7 +109,8 @@ TEST_F(RunOptions, ASnapshotOfAnotherSceneIsReportedByBothNames) {
   ASSERT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.02"}), 0) << complained();
   const std::string other = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   for (const bool anyway : {false, true}) {
-    std::vector<std::string> words = {"run", other, "--no-render", "--out", out() + "2", "--resume", snapshot()};
+    std::vector<std::string> words = {"run",       other,      "--no-render", "--out",
+                                      out() + "2", "--resume", snapshot()};
     if (anyway) words.push_back("--resume-anyway");
     EXPECT_EQ(run(words), 2);
     expect_reported("'block_collapse'");

@@ -70,15 +70,18 @@ TEST(ArmKinematics, NearestMovesWithoutJerksAlongALimit) {
     first = false;
     before = q;
   }
-  EXPECT_LT(most, 0.02);  // 4 mm of tip path turn the bucket by 5 mrad in the mean; steps of 2 deg would be 35
+  // 4 mm of tip path turn the bucket by 5 mrad in the mean; steps of 2 deg would be 35
+  EXPECT_LT(most, 0.02);
 }
 
 TEST(ArmKinematics, ShellHangsBelowTheTipOnlyWhenTheBucketIsCurled) {
   const ArmKinematics arm(testing::ew180_like());
-  EXPECT_NEAR(arm.below_tip(-radians(112)), 0, 1e-12);    // digging: the floor plate rises behind the edge
+  // digging: the floor plate rises behind the edge
+  EXPECT_NEAR(arm.below_tip(-radians(112)), 0, 1e-12);
   EXPECT_NEAR(arm.below_tip(-radians(180)), 0.63, 1e-9);  // level: the heel of the profile
   // Upright cutting edge: nothing of the back is farther out than the tip; turned in, the back is.
-  EXPECT_NEAR(arm.beyond_tip(-radians(93) - arm.cut_angle(), 0.8), 0, 0.02);  // 3 deg over the plate's 0.31 m
+  // 3 deg over the plate's 0.31 m
+  EXPECT_NEAR(arm.beyond_tip(-radians(93) - arm.cut_angle(), 0.8), 0, 0.02);
   EXPECT_GT(arm.beyond_tip(-radians(130), 0.8), 0.5);
   EXPECT_LT(arm.beyond_tip(-radians(130), 0.1), arm.beyond_tip(-radians(130), 0.4));
 }

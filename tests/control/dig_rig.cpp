@@ -92,7 +92,8 @@ bool DigRig::against_rock(const Command& command) const {
   // Up is free, anything else is held.
   const ArmKinematics arm(machine_);
   ArmAngles q;
-  for (std::size_t i = 0; i < 3; ++i) q[i] = command.joints[static_cast<std::size_t>(arm.joints()[i])]->target;
+  for (std::size_t i = 0; i < 3; ++i)
+    q[i] = command.joints[static_cast<std::size_t>(arm.joints()[i])]->target;
   const Pose X_WS = engine->link(0, 0).X_WL * arm.X_BS();
   return X_WS.translation().z() + arm.forward(q).height < tip.z() + 0.02;
 }
@@ -104,7 +105,8 @@ void DigRig::step() {
   hit_rock = hit_rock || stalled_;
   for (std::size_t j = 0; j < command.joints.size(); ++j) {
     if (!command.joints[j]) continue;
-    const double jump = std::abs(command.joints[j]->target - target_[j]) / (machine_.joints[j].velocity * kStep);
+    const double jump =
+        std::abs(command.joints[j]->target - target_[j]) / (machine_.joints[j].velocity * kStep);
     fastest_jump = std::max(fastest_jump, jump);
     target_[j] = command.joints[j]->target;
     vehicle::JointInput input = *command.joints[j];
@@ -165,7 +167,8 @@ void DigRig::sweep(const Pose& X_WB) {
         p.y() = t * kHalfCut / 10;
         const Vec3 p_W = X_WB * p;
         const Vec2i c = ground.column_at(p_W.x(), p_W.y());
-        if (!ground.contains(c.x(), c.y()) || ground.height(c.x(), c.y()) <= p_W.z() + 1e-4) continue;
+        if (!ground.contains(c.x(), c.y()) || ground.height(c.x(), c.y()) <= p_W.z() + 1e-4)
+          continue;
         // A column belongs to the cut when its centre does.
         const Vec2 center = ground.origin() + ground.cell() * Vec2(c.x() + 0.5, c.y() + 0.5);
         if (std::abs((X_BW * Vec3(center.x(), center.y(), p_W.z())).y()) > kHalfCut) continue;
@@ -242,7 +245,8 @@ TrenchMeasure measure(const heightfield::Ground& ground, const Dig& dig) {
       if (inside) over += area * std::max(0.0, fall - dig.depth);
       if (!inside && s > -1.5 && s < length + 1.5 && std::abs(t) < 0.5 * dig.width + 1.5)
         over += area * std::max(0.0, fall);
-      const auto k = static_cast<std::size_t>(std::clamp(s / cell, 0.0, static_cast<double>(slices) - 1));
+      const auto k =
+          static_cast<std::size_t>(std::clamp(s / cell, 0.0, static_cast<double>(slices) - 1));
       if (s < 0 || s > length || std::abs(t) > dig.width) continue;
       moment[k] += std::max(0.0, fall) * t;
       removed[k] += std::max(0.0, fall);

@@ -62,7 +62,9 @@ scene::Program program(StepState end) {
 
 /// An operator on a machine that stands at x = time.
 struct Trial {
-  explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") { seen.joints.resize(4); }
+  explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") {
+    seen.joints.resize(4);
+  }
   Command step() {
     seen.X_WB.translation().x() = time;
     const Command out = op.update(seen, time, kStep);
@@ -80,7 +82,8 @@ struct Trial {
 
 TEST(StepState, HasANameOfItsOwnEach) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i) names.insert(name_of(static_cast<StepState>(i)));
+  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i)
+    names.insert(name_of(static_cast<StepState>(i)));
   EXPECT_EQ(names.size(), 9u);
   EXPECT_FALSE(fell_short(StepState::kRunning));
   EXPECT_FALSE(fell_short(StepState::kDone));
@@ -112,8 +115,8 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   EXPECT_EQ(trial.op.phase(), "blocked");
   EXPECT_TRUE(trial.op.progress().failed);
   EXPECT_EQ(trial.op.progress().done, 1);
-  // The joint that the program moved stands still, the others keep what they had; the drive brakes, its wheels as
-  // they are.
+  // The joint that the program moved stands still, the others keep what they had; the drive brakes,
+  // its wheels as they are.
   ASSERT_TRUE(trial.last.joints[1].has_value());
   EXPECT_EQ(trial.last.joints[1]->mode, vehicle::JointMode::kVelocity);
   EXPECT_EQ(trial.last.joints[1]->target, 0);
@@ -194,10 +197,14 @@ TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
 }
 
 TEST(Watch, LeavesAMachineAloneThatComesBackOrCannotTip) {
-  EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning) << "steep, within its feet";
-  EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning) << "it falls back";
-  EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning) << "a moment on a stone";
-  EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning) << "kinematic or held";
+  EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning)
+      << "steep, within its feet";
+  EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning)
+      << "it falls back";
+  EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning)
+      << "a moment on a stone";
+  EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning)
+      << "kinematic or held";
 }
 
 TEST(Watch, EndsAProgramWhoseMachineIsBuried) {

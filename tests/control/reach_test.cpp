@@ -18,7 +18,8 @@ class Reach : public ::testing::Test {
     program.steps = {step};
     program.lines = {42};
     std::string all;
-    for (const Fault& fault : check_reach(machine, program, make_pose(-4, 0, 0), GroundSurfaceView(ground), "dig.sdf"))
+    for (const Fault& fault :
+         check_reach(machine, program, make_pose(-4, 0, 0), GroundSurfaceView(ground), "dig.sdf"))
       all += fault.text() + "\n";
     return all;
   }
@@ -97,13 +98,17 @@ TEST_F(Reach, LooksFromWhereTheDriveBeforeTheDigEnds) {
   drive.has_heading = true;
   scene::Program program;
   program.steps = {drive, trench()};
-  EXPECT_TRUE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
+  EXPECT_TRUE(
+      check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
   // From (-9, 0) alone the trench is out of reach.
   program.steps = {trench()};
-  EXPECT_FALSE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
+  EXPECT_FALSE(
+      check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
   // A place that steering cannot get to.
   drive.target = Vec2(-6, 2.5);
-  EXPECT_FALSE(check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
+  EXPECT_FALSE(
+      check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), GroundSurfaceView(ground), "")
+          .empty());
 }
 
 }  // namespace

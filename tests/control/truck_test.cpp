@@ -79,7 +79,8 @@ TEST(Truck, ABedThatSticksEndsTheProgramAsStalled) {
   EXPECT_GT(tip.ended, 20);
   ASSERT_EQ(op.reports().size(), 1u) << "the bed that sticks is not tipped back as if nothing were";
   EXPECT_EQ(op.reports()[0].state, StepState::kStalled);
-  EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;  // 1.2 - 0.5 rad
+  // 1.2 - 0.5 rad
+  EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;
 }
 
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {

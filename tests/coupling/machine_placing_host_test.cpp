@@ -24,7 +24,9 @@ heightfield::Ground ground_of(const std::function<double(double, double)>& heigh
   setup.soils = {scene::Soil{}};
   setup.soils[0].name = "loam";
   setup.layers = {{"loam", 20}};
-  setup.surface = [height](int ix, int iy) { return height(-4 + 0.1 * (ix + 0.5), -4 + 0.1 * (iy + 0.5)); };
+  setup.surface = [height](int ix, int iy) {
+    return height(-4 + 0.1 * (ix + 0.5), -4 + 0.1 * (iy + 0.5));
+  };
   return heightfield::Ground(std::move(setup));
 }
 
@@ -72,7 +74,8 @@ Pose started(const scene::MachineInWorld& placed, const heightfield::Ground& gro
   kinematic->add_machine(placed.machine, place(placed, ground));
   const Pose X_WB = dynamic->link(0, 0).X_WL;
   EXPECT_LT((X_WB.matrix() - kinematic->link(0, 0).X_WL.matrix()).norm(), 1e-9);
-  EXPECT_LT((X_WB.matrix() - base_pose(placed.machine, place(placed, ground)).matrix()).norm(), 1e-9);
+  EXPECT_LT((X_WB.matrix() - base_pose(placed.machine, place(placed, ground)).matrix()).norm(),
+            1e-9);
   return X_WB;
 }
 
@@ -102,7 +105,8 @@ TEST(Placing, OnLevelGroundTheBaseIsAsFarOverItAsTheFileSays) {
 
 TEST(Placing, OnASlopeTheBaseIsAsFarOverThePlaneUnderItsFeetAsTheFileSays) {
   const Vec3 up = Vec3(-0.2, 0.1, 1).normalized();  // of z = 1 + 0.2 x - 0.1 y
-  const heightfield::Ground ground = ground_of([](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });
+  const heightfield::Ground ground =
+      ground_of([](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });
   for (const double yaw : {0.0, 0.9, -2.2}) {
     scene::MachineInWorld placed = robot();
     placed.X_WM = make_pose(0.7, -0.4, 0, 0, 0, yaw);

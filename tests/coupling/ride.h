@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine on columns of one soil without particles: engine, tyres and ruts alone, as a world steps them.
+// A machine on columns of one soil without particles: engine, tyres and ruts alone, as a world
+// steps them.
 #pragma once
 
 #include <cmath>
@@ -25,7 +26,9 @@ inline heightfield::Ground bed(const scene::Soil& soil, double cell, const Vec2&
   setup.datum = -20;
   setup.soils = {soil};
   setup.layers = {{soil.name, 100}};
-  setup.surface = [height, cell](int ix, int iy) { return height ? height(cell * (ix + 0.5), cell * (iy + 0.5)) : 0; };
+  setup.surface = [height, cell](int ix, int iy) {
+    return height ? height(cell * (ix + 0.5), cell * (iy + 0.5)) : 0;
+  };
   return heightfield::Ground(std::move(setup));
 }
 
@@ -38,7 +41,8 @@ inline scene::Soil shipped_soil(const std::string& name) {
 /// One machine on a bed; firm ground instead when told.
 class Ride {
  public:
-  Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at, bool firm = false)
+  Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at,
+       bool firm = false)
       : machine_(machine),
         ruts_(ground),
         view_(ground, ground.setup().soils, &ruts_),

@@ -19,12 +19,14 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kLayer = 0.15;   // loose soil under the machine [m]
-constexpr double kLifted = 0.05;  // it starts so high over the ground, as that rises when it is loosened [m]
+constexpr double kLayer = 0.15;  // loose soil under the machine [m]
+// It starts so high over the ground, as that rises when it is loosened [m]
+constexpr double kLifted = 0.05;
 
 /// The shipped site, flat, of one soil, and one machine without a program.
 scene::Scene yard(const std::string& vehicle, const std::string& soil = "loam") {
-  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene world =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   for (const scene::Soil& shipped : scene_io::load_soils(navvy::source_dir() + "/terrain/soils"))
     if (shipped.name == soil) world.soils = {shipped};
   world.ground.layers = {{soil, 100}};
@@ -33,7 +35,8 @@ scene::Scene yard(const std::string& vehicle, const std::string& soil = "loam") 
   placed.program = {};
   placed.X_WM.translation().z() += kLifted;
   if (vehicle != "ew180")
-    placed.machine = scene_io::load_machine(navvy::source_dir() + "/vehicles/" + vehicle + "/model.sdf");
+    placed.machine =
+        scene_io::load_machine(navvy::source_dir() + "/vehicles/" + vehicle + "/model.sdf");
   return world;
 }
 
@@ -50,16 +53,18 @@ Vec3 base_place(const sim::World& world) { return world.machine(0).link(0).pose(
 /// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or awake.
 class Layer {
  public:
-  Layer(sim::World& world, const Vec2& low, const Vec2& high) : world_(world), parts_(sim::parts(world)) {
+  Layer(sim::World& world, const Vec2& low, const Vec2& high)
+      : world_(world), parts_(sim::parts(world)) {
     heightfield::Ground& ground = parts_.ground;
-    const Vec2i first = ground.column_at(low.x(), low.y()), last = ground.column_at(high.x(), high.y());
+    const Vec2i first = ground.column_at(low.x(), low.y()),
+                last = ground.column_at(high.x(), high.y());
     area_ = {first.x(), first.y(), last.x(), last.y()};
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
   void wake() { parts_.soil.wake(area_, foot_); }
-  /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within `around` [m] of a
-  /// wheel's middle.
+  /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
+  /// `around` [m] of a wheel's middle.
   void keep_awake(double around) {
     if (world_.time() < next_) return;
     next_ = world_.time() + 0.05;
@@ -68,7 +73,8 @@ class Layer {
         const Vec2 p = parts_.ground.origin() + parts_.ground.cell() * Vec2(ix + 0.5, iy + 0.5);
         // Soil that a wheel pushed aside lies under what is awake.
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
-        for (int w = 0; rests && w < 4; ++w) rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
+        for (int w = 0; rests && w < 4; ++w)
+          rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
         if (rests) parts_.soil.wake({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
@@ -108,7 +114,8 @@ void run(
 
 std::string kind(bool active) { return active ? "awake" : "columns"; }
 
-/// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface [m].
+/// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
+/// [m].
 double sinks_where_it_stands(const std::string& soil, bool active) {
   sim::World world(yard("ew180", soil), shared_device());
   const Vec3 front = wheel_place(world, 0);
@@ -128,10 +135,12 @@ double sinks_where_it_stands(const std::string& soil, bool active) {
 
 TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
-    const double columns = sinks_where_it_stands(soil, false), active = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]", active,
-                std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
-    // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a cell.
+    const double columns = sinks_where_it_stands(soil, false),
+                 active = sinks_where_it_stands(soil, true);
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
+                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
+    // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
+    // cell.
     EXPECT_NEAR(active, columns, 0.005);
   }
 }
@@ -157,13 +166,13 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     }
     mean[active] /= count;
     EXPECT_EQ(2 * over_active > count, active);
-    print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]", mean[active],
-                std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
+    print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
+                mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.mass_ledger().error, 0);
   }
-  // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm, which the tread evens
-  // out over its length.
+  // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm,
+  // which the tread evens out over its length.
   EXPECT_NEAR(mean[1], mean[0], 0.005);
   EXPECT_NEAR(lowest[1], lowest[0], 0.01);
 }

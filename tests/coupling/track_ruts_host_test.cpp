@@ -49,8 +49,8 @@ TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
   const Vec2i at = ground.column_at(3.2, 3.2);
   EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 1e-4);
   ruts.press({patch_at(3.2, 3.2, 24e3)}, kFar, true);
-  EXPECT_NEAR(ground.height(at.x(), at.y()), -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6),
-              2e-4);
+  EXPECT_NEAR(ground.height(at.x(), at.y()),
+              -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6), 2e-4);
   // Pressed, not lost.
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }

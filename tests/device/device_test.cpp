@@ -90,13 +90,15 @@ TEST(DeviceDeathTest, SaysWhatToInstallWhereThereIsNoPlatform) {
     }
     std::exit(5);
   };
-  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3), "no OpenCL device: .*apt-get install pocl-opencl-icd");
+  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3),
+              "no OpenCL device: .*apt-get install pocl-opencl-icd");
 }
 
 TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
   Device device;
   const KernelProgram program = KernelProgram::from_text(
-      device, "spin", "kernel void spin(global int* x) { for (int i = 0; i < 1000; ++i) x[0] = x[0] * 3 + i; }");
+      device, "spin",
+      "kernel void spin(global int* x) { for (int i = 0; i < 1000; ++i) x[0] = x[0] * 3 + i; }");
   Buffer<int> x(device, 1);
   x.fill(0);
   Kernel spin(program, "spin");

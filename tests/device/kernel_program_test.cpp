@@ -64,8 +64,8 @@ std::string build_error(const std::string& name, const std::string& text) {
 
 TEST(KernelProgram, NamesFileAndLineOfABuildError) {
   // The include is long; the line must be counted in the file that includes it.
-  const std::string text =
-      build_error("soil/broken.cl", "#include \"common/portable.h\"\n\nkernel void f() { int x = nope; }\n");
+  const std::string text = build_error(
+      "soil/broken.cl", "#include \"common/portable.h\"\n\nkernel void f() { int x = nope; }\n");
   EXPECT_NE(text.find("soil/broken.cl:3"), std::string::npos) << text;
   EXPECT_NE(text.find("CL_BUILD_PROGRAM_FAILURE"), std::string::npos) << text;
   EXPECT_NE(text.find("nope"), std::string::npos) << text;
@@ -81,7 +81,8 @@ TEST(KernelProgram, EmbedsEveryKernelFile) {
   const std::filesystem::path root = std::filesystem::path(navvy::source_dir()) / "kernels";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension();
-    if (extension == ".cl" || extension == ".h") on_disk.push_back(entry.path().lexically_relative(root));
+    if (extension == ".cl" || extension == ".h")
+      on_disk.push_back(entry.path().lexically_relative(root));
   }
   std::sort(on_disk.begin(), on_disk.end());
   EXPECT_EQ(kernel_paths(), on_disk);
@@ -92,8 +93,8 @@ TEST(KernelProgram, EmbedsEveryKernelFile) {
 }
 
 TEST(KernelProgram, IncludesEachFileOnceAndGoesOnCounting) {
-  const std::string text =
-      expand_includes("a.cl", "#include \"common/portable.h\"\n # include \"common/portable.h\"\nint x;\n");
+  const std::string text = expand_includes(
+      "a.cl", "#include \"common/portable.h\"\n # include \"common/portable.h\"\nint x;\n");
   EXPECT_EQ(text.find("FP_CONTRACT"), text.rfind("FP_CONTRACT"));
   EXPECT_NE(text.find("#line 3 \"a.cl\"\nint x;"), std::string::npos) << text;
 }
@@ -102,7 +103,8 @@ TEST(KernelProgram, ReadsKernelsFromTheFolderInTheEnvironment) {
   const test::Folder own;
   const std::filesystem::path& folder = own.path();
   std::filesystem::create_directories(folder / "common");
-  std::ofstream(folder / "common/edited.cl") << "kernel void edited(global int* x) { x[0] = 42; }\n";
+  std::ofstream(folder / "common/edited.cl")
+      << "kernel void edited(global int* x) { x[0] = 42; }\n";
   ::setenv("NAVVY_KERNEL_DIR", folder.c_str(), 1);
   Device device;
   Buffer<int> x(device, 1);
@@ -117,7 +119,8 @@ TEST(KernelProgram, DoesNotContractAndPassesConstantsBitForBit) {
   Device device;
   const std::string text =
       "#include \"common/portable.h\"\n"
-      "kernel void f(global const float* x, global float* y) { y[0] = x[0] * x[1] + x[2]; y[1] = C; y[2] = 1 -C; }\n";
+      "kernel void f(global const float* x, global float* y) { y[0] = x[0] * x[1] + x[2]; y[1] = "
+      "C; y[2] = 1 -C; }\n";
   const float c = -0.1f;
   const KernelProgram program = KernelProgram::from_text(device, "f.cl", text, {define("C", c)});
   // (1 + 2^-12)^2 - 1 loses its last bit when the product is rounded, keeps it when fused.
@@ -133,11 +136,12 @@ TEST(KernelProgram, DoesNotContractAndPassesConstantsBitForBit) {
 
 TEST(KernelProgram, RoundsDivisionAndRootAsTheHost) {
   Device device;
-  if (!device.info().correct_divide_sqrt) GTEST_SKIP() << device.info().name << " cannot round them correctly";
-  const KernelProgram program =
-      KernelProgram::from_text(device, "f.cl",
-                         "kernel void f(global const float* x, global float* y) {\n"
-                         "  const int i = get_global_id(0); y[2 * i] = 1 / x[i]; y[2 * i + 1] = sqrt(x[i]); }\n");
+  if (!device.info().correct_divide_sqrt)
+    GTEST_SKIP() << device.info().name << " cannot round them correctly";
+  const KernelProgram program = KernelProgram::from_text(
+      device, "f.cl",
+      "kernel void f(global const float* x, global float* y) {\n"
+      "  const int i = get_global_id(0); y[2 * i] = 1 / x[i]; y[2 * i + 1] = sqrt(x[i]); }\n");
   std::vector<float> x(1000), expected(2000);
   for (std::size_t i = 0; i < x.size(); ++i) {
     x[i] = 0.37f + 1.13f * static_cast<float>(i);
@@ -165,7 +169,9 @@ kernel void f(global float* out, Pair pair, long n, local float* scratch) {
     float b;
   };
   Buffer<float> out(device, 4);
-  Kernel(program, "f").args(out, Pair{3, 0.5f}, std::int64_t{4}, LocalMemory{4 * sizeof(float)}).enqueue(4, 4);
+  Kernel(program, "f")
+      .args(out, Pair{3, 0.5f}, std::int64_t{4}, LocalMemory{4 * sizeof(float)})
+      .enqueue(4, 4);
   EXPECT_EQ(out.read(), (std::vector<float>{4.5f, 4, 3.5f, 3}));
 }
 

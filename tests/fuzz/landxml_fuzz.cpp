@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as LandXML, then the surface on a small site: both may refuse with InputError, nothing else.
+// Any bytes as LandXML, then the surface on a small site: both may refuse with InputError, nothing
+// else.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -29,7 +30,8 @@ NAVVY_FUZZ_TARGET(landxml) {
     world.design.tin = tin;
     try {
       if (tin != nullptr) {
-        const auto design = navvy::heightfield::make_design(world, navvy::heightfield::make_ground(world));
+        const auto design =
+            navvy::heightfield::make_design(world, navvy::heightfield::make_ground(world));
         for (const float z : design->z) navvy::fuzz::hold(!std::isinf(z));
       }
     } catch (const navvy::InputError&) {

@@ -18,13 +18,15 @@ TEST(SolidProperties, OfABoxAreThoseOfTheTextbook) {
   const double v = e.prod();
   EXPECT_NEAR(box.volume, v, kRounding);
   EXPECT_TRUE(box.p_BCom.isApprox(Vec3(3, -2, 1) + 0.5 * e, kRounding));
-  const Vec3 moments(e.y() * e.y() + e.z() * e.z(), e.z() * e.z() + e.x() * e.x(), e.x() * e.x() + e.y() * e.y());
-  EXPECT_TRUE(box.inertia.isApprox(Mat3((v / 12 * moments).asDiagonal()), kRounding)) << box.inertia;
+  const Vec3 moments(e.y() * e.y() + e.z() * e.z(), e.z() * e.z() + e.x() * e.x(),
+                     e.x() * e.x() + e.y() * e.y());
+  EXPECT_TRUE(box.inertia.isApprox(Mat3((v / 12 * moments).asDiagonal()), kRounding))
+      << box.inertia;
 }
 
 TEST(SolidProperties, OfATetrahedronHaveItsProductsOfInertia) {
-  // Right-angled, edges a b c from one corner: volume abc / 6, centre at a quarter of the edges; about the centre
-  // the second moments are 3 V a^2 / 80 and the mixed ones -V a b / 80.
+  // Right-angled, edges a b c from one corner: volume abc / 6, centre at a quarter of the edges;
+  // about the centre the second moments are 3 V a^2 / 80 and the mixed ones -V a b / 80.
   const double a = 1.5, b = 0.8, c = 2;
   const SolidProperties t = solid_properties(make_tetrahedron(a, b, c));
   const double v = a * b * c / 6;
@@ -42,14 +44,17 @@ TEST(SolidProperties, OfATetrahedronHaveItsProductsOfInertia) {
 TEST(SolidProperties, OfSphereAndEllipsoidComeCloserByFourWithEverySplit) {
   for (const Vec3& r : {Vec3(1, 1, 1), Vec3(0.5, 1, 2)}) {
     const double v = 4.0 / 3 * kPi * r.prod();
-    const Vec3 moments(r.y() * r.y() + r.z() * r.z(), r.z() * r.z() + r.x() * r.x(), r.x() * r.x() + r.y() * r.y());
+    const Vec3 moments(r.y() * r.y() + r.z() * r.z(), r.z() * r.z() + r.x() * r.x(),
+                       r.x() * r.x() + r.y() * r.y());
     double last_volume = 0, last_inertia = 0;
     for (const int levels : {3, 4, 5}) {
       const SolidProperties s = solid_properties(make_ellipsoid(r, levels));
       const double volume_error = 1 - s.volume / v;
-      const double inertia_error = (s.inertia - Mat3((v / 5 * moments).asDiagonal())).norm() / (v / 5 * moments).norm();
+      const double inertia_error =
+          (s.inertia - Mat3((v / 5 * moments).asDiagonal())).norm() / (v / 5 * moments).norm();
       EXPECT_LT(s.p_BCom.norm(), 1e-12);
-      // Chords cut off a share of the square of their length; the exact order shows that nothing else is wrong.
+      // Chords cut off a share of the square of their length; the exact order shows that nothing
+      // else is wrong.
       if (last_volume > 0) {
         EXPECT_NEAR(last_volume / volume_error, 4, 0.1);
         EXPECT_NEAR(last_inertia / inertia_error, 4, 0.1);

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "heightfield/maps.h"
 #include "heightfield/make_ground.h"
+#include "heightfield/maps.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -29,8 +29,10 @@ scene::Scene flat() {
 
 scene::DesignArea box(double length, double width, double depth, double batter_deg) {
   scene::DesignArea area;
-  area.polygon = {
-      {-length / 2, -width / 2}, {length / 2, -width / 2}, {length / 2, width / 2}, {-length / 2, width / 2}};
+  area.polygon = {{-length / 2, -width / 2},
+                  {length / 2, -width / 2},
+                  {length / 2, width / 2},
+                  {-length / 2, width / 2}};
   area.depth = depth;
   area.batter = radians(batter_deg);
   return area;
@@ -108,8 +110,10 @@ TEST(DesignArea, FallsAlongItsDirectionAndEndsWhereTheGroundDoes) {
     const Vec2i c = ground.column_at(x, y);
     return design.rect.contains(c.x(), c.y()) ? static_cast<double>(design.at(c.x(), c.y())) : NAN;
   };
-  // The first corner, (-3, -2), lies 1 m below the ground there; from it the floor falls by 5 % towards y.
-  const double corner = ground.height(ground.column_at(-2.99, -1.99).x(), ground.column_at(-2.99, -1.99).y()) - 1;
+  // The first corner, (-3, -2), lies 1 m below the ground there; from it the floor falls by 5 %
+  // towards y.
+  const double corner =
+      ground.height(ground.column_at(-2.99, -1.99).x(), ground.column_at(-2.99, -1.99).y()) - 1;
   EXPECT_NEAR(at(0.05, -1.95), corner - 0.05 * 0.05, 1e-5);
   EXPECT_NEAR(at(0.05, 1.95), corner - 0.05 * 3.95, 1e-5);
   // Beyond the edge the side rises; it ends at the ground.
@@ -184,7 +188,8 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
   world.design.file = "pit.xml";
   world.design.tin = tin;
   std::string message = message_of(world);
-  for (const char* part : {"pit.xml", "'pit'", "covers no column", "x 195.000 .. 205.000", "same coordinates"})
+  for (const char* part :
+       {"pit.xml", "'pit'", "covers no column", "x 195.000 .. 205.000", "same coordinates"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   world.ground.has_origin = true;
   world.ground.origin = Vec2(-12, 190);
@@ -199,10 +204,12 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
   world.design.tin = tin;
   message = message_of(world);
   EXPECT_EQ(message.find("swapped"), std::string::npos) << message;
-  EXPECT_NE(message.find("smaller than a column: look at linearUnit"), std::string::npos) << message;
+  EXPECT_NE(message.find("smaller than a column: look at linearUnit"), std::string::npos)
+      << message;
 }
 
-/// What the log says while the frustum is laid on a site of that CRS and unit; a refusal's text likewise.
+/// What the log says while the frustum is laid on a site of that CRS and unit; a refusal's text
+/// likewise.
 std::string said_of(const std::string& crs, double site_unit, int epsg, double unit) {
   GroundSetup setup = make_ground(flat()).setup();
   setup.crs_wkt = crs;
@@ -229,11 +236,14 @@ std::string said_of(const std::string& crs, double site_unit, int epsg, double u
 }
 
 const std::string kZone =
-    "PROJCRS[\"WGS 84 / UTM zone 32N\",BASEGEOGCRS[\"WGS 84\",ID[\"EPSG\",4326]],CONVERSION[\"UTM zone 32N\","
-    "METHOD[\"Transverse Mercator\",ID[\"EPSG\",9807]]],CS[Cartesian,2],LENGTHUNIT[\"metre\",1,ID[\"EPSG\",9001]]";
+    "PROJCRS[\"WGS 84 / UTM zone 32N\",BASEGEOGCRS[\"WGS 84\",ID[\"EPSG\",4326]],CONVERSION[\"UTM "
+    "zone 32N\","
+    "METHOD[\"Transverse "
+    "Mercator\",ID[\"EPSG\",9807]]],CS[Cartesian,2],LENGTHUNIT[\"metre\",1,ID[\"EPSG\",9001]]";
 const std::string kOwnCode = kZone + ",ID[\"EPSG\",32632]]";
-const std::string kCompound = "COMPOUNDCRS[\"zone \"\"[32]\"\" and heights\"," + kOwnCode +
-                              ",VERTCRS[\"EGM96 height\",CS[vertical,1],ID[\"EPSG\",5773]],ID[\"EPSG\",9999]]";
+const std::string kCompound =
+    "COMPOUNDCRS[\"zone \"\"[32]\"\" and heights\"," + kOwnCode +
+    ",VERTCRS[\"EGM96 height\",CS[vertical,1],ID[\"EPSG\",5773]],ID[\"EPSG\",9999]]";
 
 TEST(DesignTin, OfAnotherCrsIsRefusedAlsoBesideOneWithHeights) {
   for (const std::string& crs : {kOwnCode, kCompound}) {
@@ -250,18 +260,22 @@ TEST(DesignTin, OfAnotherCrsIsRefusedAlsoBesideOneWithHeights) {
 
 TEST(DesignTin, WarnsWhereOnlyOneSideHasACode) {
   EXPECT_EQ(said_of("", 1, 0, 1), "");
-  EXPECT_NE(said_of("", 1, 25832, 1).find("pit.xml: warning: navvy:design: 'EPSG:25832': the site has no CRS"),
+  EXPECT_NE(said_of("", 1, 25832, 1)
+                .find("pit.xml: warning: navvy:design: 'EPSG:25832': the site has no CRS"),
             std::string::npos)
       << said_of("", 1, 25832, 1);
-  EXPECT_NE(said_of(kZone + "]", 1, 32632, 1).find("has no EPSG code to compare with"), std::string::npos);
-  EXPECT_NE(said_of(kCompound, 1, 0, 1).find("<CoordinateSystem epsgCode=\"32632\"/>"), std::string::npos);
+  EXPECT_NE(said_of(kZone + "]", 1, 32632, 1).find("has no EPSG code to compare with"),
+            std::string::npos);
+  EXPECT_NE(said_of(kCompound, 1, 0, 1).find("<CoordinateSystem epsgCode=\"32632\"/>"),
+            std::string::npos);
 }
 
 TEST(DesignTin, DistinguishesInternationalFromSurveyFeet) {
   const double survey = 1200.0 / 3937.0;
   // Two millionths of 2.06 million feet.
   const std::string said = said_of("", survey, 0, 0.3048);
-  EXPECT_NE(said.find("counts in 0.3048 m, the site's map in 0.3048006096 m"), std::string::npos) << said;
+  EXPECT_NE(said.find("counts in 0.3048 m, the site's map in 0.3048006096 m"), std::string::npos)
+      << said;
   EXPECT_NE(said.find("lie 1.3 m apart here"), std::string::npos) << said;
   EXPECT_NE(said_of("", 0.3048, 0, survey).find("correct linearUnit"), std::string::npos);
   EXPECT_EQ(said_of("", survey, 0, survey), "");
@@ -281,23 +295,27 @@ TEST(DesignArea, OffTheSiteIsRefusedWithItsLine) {
 #ifdef NAVVY_WITH_GDAL
 /// A cone 2 m deep of radius 4 about the middle of a map of 96 x 80 cells; NODATA outside.
 std::string cone_map(const std::string& path, const std::string& corner) {
-  return write_text(path, testing::ascii_grid(96, 80, corner + "cellsize 0.1\nNODATA_value -9999\n", [](int c, int r) {
-                      const double d = std::hypot(0.1 * (c - 47.5), 0.1 * (r - 39.5));
-                      return d < 4 ? std::to_string(100 - 2 + d / 2) : "-9999";
-                    }));
+  return write_text(
+      path,
+      testing::ascii_grid(96, 80, corner + "cellsize 0.1\nNODATA_value -9999\n", [](int c, int r) {
+        const double d = std::hypot(0.1 * (c - 47.5), 0.1 * (r - 39.5));
+        return d < 4 ? std::to_string(100 - 2 + d / 2) : "-9999";
+      }));
 }
 
 TEST(DesignRaster, OfAConeHasItsVolumeAtItsPlaceOnAMap) {
   const std::string dir = folder();
-  write_text(dir + "ground.asc", testing::ascii_grid(40, 40, "xllcorner 5000\nyllcorner 80000\ncellsize 1\n",
-                                                     [](int, int) { return "100"; }));
+  write_text(dir + "ground.asc",
+             testing::ascii_grid(40, 40, "xllcorner 5000\nyllcorner 80000\ncellsize 1\n",
+                                 [](int, int) { return "100"; }));
   scene::Scene world = testing::map_world(dir + "ground.asc", 0.1, Vec2(24, 20));
   world.design.file = cone_map(dir + "cone.asc", "xllcorner 5017\nyllcorner 80015\n");
   const Ground ground = make_ground(world);
   const DesignSurface design = make_design(world, ground).value();
   const double volume = kPi * 16 * 2 / 3;
   EXPECT_NEAR(against_design(ground, design).design_cut, volume, kShare * volume);
-  // The tip lies at 5021.8, 80019, a corner of columns; the site begins at 5008, 80010. Text of six digits.
+  // The tip lies at 5021.8, 80019, a corner of columns; the site begins at 5008, 80010. Text of six
+  // digits.
   EXPECT_NEAR(static_cast<double>(design.at(137, 89)), -2 + std::hypot(0.05, 0.05) / 2, 2e-6);
   EXPECT_NEAR(static_cast<double>(design.at(157, 89)), -2 + std::hypot(1.95, 0.05) / 2, 2e-6);
   EXPECT_NEAR(static_cast<double>(design.at(137, 99)), -2 + std::hypot(0.05, 0.95) / 2, 2e-6);
@@ -311,13 +329,14 @@ TEST(DesignRaster, OfAConeHasItsVolumeAtItsPlaceOnAMap) {
 TEST(DesignRaster, OfAnotherCrsOrUnitIsRefused) {
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   const std::string dir = folder();
-  write_text(dir + "ground.asc", testing::ascii_grid(40, 40, "xllcorner 5000\nyllcorner 80000\ncellsize 1\n",
-                                                     [](int, int) { return "100"; }));
+  write_text(dir + "ground.asc",
+             testing::ascii_grid(40, 40, "xllcorner 5000\nyllcorner 80000\ncellsize 1\n",
+                                 [](int, int) { return "100"; }));
   cone_map(dir + "cone.asc", "xllcorner 5017\nyllcorner 80015\n");
   for (const std::string zone : {"32632", "32633", "2248"})
     for (const std::string map : {"ground", "cone"})
-      testing::output_of("gdal_translate -a_srs EPSG:" + zone + " '" + dir + map + ".asc' '" + dir + map + zone +
-                         ".tif'");
+      testing::output_of("gdal_translate -a_srs EPSG:" + zone + " '" + dir + map + ".asc' '" + dir +
+                         map + zone + ".tif'");
   const auto message = [&](const std::string& ground, const std::string& design) {
     scene::Scene world = testing::map_world(dir + ground, 0.1, Vec2(8, 8));
     world.ground.has_at = true;
@@ -326,7 +345,8 @@ TEST(DesignRaster, OfAnotherCrsOrUnitIsRefused) {
     return message_of(world);
   };
   EXPECT_EQ(message("ground32632.tif", "cone32632.tif"), "");
-  EXPECT_EQ(message("ground32632.tif", "cone.asc"), "") << "without a CRS it is taken to be in the site's";
+  EXPECT_EQ(message("ground32632.tif", "cone.asc"), "")
+      << "without a CRS it is taken to be in the site's";
   std::string refused = message("ground32632.tif", "cone32633.tif");
   EXPECT_NE(refused.find("UTM zone 33N"), std::string::npos) << refused;
   EXPECT_NE(refused.find("UTM zone 32N"), std::string::npos) << refused;

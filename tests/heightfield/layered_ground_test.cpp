@@ -21,7 +21,8 @@ namespace {
 using testing::total;
 using testing::wavy_setup;
 
-// One mass unit over a 0.1 m column of 1100 kg/m3 is 5.4e-9 m thick; heights are sums of a few such roundings.
+// One mass unit over a 0.1 m column of 1100 kg/m3 is 5.4e-9 m thick; heights are sums of a few such
+// roundings.
 constexpr double kHeightQuantum = 2e-8;
 
 std::vector<std::int64_t> per_soil(const std::vector<SoilLayer>& layers, std::size_t soils) {
@@ -59,7 +60,8 @@ void work(Ground& ground, Random& random, int edits, std::vector<SoilLayer>& tak
 TEST(Ground, PristineAndMaterialisedHeightsAgreeBitForBit) {
   Ground ground(wavy_setup());
   const Ground untouched(wavy_setup());
-  // Touch every column: put something on it, take everything above its start height off again, put the rest back.
+  // Touch every column: put something on it, take everything above its start height off again, put
+  // the rest back.
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const double before = ground.height(ix, iy);
@@ -88,7 +90,8 @@ TEST(Ground, HasTwoSoilsWithTheMassOfTheirThickness) {
   EXPECT_EQ(layers[0].soil, 0);
   // Half a unit of rounding.
   EXPECT_NEAR(kilograms(layers[1].mass), 1100 * 0.01 * 0.3, kMassQuantum);
-  EXPECT_NEAR(kilograms(layers[0].mass), 1540 * 0.01 * (ground.height(5, 7) + 3 - 0.3), 2 * kMassQuantum);
+  EXPECT_NEAR(kilograms(layers[0].mass), 1540 * 0.01 * (ground.height(5, 7) + 3 - 0.3),
+              2 * kMassQuantum);
   // Inside the patch there is loam only.
   const Vec2i c = ground.column_at(0.5, 2.5);
   EXPECT_EQ(ground.layers(c.x(), c.y()).size(), 1u);
@@ -103,7 +106,8 @@ TEST(Ground, KeepsTheLedgerExactUnderRandomWork) {
     work(ground, random, 1000, taken);
     const auto change = ground.mass_change();
     const auto out = per_soil(taken, 2);
-    for (std::size_t i = 0; i < 2; ++i) ASSERT_EQ(change[i] + out[i], 0) << "soil " << i << " round " << round;
+    for (std::size_t i = 0; i < 2; ++i)
+      ASSERT_EQ(change[i] + out[i], 0) << "soil " << i << " round " << round;
   }
 }
 
@@ -117,10 +121,12 @@ TEST(Ground, VolumesFromHeightsAgreeWithMass) {
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       for (const SoilLayer& layer : ground.layers(ix, iy))
-        from_layers += kilograms(layer.mass) * layer.specific_volume / ground.setup().soils[layer.soil].bank_density;
+        from_layers += kilograms(layer.mass) * layer.specific_volume /
+                       ground.setup().soils[layer.soil].bank_density;
       from_heights += (ground.height(ix, iy) - ground.datum()) * 0.01;
     }
-  EXPECT_NEAR(from_heights / from_layers, 1, 1e-5);  // the bound; in fact rounding of double
+  // The bound; in fact rounding of double
+  EXPECT_NEAR(from_heights / from_layers, 1, 1e-5);
   // A dig of bank soil: volume = mass / density.
   Ground fresh(wavy_setup());
   std::vector<SoilLayer> dug;
@@ -136,7 +142,8 @@ TEST(Ground, TakesDownToTheHeightAskedFor) {
   Ground ground(wavy_setup());
   Random random(3);
   for (int n = 0; n < 2000; ++n) {
-    const int ix = static_cast<int>(random.uniform(0, 77)), iy = static_cast<int>(random.uniform(0, 45));
+    const int ix = static_cast<int>(random.uniform(0, 77)),
+              iy = static_cast<int>(random.uniform(0, 45));
     const double z = random.uniform(-3.2, 1.0), before = ground.height(ix, iy);
     std::vector<SoilLayer> taken;
     ground.take_above(ix, iy, z, taken);
@@ -162,8 +169,9 @@ TEST(Ground, CompactsTheTopFirstAndKeepsMass) {
 }
 
 TEST(Ground, CompactsNoDeeperThanTheDropReaches) {
-  // A pressed zone over what nobody pressed: no layers are cut of that. Near height 0 drops have finer digits than
-  // what is left of a layer, so that their difference does not come out as nothing.
+  // A pressed zone over what nobody pressed: no layers are cut of that. Near height 0 drops have
+  // finer digits than what is left of a layer, so that their difference does not come out as
+  // nothing.
   Ground::Setup level = wavy_setup();
   level.surface = [](int, int) { return 0.0; };
   Ground ground(std::move(level));
@@ -171,7 +179,8 @@ TEST(Ground, CompactsNoDeeperThanTheDropReaches) {
   for (int iy = 0; iy < 20; ++iy)
     for (int ix = 0; ix < 20; ++ix) {
       const std::size_t before = ground.layers(ix, iy).size();
-      for (int n = 0; n < 5; ++n) ground.compact_to(ix, iy, ground.height(ix, iy) - random.uniform(0.001, 0.004));
+      for (int n = 0; n < 5; ++n)
+        ground.compact_to(ix, iy, ground.height(ix, iy) - random.uniform(0.001, 0.004));
       EXPECT_LE(ground.layers(ix, iy).size(), before + 1) << ix << " " << iy;
     }
 }
@@ -180,9 +189,10 @@ TEST(Ground, StaysShortUnderEndlessEdits) {
   Ground ground(wavy_setup());
   Random random(5);
   for (int n = 0; n < 3000; ++n) {
-    ground.put(3, 3,
-               {static_cast<std::uint16_t>(n < 1500 ? 0 : 1), 500000, static_cast<float>(random.uniform(1, 1.25)),
-                static_cast<float>(random.uniform(0, 3))});
+    ground.put(
+        3, 3,
+        {static_cast<std::uint16_t>(n < 1500 ? 0 : 1), 500000,
+         static_cast<float>(random.uniform(1, 1.25)), static_cast<float>(random.uniform(0, 3))});
     ground.compact_to(3, 3, ground.height(3, 3) - random.uniform(0, 0.01));
   }
   EXPECT_LE(ground.layers(3, 3).size(), 16u);
@@ -265,8 +275,9 @@ TEST(Ground, RefusesColumnsThatNoSiteHas) {
   const std::vector<char> state = saved(ground, &map);
   // The field of that name with other bytes is refused by its name.
   const auto refused = [&](const std::string& name, const auto& value) {
-    const auto field = std::find_if(map.fields.begin(), map.fields.end(),
-                                    [&](const ByteMap::Field& f) { return f.path.ends_with(name) && f.size != 8; });
+    const auto field = std::find_if(
+        map.fields.begin(), map.fields.end(),
+        [&](const ByteMap::Field& f) { return f.path.ends_with(name) && f.size != 8; });
     std::vector<char> bytes = state;
     std::memcpy(bytes.data() + field->offset, &value, sizeof value);
     try {
@@ -277,14 +288,16 @@ TEST(Ground, RefusesColumnsThatNoSiteHas) {
     return false;
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(refused("place", std::uint16_t{1023})) << "beyond the corner of the site, but in its tile";
+  EXPECT_TRUE(refused("place", std::uint16_t{1023}))
+      << "beyond the corner of the site, but in its tile";
   EXPECT_TRUE(refused("place", std::uint16_t{1024}));
   EXPECT_TRUE(refused("layers", std::uint32_t{0xffffffff}));
   EXPECT_TRUE(refused("soil", std::uint16_t{7}));
   EXPECT_TRUE(refused("specific_volume", 0.0f));
   EXPECT_TRUE(refused("specific_volume", nan));
   EXPECT_TRUE(refused("plastic_shear", nan));
-  EXPECT_TRUE(refused("edits", CellRect{1, 1, 1 << 30, 2})) << "the soil would look at tiles for ever";
+  EXPECT_TRUE(refused("edits", CellRect{1, 1, 1 << 30, 2}))
+      << "the soil would look at tiles for ever";
   EXPECT_NO_THROW(load_saved(state, target));
 }
 
@@ -300,15 +313,18 @@ TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {
   // A tile holds 18 KiB of heights and slots and its changed columns; the cache at most 8 MiB.
   EXPECT_LE(ground.touched_tiles(), 4u);
   const std::size_t bytes_after = ::mallinfo2().uordblks;
-  EXPECT_LT(bytes_after - bytes_before, 1u << 20);  // tables of the site, four tiles, their cache: 0.2 MB
+  // Tables of the site, four tiles, their cache: 0.2 MB
+  EXPECT_LT(bytes_after - bytes_before, 1u << 20);
 }
 
 TEST(Ground, SamplesBilinearlyAndExtendsItsEdge) {
   const Ground ground(wavy_setup());
   const Vec2& o = ground.origin();
-  EXPECT_NEAR(ground.sample(o.x() + 0.05 + 0.1 * 31, o.y() + 0.05 + 0.1 * 31), ground.height(31, 31), 1e-12);
-  const double mean =
-      (ground.height(31, 31) + ground.height(32, 31) + ground.height(31, 32) + ground.height(32, 32)) / 4;
+  EXPECT_NEAR(ground.sample(o.x() + 0.05 + 0.1 * 31, o.y() + 0.05 + 0.1 * 31),
+              ground.height(31, 31), 1e-12);
+  const double mean = (ground.height(31, 31) + ground.height(32, 31) + ground.height(31, 32) +
+                       ground.height(32, 32)) /
+                      4;
   EXPECT_NEAR(ground.sample(o.x() + 3.2, o.y() + 3.2), mean, 1e-12);
   EXPECT_EQ(ground.sample(-1e6, -1e6), ground.height(0, 0));
   EXPECT_EQ(ground.sample(1e6, 1e6), ground.height(76, 44));
@@ -376,7 +392,8 @@ TEST(Ground, CopiesHeightsOfAnyRectangle) {
   ASSERT_EQ(heights.size(), 83u * 30u);
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix)
-      ASSERT_EQ(heights[(iy - rect.y0) * 83 + ix - rect.x0], static_cast<float>(ground.height(ix, iy)));
+      ASSERT_EQ(heights[(iy - rect.y0) * 83 + ix - rect.x0],
+                static_cast<float>(ground.height(ix, iy)));
 }
 
 TEST(Ground, ReportsTheHighestColumnOfAnyRectangle) {
@@ -384,8 +401,9 @@ TEST(Ground, ReportsTheHighestColumnOfAnyRectangle) {
   ground.put(40, 40, {0, 50000000, 1, 0});
   std::vector<SoilLayer> taken;
   ground.take_above(12, 3, -1, taken);
-  for (const CellRect rect : {CellRect{-3, 20, 80, 50}, CellRect{0, 0, 77, 45}, CellRect{12, 3, 13, 4},
-                              CellRect{30, 30, 70, 44}, CellRect{-9, -9, -2, -5}, CellRect{90, 60, 91, 61}}) {
+  for (const CellRect rect :
+       {CellRect{-3, 20, 80, 50}, CellRect{0, 0, 77, 45}, CellRect{12, 3, 13, 4},
+        CellRect{30, 30, 70, 44}, CellRect{-9, -9, -2, -5}, CellRect{90, 60, 91, 61}}) {
     double highest = -1e9;
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix) highest = std::max(highest, ground.height(ix, iy));
@@ -431,7 +449,9 @@ TEST(Ground, RefusesNonsense) {
     EXPECT_NE(std::string(error.what()).find("moon dust"), std::string::npos);
   }
   Ground::Setup holes = wavy_setup();
-  holes.surface = [](int ix, int) { return ix == 40 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
+  holes.surface = [](int ix, int) {
+    return ix == 40 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  };
   const Ground ground(holes);
   EXPECT_EQ(ground.height(3, 3), 0);
   EXPECT_THROW(ground.height(40, 3), InputError);

@@ -14,7 +14,8 @@ namespace {
 
 using Kind = scene::GroundFeature::Kind;
 
-scene::Scene world_with(const std::vector<scene::GroundFeature>& features, Vec2 size = Vec2(12, 8)) {
+scene::Scene world_with(const std::vector<scene::GroundFeature>& features,
+                        Vec2 size = Vec2(12, 8)) {
   scene::Scene world;
   world.soils.resize(1);
   world.soils[0].name = "loam";
@@ -25,8 +26,8 @@ scene::Scene world_with(const std::vector<scene::GroundFeature>& features, Vec2 
   return world;
 }
 
-scene::GroundFeature feature(Kind kind, double length, double width, double height, double angle, double yaw = 0,
-                             Vec2 center = Vec2::Zero()) {
+scene::GroundFeature feature(Kind kind, double length, double width, double height, double angle,
+                             double yaw = 0, Vec2 center = Vec2::Zero()) {
   scene::GroundFeature f;
   f.kind = kind;
   f.length = length;
@@ -59,7 +60,8 @@ TEST(Site, IsRoundedUpToBlocksAndCentredOnTheOrigin) {
 }
 
 TEST(Site, SlopeRisesAlongItsYaw) {
-  const Ground ground = make_ground(world_with({feature(Kind::kSlope, 1, 1, 1, radians(10), radians(90))}));
+  const Ground ground =
+      make_ground(world_with({feature(Kind::kSlope, 1, 1, 1, radians(10), radians(90))}));
   EXPECT_NEAR(ground.sample(2, 3) - ground.sample(2, -3), 6 * std::tan(radians(10)), 1e-7);
   EXPECT_NEAR(ground.sample(4, 1), ground.sample(-4, 1), 1e-7);
   EXPECT_NEAR(ground.sample(0, 0), 0, 1e-7);
@@ -68,7 +70,8 @@ TEST(Site, SlopeRisesAlongItsYaw) {
 }
 
 TEST(Site, TrenchRunsAlongItsYawWithLeaningSides) {
-  const Ground ground = make_ground(world_with({feature(Kind::kTrench, 4, 1, 0.8, radians(45), radians(90))}));
+  const Ground ground =
+      make_ground(world_with({feature(Kind::kTrench, 4, 1, 0.8, radians(45), radians(90))}));
   EXPECT_NEAR(ground.sample(0, 1.9), -0.8, kHeightQuantum);  // floor: 4 m along y
   EXPECT_NEAR(ground.sample(0.45, 0), -0.8, kHeightQuantum);
   EXPECT_NEAR(ground.sample(0.95, 0.05), -0.8 + 0.45, 1e-7);  // half way up the side, 45 deg
@@ -77,13 +80,16 @@ TEST(Site, TrenchRunsAlongItsYawWithLeaningSides) {
 }
 
 TEST(Site, StockpileStandsAtTheSoilsFrictionAngle) {
-  const Ground ground = make_ground(world_with({feature(Kind::kStockpile, 1, 1, 1.2, 0, 0, Vec2(1, -1))}));
-  EXPECT_NEAR(ground.sample(2.05, -0.95), 1.2 - std::hypot(1.05, 0.05) * std::tan(radians(30)), 1e-7);
+  const Ground ground =
+      make_ground(world_with({feature(Kind::kStockpile, 1, 1, 1.2, 0, 0, Vec2(1, -1))}));
+  EXPECT_NEAR(ground.sample(2.05, -0.95), 1.2 - std::hypot(1.05, 0.05) * std::tan(radians(30)),
+              1e-7);
   EXPECT_NEAR(ground.sample(-4, -1), 0, kHeightQuantum);
 }
 
 TEST(Site, BankRisesToTheLeftOfItsLine) {
-  const Ground ground = make_ground(world_with({feature(Kind::kBank, 1, 1, 2, radians(60), 0, Vec2(0, 1))}));
+  const Ground ground =
+      make_ground(world_with({feature(Kind::kBank, 1, 1, 2, radians(60), 0, Vec2(0, 1))}));
   EXPECT_NEAR(ground.sample(0, 0.9), 0, kHeightQuantum);
   EXPECT_NEAR(ground.sample(-5, 3), 2, kHeightQuantum);
   EXPECT_NEAR(ground.sample(0.05, 1.55), 0.55 * std::tan(radians(60)), 1e-7);
@@ -98,7 +104,8 @@ TEST(Site, BlockStandsFree) {
 
 TEST(Site, HillsAreSeededBoundedAndSmooth) {
   scene::GroundFeature f = feature(Kind::kHills, 6, 1, 2, 0);
-  const Ground a = make_ground(world_with({f}, Vec2(40, 30))), b = make_ground(world_with({f}, Vec2(40, 30)));
+  const Ground a = make_ground(world_with({f}, Vec2(40, 30))),
+               b = make_ground(world_with({f}, Vec2(40, 30)));
   f.seed = 2;
   const Ground c = make_ground(world_with({f}, Vec2(40, 30)));
   double low = 1e9, high = -1e9, steepest = 0, differs = 0;
@@ -115,8 +122,8 @@ TEST(Site, HillsAreSeededBoundedAndSmooth) {
   EXPECT_LE(high, 1);
   EXPECT_GT(high - low, 0.8);  // it uses a good part of its height
   EXPECT_GT(differs, 0.2);     // another seed is another landscape
-  // The quintic fade is steepest at 15/8 per lattice step: 0.75 x 2 m x 15/8 / 3 m plus the second octave (twice as
-  // fine, a third as high).
+  // The quintic fade is steepest at 15/8 per lattice step: 0.75 x 2 m x 15/8 / 3 m plus the second
+  // octave (twice as fine, a third as high).
   EXPECT_LT(steepest, 2.2);
 }
 
@@ -131,10 +138,12 @@ TEST(Site, SettlesSlopesAboveReposeOnceAndKeepsVolume) {
       before += held.height(ix, iy);
       after += settled.height(ix, iy);
       ASSERT_EQ(settled.height(ix, iy), again.height(ix, iy));
-      steepest = std::max(steepest, std::abs(settled.height(ix, iy + 1) - settled.height(ix, iy)) / 0.1);
+      steepest =
+          std::max(steepest, std::abs(settled.height(ix, iy + 1) - settled.height(ix, iy)) / 0.1);
     }
   EXPECT_NEAR(after / before, 1, 1e-8);
-  EXPECT_LT(degrees(std::atan(steepest)), 30);  // the friction angle: nothing slides when the run begins
+  // The friction angle: nothing slides when the run begins
+  EXPECT_LT(degrees(std::atan(steepest)), 30);
   EXPECT_GT(degrees(std::atan(steepest)), 27);  // and not flatter than it has to be
   world.ground.size = Vec2(1000, 1000);
   EXPECT_THROW(make_ground(world), InputError);

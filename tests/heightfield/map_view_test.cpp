@@ -18,7 +18,8 @@ TEST(MapView, ShowsEveryLayerOfARectangle) {
   std::vector<SoilLayer> taken;
   ground.take_above(40, 33, ground.height(40, 33) - 0.5, taken);
   const CellRect rect{35, 30, 50, 40};
-  const MapView elevation = map_view(ground, "elevation", rect), change = map_view(ground, "change", rect);
+  const MapView elevation = map_view(ground, "elevation", rect),
+                change = map_view(ground, "change", rect);
   EXPECT_EQ(elevation.nx(), 15);
   EXPECT_EQ(elevation.ny(), 10);
   EXPECT_NEAR(elevation.origin.x(), -3.3 + 3.5, 1e-12);

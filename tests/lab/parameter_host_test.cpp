@@ -48,7 +48,8 @@ TEST(ParameterRange, SaysItsRuleInWords) {
 }
 
 TEST(Parameter, ReadsNumbersAndTheWordsOfItsChoices) {
-  const Parameter shape = choice("shape", "round", "", {{"plane", 0, "a block"}, {"round", 1, "a cylinder"}});
+  const Parameter shape =
+      choice("shape", "round", "", {{"plane", 0, "a block"}, {"round", 1, "a cylinder"}});
   EXPECT_EQ(shape.value, 1);
   EXPECT_EQ(shape.read("plane"), 0);
   EXPECT_EQ(shape.read("1"), 1);  // the number stands for the choice as well

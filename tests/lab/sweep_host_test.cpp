@@ -43,13 +43,15 @@ TEST(Sweep, RunsEveryCombinationLastAxisFastest) {
 TEST(Sweep, ListsAreCutAtCommasAndAnEmptyPartIsRefused) {
   EXPECT_EQ(listed("--speed", "0.05,0.3"), (std::vector<std::string>{"0.05", "0.3"}));
   EXPECT_EQ(listed("--shape", "plane"), (std::vector<std::string>{"plane"}));
-  for (const char* text : {"", "1,", ",1", "1,,2"}) EXPECT_THROW(listed("--speed", text), InputError) << text;
+  for (const char* text : {"", "1,", ",1", "1,,2"})
+    EXPECT_THROW(listed("--speed", text), InputError) << text;
 }
 
 TEST(Sweep, TableHasAxesHeadlineAndDeviations) {
   const auto table = table_of(rig_with_headline(), four_runs());
   ASSERT_EQ(table.size(), 5u);
-  EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s", "gates"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s",
+                                                "gates"}));
   EXPECT_EQ(table[1][2], "1");  // 10 x 0.05 + 0.5, at the gate's end
   EXPECT_EQ(table[1].back(), "");
   EXPECT_EQ(table[2][2], "0.75");

@@ -25,7 +25,8 @@ inline void dig(heightfield::Ground& ground, Random& random, int& number) {
             y0 = static_cast<int>(random.uniform(0, ground.ny() - 4));
   ++number;
   for (int iy = y0; iy < y0 + 4; ++iy)
-    for (int ix = x0; ix < x0 + 4; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
+    for (int ix = x0; ix < x0 + 4; ++ix)
+      ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
 }
 
 }  // namespace navvy::planner::testing

@@ -14,7 +14,9 @@
 
 namespace navvy::planner::testing {
 
-inline scene::Machine excavator() { return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf"); }
+inline scene::Machine excavator() {
+  return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
+}
 
 /// Level, 36 m x 24 m about the origin, columns of 0.15 m.
 inline heightfield::Ground level_site() {
@@ -30,7 +32,8 @@ inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) 
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = centre(ground.setup(), ix, iy);
-      if ((p.array() > low.array()).all() && (p.array() < high.array()).all()) ground.take_above(ix, iy, -0.5, taken);
+      if ((p.array() > low.array()).all() && (p.array() < high.array()).all())
+        ground.take_above(ix, iy, -0.5, taken);
     }
 }
 

@@ -70,7 +70,8 @@ TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
   EXPECT_LT(written, expected + expected / 100);
 }
 
-/// A run's memory after a day is that at its start: strings that grow with the longest wait would look like a leak.
+/// A run's memory after a day is that at its start: strings that grow with the longest wait would
+/// look like a leak.
 TEST(RowFile, TakesNoMemoryWhileRowsWait) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "number");
@@ -89,7 +90,8 @@ TEST(RowFile, TakesNoMemoryWhileRowsWait) {
 TEST(RowFile, HoldsTheRowsInTheirOrder) {
   const test::Folder folder;
   // A kill has torn the earlier run's last row: nothing is appended behind it.
-  write_file_atomically(folder / "rows.csv", std::string("of an earlier run,\nlonger than what comes now, and to"));
+  write_file_atomically(folder / "rows.csv",
+                        std::string("of an earlier run,\nlonger than what comes now, and to"));
   {
     RowFile file(folder / "rows.csv", "a,b");
     file.flush();

@@ -13,10 +13,14 @@ namespace {
 void add_cube(std::vector<Vec3f>& points, std::vector<std::int32_t>& indices, const Vec3f& at) {
   const auto first = static_cast<std::int32_t>(points.size());
   for (int k = 0; k < 8; ++k)
-    points.push_back(at +
-                     Vec3f(static_cast<float>(k & 1), static_cast<float>((k >> 1) & 1), static_cast<float>(k >> 2)));
-  for (const auto& face :
-       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    points.push_back(at + Vec3f(static_cast<float>(k & 1), static_cast<float>((k >> 1) & 1),
+                                static_cast<float>(k >> 2)));
+  for (const auto& face : {std::array{0, 2, 3, 1},
+                           {4, 5, 7, 6},
+                           {0, 1, 5, 4},
+                           {2, 6, 7, 3},
+                           {0, 4, 6, 2},
+                           {1, 3, 7, 5}}) {
     for (const int k : face) indices.push_back(first + k);
     indices.push_back(-1);
   }

@@ -8,8 +8,8 @@
 
 namespace navvy::session::testing {
 
-/// Soil that came to the rectangle [low, high] of W since the start [kg]: gain of its columns and the particles over
-/// them.
+/// Soil that came to the rectangle [low, high] of W since the start [kg]: gain of its columns and
+/// the particles over them.
 inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& high) {
   const heightfield::Ground& ground = world.ground();
   const Vec2i from = ground.column_at(low.x(), low.y()), to = ground.column_at(high.x(), high.y());
@@ -24,7 +24,8 @@ inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& 
       for (const heightfield::SoilLayer& layer : start) sum -= layer.mass;
     }
   for (const sim::ActiveParticle& loose : world.loose_soil())
-    if (loose.ix >= from.x() && loose.iy >= from.y() && loose.ix < to.x() && loose.iy < to.y()) sum += loose.mass;
+    if (loose.ix >= from.x() && loose.iy >= from.y() && loose.ix < to.x() && loose.iy < to.y())
+      sum += loose.mass;
   return kilograms(sum);
 }
 

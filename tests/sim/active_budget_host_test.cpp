@@ -15,7 +15,8 @@ namespace {
 scene::Scene active_square(double width, double bottom, int budget) {
   const std::string w = std::to_string(width);
   return scene_io::load_scene_from_string(
-      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/><navvy:ground>"
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil "
+      "ref=\"loam\"/><navvy:ground>"
       "<size_m>24 24</size_m><depth_m>2</depth_m><awake><min_m>0 0</min_m><max_m>" +
           w + " " + w + "</max_m><bottom_m>" + std::to_string(bottom) +
           "</bottom_m></awake></navvy:ground><navvy:solver><cell_m>0.1</cell_m><max_particles>" +
@@ -23,7 +24,9 @@ scene::Scene active_square(double width, double bottom, int budget) {
       "mine.sdf", control::step_kinds());
 }
 
-void check(const scene::Scene& scene) { check_active(scene, heightfield::make_ground(scene, nullptr)); }
+void check(const scene::Scene& scene) {
+  check_active(scene, heightfield::make_ground(scene, nullptr));
+}
 
 TEST(LimitsOfActiveSoil, ABoxThatHoldsMoreThanTheBudgetIsRefusedByName) {
   // 10 m by 10 m by 1 m in cells of 0.1 m: 100 000 cells of eight particles.
@@ -38,7 +41,9 @@ TEST(LimitsOfActiveSoil, ABoxThatHoldsMoreThanTheBudgetIsRefusedByName) {
   }
 }
 
-TEST(LimitsOfActiveSoil, ABoxAboveTheGroundHoldsNothing) { EXPECT_NO_THROW(check(active_square(2, 5, 1000))); }
+TEST(LimitsOfActiveSoil, ABoxAboveTheGroundHoldsNothing) {
+  EXPECT_NO_THROW(check(active_square(2, 5, 1000)));
+}
 
 }  // namespace
 }  // namespace navvy::sim

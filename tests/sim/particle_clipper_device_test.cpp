@@ -37,23 +37,27 @@ TEST(ParticleClipperTest, IsTheDistanceToTheFaceOfTheClosestPlateUpToItsReach) {
   const World world(testing::load("trench.sdf"), device);
   const ShellInWorld shell(world);
   const soil::ShellGeometry& geometry = shell.geometry;
-  // In front of and behind the middle of every triangle, where it is the closest: at most 3 cm from its plate.
+  // In front of and behind the middle of every triangle, where it is the closest: at most 3 cm from
+  // its plate.
   scene::FrameParticles particles;
   particles.origin = shell.X_WT.translation();
   std::vector<double> expected;
   constexpr double kReach = 0.1;
   for (const auto& triangle : geometry.triangles())
     for (const double side : {0.03, -0.03}) {
-      const Vec3 p_T = (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3 + side * triangle.normal;
+      const Vec3 p_T = (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3 +
+                       side * triangle.normal;
       add(particles, shell.X_WT * p_T);
-      expected.push_back(std::max(0.0, std::abs(geometry.distance(p_T)) - geometry.shell().half_thickness));
+      expected.push_back(
+          std::max(0.0, std::abs(geometry.distance(p_T)) - geometry.shell().half_thickness));
     }
   add(particles, shell.X_WT * Vec3(0, 0, 5));
   expected.push_back(kReach);
   ParticleClipper(world).keep_off(particles, 0, kReach);
   ASSERT_EQ(particles.room.size(), expected.size());
   // Places are floats: a hundredth of a millimetre.
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(particles.room[i], expected[i], 1e-5) << i;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(particles.room[i], expected[i], 1e-5) << i;
   EXPECT_LE(particles.room[0], 0.03f);
 }
 
@@ -69,9 +73,10 @@ TEST(ParticleClipperTest, KeepsDrawnParticlesOffTheFacesOnTheirOwnSide) {
   particles.origin = shell.X_WT.translation();
   std::vector<Vec3> before;
   for (const auto& triangle : geometry.triangles())
-    for (const double off :
-         {1e-4, -1e-4, 0.5 * half, -0.5 * half, half + 0.01, -half - 0.01, half + 0.06, -half - 0.06}) {
-      before.emplace_back((triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3 + off * triangle.normal);
+    for (const double off : {1e-4, -1e-4, 0.5 * half, -0.5 * half, half + 0.01, -half - 0.01,
+                             half + 0.06, -half - 0.06}) {
+      before.emplace_back((triangle.corner[0] + triangle.corner[1] + triangle.corner[2]) / 3 +
+                          off * triangle.normal);
       add(particles, shell.X_WT * before.back());
     }
   ParticleClipper(world).keep_off(particles, kGap, kReach);

@@ -9,7 +9,8 @@
 namespace navvy::soil {
 namespace {
 
-/// One scoop with an open box on its side (mouth to -x), in machine-free coordinates relative to `shift`.
+/// One scoop with an open box on its side (mouth to -x), in machine-free coordinates relative to
+/// `shift`.
 class Scoop {
  public:
   explicit Scoop(const Vec2& shift = Vec2::Zero(), double cohesion = 5000, int cells = 300)
@@ -50,7 +51,9 @@ class Scoop {
     go(10.5, 0.25, -40, 0.6);
     go(10.4, 0.9, -5, 0.7);
   }
-  void place() { motion_.X_WT = make_pose(x_ + shift_.x(), 10.02 + shift_.y(), z_, 0, radians(pitch_), 0); }
+  void place() {
+    motion_.X_WT = make_pose(x_ + shift_.x(), 10.02 + shift_.y(), z_, 0, radians(pitch_), 0);
+  }
   double payload() const { return solver_->payload(0, motion_.X_WT); }
   std::uint64_t digest() const {
     StateHash hash = hash_of(*solver_);
@@ -116,9 +119,10 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   scoop.go(10.4, 0.9, -5, 0.3);
   const double held = scoop.payload();
   print_value("drag on the box in loam [N]", cut.x(), "> 0", "soil pushes against the cut");
-  print_value("payload after lift and after its stop [kg]", rested, std::to_string(lifted) + " -2 %",
-              "what the stop shakes off the brim");
-  print_value("payload after holding [kg]", held, std::to_string(rested) + " +-0.2 %", "a shell keeps its load");
+  print_value("payload after lift and after its stop [kg]", rested,
+              std::to_string(lifted) + " -2 %", "what the stop shakes off the brim");
+  print_value("payload after holding [kg]", held, std::to_string(rested) + " +-0.2 %",
+              "a shell keeps its load");
   print_value("held, F / (m g)", -scoop.force().z() / (held * kGravity), "1 +-3 %",
               "grains still fall on the ground only");
   EXPECT_GT(cut.x(), 300);
@@ -130,7 +134,8 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   EXPECT_LT(scoop.worst(), 1e-5);
   EXPECT_EQ(scoop.solver().ledger().error(), 0);
   std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, wakes %lu, deposits %lu\n",
-              scoop.solver().stats().particles, scoop.solver().stats().particles_peak, scoop.solver().stats().blocks,
+              scoop.solver().stats().particles, scoop.solver().stats().particles_peak,
+              scoop.solver().stats().blocks,
               static_cast<unsigned long>(scoop.solver().stats().wakes),
               static_cast<unsigned long>(scoop.solver().stats().deposits));
 }
@@ -147,12 +152,14 @@ TEST(SoilDig, GoesOnFromASnapshotInMidCut) {
 }
 
 TEST(SoilDig, IsTheSameAtTheOtherEndOfASquareKilometre) {
-  // The shift is a whole number of blocks; otherwise rounding differs and grains part ways after some seconds.
+  // The shift is a whole number of blocks; otherwise rounding differs and grains part ways after
+  // some seconds.
   Scoop near(Vec2::Zero(), 5000, 10000), far(Vec2(895.2, 694.8), 5000, 10000);
   near.cut();
   far.cut();
   const double drag = near.force().x();
-  print_value("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %", "issue: place");
+  print_value("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %",
+              "issue: place");
   EXPECT_NEAR(far.force().x(), drag, 1e-3 * drag);
   EXPECT_EQ(near.solver().stats().particles, far.solver().stats().particles);
   EXPECT_LT(far.ground().touched_tiles(), 20u);
@@ -181,11 +188,12 @@ TEST(SoilDig, ABucketGetsItsSoilBesideAWheelAndFromUnderIt) {
     const std::string name = names[where];
     print_value(name + ": payload [kg]", payload[where], std::to_string(payload[0]) + " +-10 %",
                 "[docs/exchange.md, footings]");
-    print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %", "the same");
+    print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %",
+                "the same");
     EXPECT_EQ(scoop.solver().ledger().error(), 0);
   }
-  // What bears the wheel stays a column until the tool is beside it: the soil before the tool gives way less, and a
-  // little more or less is torn off at the seam.
+  // What bears the wheel stays a column until the tool is beside it: the soil before the tool gives
+  // way less, and a little more or less is torn off at the seam.
   for (int where = 1; where < 3; ++where) {
     EXPECT_NEAR(payload[where], payload[0], 0.1 * payload[0]) << names[where];
     EXPECT_NEAR(drag[where], drag[0], 0.15 * drag[0]) << names[where];

@@ -75,8 +75,8 @@ TEST(Track, ThrustGrowsWithSlipAsJanosiAndHanamotoSay) {
     EXPECT_NEAR(load, 50e3, 1);
     // F = (A c + W tan phi) (1 - K / (i L) (1 - exp(-i L / K))) under even pressure [Wong 2008].
     const double x = slip * length / soil.janosi_k;
-    const double expected =
-        (area * soil.cohesion + load * std::tan(soil.friction_angle)) * (1 - (1 - std::exp(-x)) / x);
+    const double expected = (area * soil.cohesion + load * std::tan(soil.friction_angle)) *
+                            (1 - (1 - std::exp(-x)) / x);
     print_value("thrust at slip " + std::to_string(slip) + " [N]", force.force_W.x(),
                 std::to_string(expected) + " +-4 %", "[Wong 2008]");
     // 4 %: eight segments, on each of which shear counts as in its middle.

@@ -50,11 +50,13 @@ TEST(Judge, ADeviationThatShrankStaysADeviation) {
 TEST(Judge, AToleranceOtherThanTheTablesFails) {
   EXPECT_EQ(judge(&kAbove, 0.12, {0, 0.15}), Verdict::kToleranceMoved);
   EXPECT_EQ(judge(&kAbove, 0.12, {0.01, 0.10}), Verdict::kToleranceMoved);
-  EXPECT_EQ(judge(&kBelow, 27, {28.301, 36}), Verdict::kKnownDeviation) << "the table has fewer digits";
+  EXPECT_EQ(judge(&kBelow, 27, {28.301, 36}), Verdict::kKnownDeviation)
+      << "the table has fewer digits";
 }
 
 TEST(KnownDeviations, ReadsRowsAndOpenSides) {
-  const auto rows = parse_known_deviations(kHead + "| S/A.b/c | x, y | 1.4 .. 1.5 | 1.6 .. | too small |\n");
+  const auto rows =
+      parse_known_deviations(kHead + "| S/A.b/c | x, y | 1.4 .. 1.5 | 1.6 .. | too small |\n");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].test, "S/A.b/c");
   EXPECT_EQ(rows[0].figure, "x, y");
@@ -66,11 +68,12 @@ TEST(KnownDeviations, ReadsRowsAndOpenSides) {
 
 TEST(KnownDeviations, RefusesRowsThatWouldHideSomething) {
   const std::string good = "| A.b | x | 1.4 .. 1.5 | 1.6 .. 2 | why |\n";
-  for (const char* bad : {"| A.b | x | 1.4 .. 1.7 | 1.6 .. 2 | why |\n",  // reaches into its gate
-                          "| A.b | x | 1.4 .. 1.5 | 1.6 .. 2 | |\n",      // no reason
-                          "| A.b | x | 1.4 | 1.6 .. 2 | why |\n",         // no band
-                          "| A.b | x | 1.4 .. | 1.6 .. 2 | why |\n",      // everything above 1.4
-                          "| A.b | x | a .. b | 1.6 .. 2 | why |\n", "| A.b | 1.4 .. 1.5 | 1.6 .. 2 | why |\n"})
+  for (const char* bad :
+       {"| A.b | x | 1.4 .. 1.7 | 1.6 .. 2 | why |\n",  // reaches into its gate
+        "| A.b | x | 1.4 .. 1.5 | 1.6 .. 2 | |\n",      // no reason
+        "| A.b | x | 1.4 | 1.6 .. 2 | why |\n",         // no band
+        "| A.b | x | 1.4 .. | 1.6 .. 2 | why |\n",      // everything above 1.4
+        "| A.b | x | a .. b | 1.6 .. 2 | why |\n", "| A.b | 1.4 .. 1.5 | 1.6 .. 2 | why |\n"})
     EXPECT_THROW(parse_known_deviations(kHead + bad), std::runtime_error) << bad;
   EXPECT_THROW(parse_known_deviations(kHead + good + good), std::runtime_error) << "twice";
 }
@@ -88,4 +91,4 @@ TEST(ExpectBetween, FailsTheTestOutsideItsTolerance) {
 }
 
 }  // namespace
-}  // namespace navvy::gates
+}  // namespace navvy::tolerances

@@ -32,8 +32,8 @@ TEST(BulletEngine, LinkPosesAgreeWithForwardKinematicsWhileTheMachineMoves) {
   const auto ground = flat();
   Pose before = engine->link(0, 2).X_WL;
   run(*engine, ground, 0.5, kStep, [&](double) {
-    const auto poses =
-        forward_kinematics(m, Pose::Identity(), {engine->joint(0, 0).position, engine->joint(0, 1).position});
+    const auto poses = forward_kinematics(
+        m, Pose::Identity(), {engine->joint(0, 0).position, engine->joint(0, 1).position});
     const LinkState link = engine->link(0, 2);
     EXPECT_TRUE(link.X_WL.isApprox(poses[2], 1e-9));
     // 1e-3 m/s: the difference over one step is of first order in it.
@@ -177,7 +177,8 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
       engine.set_drive(0, {1.0, 0.3 * std::sin(t), false});
       engine.set_joint(1, 7, {JointMode::kPosition, t});
       if (i % 16 == 0)
-        engine.apply_impulse(0, 11, Vec3(10, 20, 30), Vec3::Zero(), engine.link(0, 11).X_WL.translation());
+        engine.apply_impulse(0, 11, Vec3(10, 20, 30), Vec3::Zero(),
+                             engine.link(0, 11).X_WL.translation());
       engine.step(kStep, ground);
     }
   };

@@ -78,16 +78,19 @@ TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
     std::vector<char> bytes = saved(*engine, &map);
     // The base's place: the first numbers of the one engine, the last of a pose in the other.
     for (const ByteMap::Field& field : map.fields) {
-      const bool tree = field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
+      const bool tree =
+          field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
       if (!tree && field.path != "kinematic[1]/X_WB") continue;
-      std::memcpy(bytes.data() + field.offset + (tree ? 0 : field.size - sizeof place), &place, sizeof place);
+      std::memcpy(bytes.data() + field.offset + (tree ? 0 : field.size - sizeof place), &place,
+                  sizeof place);
     }
     try {
       load_saved(bytes, *engine);
       FAIL() << "a machine was loaded at " << place;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos)
+          << error.what();
     }
   }
 }
@@ -95,8 +98,8 @@ TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
 INSTANTIATE_TEST_SUITE_P(Engines, CombustionEngineState, ::testing::Values("Bullet", "Kinematic"),
                          [](const auto& each) { return each.param; });
 
-/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how long it is stuck,
-/// by the limits it had then.
+/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how
+/// long it is stuck, by the limits it had then.
 TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
   scene::Machine cart = testing::cart();
   const int rear = cart.joint_index(cart.wheels[2].joint);
@@ -109,7 +112,8 @@ TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
   for (const double direction : {1.0, -1.0}) {
     const auto whole = build(), resumed = build();
     const auto ground = testing::slope(radians(6));
-    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at all.
+    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at
+    // all.
     whole->set_joint(0, rear, {JointMode::kVelocity, 0.015 * direction});
     run(*whole, ground, 0.5, kStep);
     whole->set_drive(0, {0, 0, true});
@@ -132,7 +136,8 @@ TEST(JointServo, HashesEveryByteItSaves) {
 }
 
 TEST(DriveLine, IsRefusedByAnotherKindOfDrive) {
-  const auto ackermann = make_drive_line(testing::cart()), differential = make_drive_line(testing::robot());
+  const auto ackermann = make_drive_line(testing::cart()),
+             differential = make_drive_line(testing::robot());
   const auto same = make_drive_line(testing::robot());
   EXPECT_EQ(test::flip_every_byte(*differential, *same), "");
   EXPECT_THROW(load_saved(saved(*ackermann), *differential), InputError);

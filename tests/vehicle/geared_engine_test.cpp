@@ -51,7 +51,8 @@ TEST(GearedEngine, GivesItsCurveTimesRatioTimesEfficiency) {
   const GearedEngine engine = in_gear(1);
   EXPECT_NEAR(engine.bounds(5, 0).high, 40 * 0.9 * 500, 1e-9);
   EXPECT_NEAR(engine.bounds(3.75, 0).high, 40 * 0.9 * 450, 1e-9) << "halfway between two points";
-  EXPECT_NEAR(engine.bounds(7.6, 0).high, 40 * 0.9 * 350 * 2 / 3, 1e-9) << "a third of the governor's droop";
+  EXPECT_NEAR(engine.bounds(7.6, 0).high, 40 * 0.9 * 350 * 2 / 3, 1e-9)
+      << "a third of the governor's droop";
   EXPECT_EQ(engine.bounds(7.9, 0).high, 0) << "nothing above it";
   EXPECT_NEAR(in_gear(3).bounds(20, 0).high, 10 * 0.9 * 500, 1e-9);
 }
@@ -85,7 +86,9 @@ TEST(GearedEngine, GivesThePumpItsPowerFirst) {
   EXPECT_NEAR(state.power, rated, 1e-6);
   EXPECT_EQ(engine.bounds(0, 1.1 * rated).high, 0);
   for (double carrier = 0; carrier < 7.5; carrier += 0.1)
-    EXPECT_LE(engine.state(carrier, engine.bounds(carrier, 30e3).high, 30e3).power, rated * (1 + 1e-12)) << carrier;
+    EXPECT_LE(engine.state(carrier, engine.bounds(carrier, 30e3).high, 30e3).power,
+              rated * (1 + 1e-12))
+        << carrier;
 }
 
 TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
@@ -109,7 +112,8 @@ TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
 
 TEST(GearedEngine, AtItsGovernedSpeedChangesUpIfTheNextGearKeepsIt) {
   GearedEngine engine(diesel(), false);
-  // Much more is asked for than any gear has. On a climb the first gives 8400 N m at 304 rad/s and the second has 8136.
+  // Much more is asked for than any gear has. On a climb the first gives 8400 N m at 304 rad/s and
+  // the second has 8136.
   engine.shift(0, 7.6, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 1);
   // On the level the engine comes to 310 rad/s, where it gives 2100.

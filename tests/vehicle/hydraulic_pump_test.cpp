@@ -6,10 +6,10 @@
 
 #include "core/saved_state.h"
 #include "values.h"
+#include "vehicle/hydraulic_pump.h"
 #include "vehicle/joint_servo.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/machines.h"
-#include "vehicle/hydraulic_pump.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -72,7 +72,8 @@ TEST(JointServo, HoldingAndStallingIsNoFlowAtAnyStep) {
 }
 
 TEST(JointServo, AFunctionAtReliefWithHalfTheOilOpensItsValveAllTheSame) {
-  // Its speed is that of its share; were it taken for the valve's, the valve would close step by step.
+  // Its speed is that of its share; were it taken for the valve's, the valve would close step by
+  // step.
   const scene::Joint joint;
   JointLimits limits;
   limits.effort_positive = limits.effort_negative = 100;
@@ -131,10 +132,12 @@ struct Digger {
 
 TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
   Digger digger(0.9, -1.0, 0.2);
-  for (const std::string& name : {digger.machine.arm.boom, digger.machine.arm.stick, digger.machine.arm.bucket})
+  for (const std::string& name :
+       {digger.machine.arm.boom, digger.machine.arm.stick, digger.machine.arm.bucket})
     digger.turn(name, -3);
   double most = 0;
-  run(*digger.engine, flat(), 1, kStep, [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
+  run(*digger.engine, flat(), 1, kStep,
+      [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
   const double flow = digger.machine.pump.flow;
   print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, gated at 1 %",
               "vehicles/ew180/SOURCE.md");
@@ -144,11 +147,13 @@ TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
 
 TEST(BulletPump, LiftsWithItsPower) {
   Digger digger(0.1, -0.9, -1.5);
-  const int boom = digger.joint(digger.machine.arm.boom), link = digger.machine.link_index("bucket");
+  const int boom = digger.joint(digger.machine.arm.boom),
+            link = digger.machine.link_index("bucket");
   digger.turn(digger.machine.arm.boom, 3);
   double time = 0, sum = 0, least = 1e9, most = 0;
   run(*digger.engine, flat(), 1.6, kStep, [&](double t) {
-    digger.engine->add_force(0, link, 2000 * kDown, digger.engine->link(0, link).X_WL.translation());
+    digger.engine->add_force(0, link, 2000 * kDown,
+                             digger.engine->link(0, link).X_WL.translation());
     const JointState state = digger.engine->joint(0, boom);
     const double power = state.effort * state.velocity;
     if (t < 1) return;
@@ -158,7 +163,8 @@ TEST(BulletPump, LiftsWithItsPower) {
     most = std::max(most, power);
   });
   const double mean = sum / time;
-  print_value("power of a steady lift [kW]", mean / 1e3, "90, gated at 5 %", "vehicles/ew180/SOURCE.md");
+  print_value("power of a steady lift [kW]", mean / 1e3, "90, gated at 5 %",
+              "vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(mean, digger.machine.pump.power, 0.05 * digger.machine.pump.power);
   // It does not hunt.
   EXPECT_LT(most - least, 0.15 * mean);
@@ -174,7 +180,8 @@ TEST(BulletPump, AFunctionAtItsStopLeavesItsOilToTheOthers) {
   double least = 1e9;
   run(*digger.engine, flat(), 0.8, kStep, [&](double t) {
     const JointState state = digger.engine->joint(0, bucket);
-    const double limit = cylinder_limits(digger.machine, digger.machine.cylinders[2], state.position).speed_negative;
+    const double limit =
+        cylinder_limits(digger.machine, digger.machine.cylinders[2], state.position).speed_negative;
     if (t > 0.3) least = std::min(least, -state.velocity / limit);
   });
   EXPECT_GT(least, 0.95);

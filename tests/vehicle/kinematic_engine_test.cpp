@@ -41,7 +41,8 @@ TEST(KinematicEngine, DrivesTheExactArc) {
   const scene::Machine m = cart();
   engine->add_machine(m, Pose::Identity());
   const double radius = 7;
-  engine->set_drive(0, {1.0, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
+  engine->set_drive(
+      0, {1.0, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
   const auto ground = testing::slope(radians(5));
   run(*engine, ground, radius * kPi / 2, kStep);
   const Pose X = engine->link(0, 0).X_WL;
@@ -64,7 +65,8 @@ TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   EXPECT_NEAR(half.v_WL.x(), 2, 1e-9);
   // The short way round: 4 rad are 2.28 to the right.
   EXPECT_NEAR(half.w_WL.z(), (4 - 2 * kPi) / 0.5, 1e-9);
-  EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi), 1e-12);
+  EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi),
+              1e-12);
   run(*engine, flat(), 0.5, kStep);
   const LinkState there = engine->link(0, 0);
   EXPECT_EQ(there.X_WL.matrix(), make_pose(2, 2, 0.5, 0, 0, 4).matrix());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine, gears and differentials on a cart of 2 t in the Bullet engine, against the closed forms of docs/machines.md.
+// Engine, gears and differentials on a cart of 2 t in the Bullet engine, against the closed forms
+// of docs/machines.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ scene::CombustionEngine source() {
   return engine;
 }
 
-scene::Machine cart_with(const scene::CombustionEngine& engine, const scene::Differential& axles = {}) {
+scene::Machine cart_with(const scene::CombustionEngine& engine,
+                         const scene::Differential& axles = {}) {
   scene::Machine cart = testing::cart();
   auto& drive = std::get<scene::AckermannDrive>(cart.drive);
   drive.max_speed = 20;
@@ -53,12 +55,17 @@ scene::Machine cart_with(const scene::CombustionEngine& engine, const scene::Dif
 }
 
 struct Rig {
-  explicit Rig(scene::Machine of, double angle = 0) : machine(std::move(of)), engine(make_bullet_engine(kDown)) {
+  explicit Rig(scene::Machine of, double angle = 0)
+      : machine(std::move(of)), engine(make_bullet_engine(kDown)) {
     engine->add_machine(machine, make_pose(0, 0, 0.02, 0, -angle));
   }
-  double speed() const { return engine->link(0, 0).X_WL.linear().col(0).dot(engine->link(0, 0).v_WL); }
+  double speed() const {
+    return engine->link(0, 0).X_WL.linear().col(0).dot(engine->link(0, 0).v_WL);
+  }
   double carrier() const { return 0.5 * (engine->wheel(0, 2).spin + engine->wheel(0, 3).spin); }
-  double torque() const { return engine->wheel(0, 2).shaft_torque + engine->wheel(0, 3).shaft_torque; }
+  double torque() const {
+    return engine->wheel(0, 2).shaft_torque + engine->wheel(0, 3).shaft_torque;
+  }
   /// Holds the chassis back by a spring and a damper; answers their force [N].
   double tie() {
     const LinkState at = engine->link(0, 0);
@@ -76,8 +83,8 @@ TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
     rig.engine->set_drive(0, {50, 0, false, gear});
     run(*rig.engine, flat(), 10, kStep);
     const double expected = 300 * 0.525 / (10 * (gear == 1 ? 4 : 2));
-    print_value("top speed in gear " + std::to_string(gear) + " [m/s]", rig.speed(), std::to_string(expected),
-                "w r / (i g)");
+    print_value("top speed in gear " + std::to_string(gear) + " [m/s]", rig.speed(),
+                std::to_string(expected), "w r / (i g)");
     // 3 %: the loaded radius is 12 mm less than 525, the tyres slip a little.
     EXPECT_NEAR(rig.speed(), expected, 0.03 * expected);
     EXPECT_NEAR(rig.engine->drive_engine(0).speed, 300, 0.01 * 300);
@@ -94,7 +101,8 @@ TEST(PowerTrain, PullsWithTorqueTimesRatioTimesEfficiencyByRadius) {
   EXPECT_LT(std::abs(rig.speed()), 0.01);
   EXPECT_NEAR(rig.torque(), torque, 1e-6 * torque);
   // The load on a rear tyre is some 5 kN: 12 mm of 525.
-  print_value("drawbar pull at idle, the clutch slipping [N]", force, std::to_string(torque / 0.513), "i g eta T / r");
+  print_value("drawbar pull at idle, the clutch slipping [N]", force,
+              std::to_string(torque / 0.513), "i g eta T / r");
   EXPECT_NEAR(force, torque / 0.513, 0.03 * torque / 0.513);
   EXPECT_EQ(rig.engine->drive_engine(0).speed, 100) << "it is not stalled";
   EXPECT_NEAR(rig.engine->drive_engine(0).torque, 150, 1e-9);
@@ -225,9 +233,10 @@ TEST(PowerTrain, ResumesEqual) {
   }
 }
 
-/// Radius of the turn of a cart whose rear wheels are turned and whose front wheels are steered one by one; the largest
-/// change of the chassis' velocity within a step goes to `jump`.
-double radius_of(double left_speed, double right_speed, double left_angle, double right_angle, double& jump) {
+/// Radius of the turn of a cart whose rear wheels are turned and whose front wheels are steered one
+/// by one; the largest change of the chassis' velocity within a step goes to `jump`.
+double radius_of(double left_speed, double right_speed, double left_angle, double right_angle,
+                 double& jump) {
   scene::Machine cart = testing::cart();
   for (const char* joint : {"rear_left_joint", "rear_right_joint"})
     cart.joints[static_cast<std::size_t>(cart.joint_index(joint))].effort = 4e3;
@@ -267,7 +276,8 @@ TEST(Ackermann, InputsThatDoNotFitUnderAndOversteerWithoutAJump) {
   const double straight = radius_of(w, w, inner, 0, jump);
   EXPECT_GT(straight, 1.3 * fits);
   print_value("radius with inputs that fit, under-, oversteer, one wheel straight [m]", fits,
-              std::to_string(under) + ", " + std::to_string(over) + ", " + std::to_string(straight), "");
+              std::to_string(under) + ", " + std::to_string(over) + ", " + std::to_string(straight),
+              "");
   print_value("largest change of velocity within a step [m/s]", jump, "0.25 at most", "");
   EXPECT_LT(jump, 0.25);
 }

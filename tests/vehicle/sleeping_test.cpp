@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose bodies that lie still sleep, and wake when something pushes them, comes near, or digs under them.
+// Loose bodies that lie still sleep, and wake when something pushes them, comes near, or digs under
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +48,8 @@ TEST(Rest, AStillBodyStaysBitIdenticalAndIsCarried) {
 TEST(Rest, ABodyThatSlidesSlowlyDoesNotSleep) {
   // 26.565 deg are its friction of 0.5.
   const double angle = radians(27);
-  const auto engine = boxes({make_pose(2, 0, 2 * std::tan(angle) + 0.5 / std::cos(angle) + 0.001, 0, -angle)});
+  const auto engine =
+      boxes({make_pose(2, 0, 2 * std::tan(angle) + 0.5 / std::cos(angle) + 0.001, 0, -angle)});
   run(*engine, testing::slope(angle), 3, kStep);
   EXPECT_FALSE(sleeps(*engine, 0));
   EXPECT_GT((pose(*engine, 0).translation() - Vec3(2, 0, 2 * std::tan(angle))).norm(), 0.1);
@@ -88,7 +90,8 @@ TEST(Rest, ABodyNearbyWakesOthersAndAStackSleepsTogether) {
   // Between the two and above: it falls on both.
   engine->add_machine(box(), make_pose(0.75, 0, 2.5));
   double lowest = 10;
-  run(*engine, flat(), 1, kStep, [&](double) { lowest = std::min(lowest, pose(*engine, 2).translation().z()); });
+  run(*engine, flat(), 1, kStep,
+      [&](double) { lowest = std::min(lowest, pose(*engine, 2).translation().z()); });
   EXPECT_GT(lowest, 1.45) << "it fell through a body that slept";
   run(*engine, flat(), 4, kStep);
   for (int m = 0; m < 3; ++m) EXPECT_TRUE(sleeps(*engine, m)) << m;

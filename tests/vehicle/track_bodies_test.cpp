@@ -30,8 +30,8 @@ scene::Machine block(const Vec3& size, double mass = 0) {
   scene::Machine m;
   m.name = "block";
   m.fixed_base = !(mass > 0);
-  m.links.push_back(testing::box_link("block", Pose::Identity(), mass > 0 ? mass : 1000, Vec3::Zero(),
-                                      mass > 0 ? size : Vec3(1, 1, 1)));
+  m.links.push_back(testing::box_link("block", Pose::Identity(), mass > 0 ? mass : 1000,
+                                      Vec3::Zero(), mass > 0 ? size : Vec3(1, 1, 1)));
   scene::Collision collision;
   collision.name = "shape";
   collision.geometry.size = size;
@@ -42,7 +42,8 @@ scene::Machine block(const Vec3& size, double mass = 0) {
 class TrackBodies : public ::testing::TestWithParam<std::string> {
  protected:
   TrackBodies()
-      : machine(scene_io::load_machine(navvy::source_dir() + "/vehicles/" + GetParam() + "/model.sdf")),
+      : machine(
+            scene_io::load_machine(navvy::source_dir() + "/vehicles/" + GetParam() + "/model.sdf")),
         excavator(GetParam() == "ex180_tracked") {
     for (const scene::Link& link : machine.links) weight += kGravity * link.mass;
   }
@@ -53,9 +54,13 @@ class TrackBodies : public ::testing::TestWithParam<std::string> {
     return engine;
   }
   double top_speed() const { return scene::powertrain(machine.drive).max_speed; }
-  static double height(const PhysicsEngine& engine) { return engine.link(0, 0).X_WL.translation().z(); }
+  static double height(const PhysicsEngine& engine) {
+    return engine.link(0, 0).X_WL.translation().z();
+  }
   static double x(const PhysicsEngine& engine) { return engine.link(0, 0).X_WL.translation().x(); }
-  static double tilt(const PhysicsEngine& engine) { return std::acos(std::min(1.0, engine.link(0, 0).X_WL.linear()(2, 2))); }
+  static double tilt(const PhysicsEngine& engine) {
+    return std::acos(std::min(1.0, engine.link(0, 0).X_WL.linear()(2, 2)));
+  }
   /// Of the belts, from the machine's middle to what is foremost [m].
   double reach() const {
     const scene::Track& track = *machine.wheels[0].track;
@@ -70,13 +75,15 @@ class TrackBodies : public ::testing::TestWithParam<std::string> {
 TEST_P(TrackBodies, ACrawlerClimbsAKerb) {
   const double kerb = excavator ? 0.15 : 0.03, length = 3 * reach();
   auto engine = put(Pose::Identity());
-  engine->add_machine(block(Vec3(2 * length, 8, kerb)), make_pose(1.2 * reach() + length, 0, 0.5 * kerb));
+  engine->add_machine(block(Vec3(2 * length, 8, kerb)),
+                      make_pose(1.2 * reach() + length, 0, 0.5 * kerb));
   run(*engine, flat(), 1, kStep);
   const double before = height(*engine);
   const double speed = 0.6 * top_speed();
   engine->set_drive(0, {speed, 0, false});
   double most = 0;
-  run(*engine, flat(), 3.2 * reach() / speed, kStep, [&](double) { most = std::max(most, tilt(*engine)); });
+  run(*engine, flat(), 3.2 * reach() / speed, kStep,
+      [&](double) { most = std::max(most, tilt(*engine)); });
   print_value("rise on a kerb [m]", height(*engine) - before, std::to_string(kerb), "its height");
   EXPECT_GT(x(*engine), 2.3 * reach());
   EXPECT_NEAR(height(*engine) - before, kerb, excavator ? 0.02 : 0.004);
@@ -93,7 +100,8 @@ TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
   const double speed = 0.6 * top_speed();
   engine->set_drive(0, {speed, 0, false});
   double highest = 0;
-  run(*engine, flat(), 4 * reach() / speed, kStep, [&](double) { highest = std::max(highest, height(*engine)); });
+  run(*engine, flat(), 4 * reach() / speed, kStep,
+      [&](double) { highest = std::max(highest, height(*engine)); });
   EXPECT_GT(highest, 0.6 * kerb);
   EXPECT_GT(x(*engine), 2.9 * reach());
   EXPECT_NEAR(height(*engine), 0, excavator ? 0.02 : 0.006);
@@ -101,7 +109,8 @@ TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
 }
 
 TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
-  // Belts alone meet it: no link has a shape of its own. They grip less than lets the robot rear up.
+  // Belts alone meet it: no link has a shape of its own. They grip less than lets the robot rear
+  // up.
   for (scene::Link& link : machine.links) link.collisions.clear();
   for (scene::Wheel& wheel : machine.wheels) wheel.friction = 0.4;
   auto engine = put(Pose::Identity());
@@ -113,14 +122,16 @@ TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
     farthest = std::max(farthest, x(*engine));
     most = std::max(most, tilt(*engine));
   });
-  print_value("reach at a wall [m]", farthest, std::to_string(wall - reach()), "the idler's front touches");
+  print_value("reach at a wall [m]", farthest, std::to_string(wall - reach()),
+              "the idler's front touches");
   // What the springs of two belts give way under the thrust.
   EXPECT_NEAR(farthest, wall - reach(), 0.15 * reach());
   EXPECT_LT(most, radians(15));
 }
 
 TEST_P(TrackBodies, ACrawlerThatGripsMoreDoesNotPassAWallEither) {
-  // With friction m it pushes m / (1 + m^2) of its weight at the wall and lifts its nose by m times that: it rears up.
+  // With friction m it pushes m / (1 + m^2) of its weight at the wall and lifts its nose by m times
+  // that: it rears up.
   for (scene::Link& link : machine.links) link.collisions.clear();
   for (scene::Wheel& wheel : machine.wheels) wheel.friction = 0.9;
   auto engine = put(Pose::Identity());
@@ -154,8 +165,8 @@ TEST_P(TrackBodies, ACrawlerStandsOnADeckAndDrivesOnIt) {
   // The deck bears it as the ground does.
   const auto on_ground = put(Pose::Identity());
   run(*on_ground, flat(), 3, kStep);
-  EXPECT_NEAR(stability(machine, *engine, 0).loaded_margin, stability(machine, *on_ground, 0).loaded_margin,
-              0.03 * reach());
+  EXPECT_NEAR(stability(machine, *engine, 0).loaded_margin,
+              stability(machine, *on_ground, 0).loaded_margin, 0.03 * reach());
   for (const double share : {0.6, -0.4}) {
     const double speed = share * top_speed();
     engine->set_drive(0, {speed, 0, false});
@@ -180,7 +191,8 @@ TEST_P(TrackBodies, ACrawlerTurnsOnADeckAsOnAFloor) {
     return angle;
   };
   const double deck = turned(true), floor = turned(false);
-  print_value("turn on a deck [deg]", degrees(deck), std::to_string(degrees(floor)) + " +-15 %", "on a floor");
+  print_value("turn on a deck [deg]", degrees(deck), std::to_string(degrees(floor)) + " +-15 %",
+              "on a floor");
   // Its belts end elsewhere: discs between the rollers bear, too.
   EXPECT_NEAR(deck, floor, 0.15 * floor);
 }
@@ -208,9 +220,11 @@ TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
   for (scene::Link& link : machine.links) link.collisions.clear();
   const double size = 1.2 * reach(), mass = weight / kGravity;
   auto engine = put(make_pose(0, 0, 50), Vec3::Zero());
-  engine->add_machine(block(Vec3(size, 4, size), 0.2 * mass), make_pose(1.1 * reach() + 0.5 * size, 0, 50.2));
+  engine->add_machine(block(Vec3(size, 4, size), 0.2 * mass),
+                      make_pose(1.1 * reach() + 0.5 * size, 0, 50.2));
   const double push = 0.3 * mass;
-  engine->apply_impulse(0, 0, Vec3(push, 0, 0), Vec3::Zero(), engine->link(0, 0).X_WL.translation());
+  engine->apply_impulse(0, 0, Vec3(push, 0, 0), Vec3::Zero(),
+                        engine->link(0, 0).X_WL.translation());
   engine->set_drive(0, {0.4 * top_speed(), 0, false});
   run(*engine, flat(), 1.5, kStep);
   EXPECT_GT(engine->momentum(1).x(), 0.05 * push);
@@ -222,14 +236,16 @@ TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
 TEST_P(TrackBodies, ALightBodyThatATrackDrivesOntoIsNotThrown) {
   const double side = 0.1 * reach(), y = machine.wheels[0].track->p_idler.y();
   auto engine = put(Pose::Identity());
-  engine->add_machine(block(Vec3(side, side, side), weight / kGravity / 1000), make_pose(1.5 * reach(), y, 0.5 * side));
+  engine->add_machine(block(Vec3(side, side, side), weight / kGravity / 1000),
+                      make_pose(1.5 * reach(), y, 0.5 * side));
   engine->set_drive(0, {0.5 * top_speed(), 0, false});
   double fastest = 0, highest = 0;
   run(*engine, flat(), 4, kStep, [&](double) {
     fastest = std::max(fastest, engine->link(1, 0).v_WL.norm());
     highest = std::max(highest, tilt(*engine));
   });
-  print_value("speed of a stone under a belt [m/s]", fastest, "below 8", "some times the machine's");
+  print_value("speed of a stone under a belt [m/s]", fastest, "below 8",
+              "some times the machine's");
   EXPECT_LT(fastest, 8.0);
   EXPECT_LT(highest, radians(10));
 }
@@ -238,7 +254,8 @@ TEST_P(TrackBodies, ARunAcrossAKerbIsBitIdenticalResumedAndBesideAnother) {
   const auto build = [&] {
     auto engine = put(make_pose(0, 0, 0.1 * reach()));
     engine->add_machine(block(Vec3(6, 8, 0.1 * reach())), make_pose(0, 0, 0.05 * reach()));
-    engine->add_machine(block(Vec3(0.2, 8, 0.06), weight / kGravity / 50), make_pose(1.2 * reach(), 0, 0.13 * reach()));
+    engine->add_machine(block(Vec3(0.2, 8, 0.06), weight / kGravity / 50),
+                        make_pose(1.2 * reach(), 0, 0.13 * reach()));
     engine->set_drive(0, {0.4 * top_speed(), 0.1, false});
     return engine;
   };
@@ -259,7 +276,9 @@ TEST_P(TrackBodies, ARunAcrossAKerbIsBitIdenticalResumedAndBesideAnother) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, TrackBodies, ::testing::Values("ex180_tracked", "tracked_robot"),
-                         [](const ::testing::TestParamInfo<std::string>& about) { return about.param; });
+                         [](const ::testing::TestParamInfo<std::string>& about) {
+                           return about.param;
+                         });
 
 }  // namespace
 }  // namespace navvy::vehicle

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and books their way: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then
-// each work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is
-// found by an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
+// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes
+// of its tile, then each work-item takes one particle after the other. Every particle is one
+// work-item's; the fastest of a block is found by an integer maximum, which has no order. Host:
+// src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
 #define MEMBERS 128
 
-// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind the shell.
+// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind
+// the shell.
 static inline float4 felt(local const float4* front, local const float4* back, local const uchar* split, int node,
                           int side) {
   const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
@@ -51,7 +53,9 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
   const ParticleBlock home = particle_blocks[block];
-  (void)used;  // tells the lanes' schedule which tiles to copy; here split nodes choose their field when they are read
+  // Tells the lanes' schedule which tiles to copy; here split nodes choose their field when they
+  // are read
+  (void)used;
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
     // Tile node -1..6 lies in the block before, this one or the one after.

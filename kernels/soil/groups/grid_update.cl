@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
+// Adds up the tiles around each active block and turns momentum into velocity: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added
-// in the order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host:
-// src/soil/particles/grid_update.cpp.
+// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per
+// work-item; tiles are added in the order of soil/lanes/grid_update.cl, so that a node's sum has
+// the same bits. Host: src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
 #include "soil/node.h"
 #include "soil/place.h"
@@ -16,7 +17,8 @@ static inline int tile_node(int n) {
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
-// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum are empty.
+// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum
+// are empty.
 static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 before) {
   if (!(momentum.w > MASS_QUANTUM)) return (float4)(momentum.xyz * 0.0f, momentum.w);
   float3 v = momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the mass of every home block again, exactly, after each step: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/mass_count.cl. One work-group per home; integer sums, so any order gives the same. Host:
-// src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
+// In, Out: as in soil/lanes/mass_count.cl. One work-group per home; integer sums, so any order
+// gives the same. Host: src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
 #include "soil/groups/group.h"
 
 #define MEMBERS 64

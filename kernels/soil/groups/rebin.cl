@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of work-groups.
+// Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics,
-// whose order does not matter; the order inside a cell is found by one work-item per cell. Host:
-// src/soil/particles/rebin.cpp.
+// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses
+// integer atomics, whose order does not matter; the order inside a cell is found by one work-item
+// per cell. Host: src/soil/particles/rebin.cpp.
 #include "soil/groups/group.h"
 #include "soil/place.h"
 
@@ -29,7 +30,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
   if (me < CODES) counts[CODES * home + me] = count[me];
 }
 
-// A work-item is a cell of the new home: it counts, then lists its particles, taking the sources in order.
+// A work-item is a cell of the new home: it counts, then lists its particles, taking the sources in
+// order.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
@@ -65,7 +67,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean surface of each home (soil/lanes/rebin.cl), and the lanes past its count, which get mass 0.
+// Also the mean surface of each home (soil/lanes/rebin.cl), and the lanes past its count, which get
+// mass 0.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,

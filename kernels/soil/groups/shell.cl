@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per work-item; what a block
-// reports is found by integer atomics, which have no order. Host: src/soil/tools/shell.cpp.
+// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per
+// work-item; what a block reports is found by integer atomics, which have no order. Host:
+// src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 

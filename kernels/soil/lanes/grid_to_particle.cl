@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way; particles take it at the transfer's end.
+// Gathers node velocities to particles and books their way; particles take it at the transfer's
+// end.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
+// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg],
+// node.h),
 //      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
 //      spread [s] and most [cells]: seen_opening(), crowding() and crowding_displacement() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
@@ -12,7 +14,8 @@
 #include "soil/place.h"
 #include "soil/point.h"
 
-// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block lies.
+// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block
+// lies.
 static inline void copy_part(global const float* block, float* tile, int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -28,8 +31,8 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side.
-// Without a tile for the back (0) only neutral ones.
+// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the
+// node's own side. Without a tile for the back (0) only neutral ones.
 static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back,
                               int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
+// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active
+// block (-1: no
 //      particles there); homes.
 //      floors = resting ground per active block.
 //      hold = 1 in a held step: nodes add the step's impulse to the velocity they have.
-// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
+// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m
+// is divided by the
 //      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
+// One work-item per active block, neighbours in fixed order. Host:
+// src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
@@ -29,8 +32,8 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
     }
 }
 
-// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter than a mass quantum are
-// empty.
+// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter
+// than a mass quantum are empty.
 static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
@@ -41,8 +44,8 @@ static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global 
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground]; masses become mass per
-// room above the ground [docs/soil.md, room].
+// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground];
+// masses become mass per room above the ground [docs/soil.md, room].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
@@ -87,10 +90,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
-// yet [docs/tools.md, two nodal fields].
-// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. block_surface = a
-// ContactSoil per home block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
+// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity
+// [Bardenhagen 2000], neither held yet [docs/tools.md, two nodal fields]. node_split per near node:
+// 0 one field, 1 split and in front, 2 split and behind. block_surface = a ContactSoil per home
+// block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
 // contact made of both fields in the step before.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks without atomics, inside a block by cell, in stable order.
+// Sorts particles into their new home blocks without atomics, inside a block by cell, in stable
+// order.
 //
-// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many, and
-// the   cell of its base node there (0..63, x fastest).
-// 2 (host) builds the new homes from the counts, and for each the 27 old homes it takes from.
-// 3 rebin_gather: per new home, the old slot of each new slot.
-// 4 rebin_move: per new home, copies every field.
-// One work-item per home. Host: src/soil/particles/rebin.cpp.
+// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site)
+// and how many, and the   cell of its base node there (0..63, x fastest). 2 (host) builds the new
+// homes from the counts, and for each the 27 old homes it takes from. 3 rebin_gather: per new home,
+// the old slot of each new slot. 4 rebin_move: per new home, copies every field. One work-item per
+// home. Host: src/soil/particles/rebin.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 
@@ -30,8 +30,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   for (int i = 0; i < CODES; ++i) counts[CODES * home + i] = count[i];
 }
 
-// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand together, in the
-// order of their arrival: scatter and gather then work on the same nodes for a while.
+// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand
+// together, in the order of their arrival: scatter and gather then work on the same nodes for a
+// while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
+// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps
+// particles on their side.
 //
-// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed rows). Band
-// [cells]:      how far a side reaches.
-// One work-item per near block, nothing shared. Host: src/soil/tools/shell.cpp.
+// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block
+// (compressed rows). Band [cells]:      how far a side reaches. One work-item per near block,
+// nothing shared. Host: src/soil/tools/shell.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/shell_side.h"
 
-// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked out once for all.
+// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked
+// out once for all.
 #define PACKS 8
 static inline void query_packs(global const float* state, int capacity, int slot, int packs, int3 key,
                                global const ShellTriangle* triangles, global const Tool* tools, global const int* list,
@@ -70,8 +72,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   }
 }
 
-// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface (position only).
-// Out: Report.push and Report.crossed of the near homes.
+// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface
+// (position only). Out: Report.push and Report.crossed of the near homes.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,

@@ -5,8 +5,8 @@
 
 namespace navvy::control {
 
-/// Tip the bed to an angle of its joint, at the pace its cylinder allows, and keep it there for a while. It stays until
-/// the next tip, also while the machine drives.
+/// Tip the bed to an angle of its joint, at the pace its cylinder allows, and keep it there for a
+/// while. It stays until the next tip, also while the machine drives.
 struct Tip final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "tip";

@@ -8,7 +8,8 @@
 
 namespace navvy::control {
 
-/// Open-loop joint positions over time, linear between knots; times count from the start of this step.
+/// Open-loop joint positions over time, linear between knots; times count from the start of this
+/// step.
 struct Trajectory final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
@@ -16,7 +17,8 @@ struct Trajectory final : ProgramStep {
   std::vector<double> times;                   ///< [s], increasing
   std::vector<std::vector<double>> positions;  ///< [knot][joint], [rad] or [m]
 
-  /// Elements: <times_s> and a <joint name="..."> with <positions_deg> or <positions_m> for every joint.
+  /// Elements: <times_s> and a <joint name="..."> with <positions_deg> or <positions_m> for every
+  /// joint.
   static Trajectory read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   /// @throws InputError for anything that the reader would have refused, too.

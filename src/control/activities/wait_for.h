@@ -8,8 +8,8 @@
 
 namespace navvy::control {
 
-/// Wait until another machine of the world has done some or all steps of its program. What cannot come any more, or not
-/// within `longest`, ends the program.
+/// Wait until another machine of the world has done some or all steps of its program. What cannot
+/// come any more, or not within `longest`, ends the program.
 struct WaitFor final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "wait_for";
@@ -22,7 +22,9 @@ struct WaitFor final : ProgramStep {
   /// Elements: <machine>, <steps>, <longest_s>.
   static WaitFor read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
-  std::optional<scene::Waiting> waits_for() const override { return scene::Waiting{machine, steps}; }
+  std::optional<scene::Waiting> waits_for() const override {
+    return scene::Waiting{machine, steps};
+  }
   /// One phase: holds what was commanded.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };

@@ -10,8 +10,8 @@
 namespace navvy::heightfield {
 namespace {
 
-// Decoded blocks that wait side by side. By default a twentieth of the machine's memory: what a map costs, and whether
-// it is refused, must not depend on that.
+// Decoded blocks that wait side by side. By default a twentieth of the machine's memory: what a map
+// costs, and whether it is refused, must not depend on that.
 constexpr GIntBig kCacheBytes = GIntBig{512} << 20;
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* message) {

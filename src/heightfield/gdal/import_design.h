@@ -6,8 +6,8 @@
 
 namespace navvy::heightfield {
 
-/// Reads `design.file` onto the columns of `site`. A file without a place of its own begins at the site's lower-left
-/// corner. @throws InputError as make_design.
+/// Reads `design.file` onto the columns of `site`. A file without a place of its own begins at the
+/// site's lower-left corner. @throws InputError as make_design.
 DesignSurface import_design(const scene::Design& design, const Terrain& site);
 
 }  // namespace navvy::heightfield

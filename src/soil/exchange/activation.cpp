@@ -12,13 +12,15 @@
 namespace navvy::soil {
 namespace {
 
-/// Pressure never closes a particle below this share of its volume: far beyond any column, keeps j positive.
+/// Pressure never closes a particle below this share of its volume: far beyond any column, keeps j
+/// positive.
 constexpr double kMostCompression = 0.5;
 /// Particles of a layer: 2 x 2 in plan.
 constexpr int kInPlan = 2, kPerLayer = kInPlan * kInPlan;
 
 double thickness_of(const heightfield::SoilLayer& layer, double density, double cell) {
-  return kilograms(layer.mass) * static_cast<double>(layer.specific_volume) / (density * cell * cell);
+  return kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
+         (density * cell * cell);
 }
 
 }  // namespace
@@ -27,7 +29,8 @@ Activator::Activator(heightfield::Ground& ground, PlanGrid grid, double gravity)
     : ground_(ground), grid_(grid), gravity_(gravity), cell_(ground.cell()) {
   for (const scene::Soil& soil : ground.setup().soils) {
     law_.push_back(law_constants(soil, cell_));
-    if (scene::heaviest_particle(soil, cell_) / kMassQuantum > std::numeric_limits<std::int32_t>::max())
+    if (scene::heaviest_particle(soil, cell_) / kMassQuantum >
+        std::numeric_limits<std::int32_t>::max())
       throw InputError(Fault{Fault::Severity::kError, "", 0, "solver/cell", std::to_string(cell_),
                              "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
                              "use a smaller cell"});
@@ -35,17 +38,19 @@ Activator::Activator(heightfield::Ground& ground, PlanGrid grid, double gravity)
 }
 
 int Activator::particle_bound(double thickness) const {
-  // Two more soils may each round up to one more layer. A bound for the budget, not for memory: a column of many thin
-  // soils may give a few more.
+  // Two more soils may each round up to one more layer. A bound for the budget, not for memory: a
+  // column of many thin soils may give a few more.
   return kPerLayer * (static_cast<int>(std::ceil(2 * std::max(thickness, 0.0) / cell_)) + 2);
 }
 
-// Divides the taken layers [first, last), one soil, into equal slices; `bottom` is where they start above the cut.
+// Divides the taken layers [first, last), one soil, into equal slices; `bottom` is where they start
+// above the cut.
 void Activator::slice(std::size_t first, std::size_t last, double bottom) {
   const std::uint16_t soil = taken_[first].soil;
   const double density = ground_.setup().soils[soil].bank_density;
   double thickness = 0;
-  // The whole thickness first: slices are equal, so that no thin rest becomes a particle of its own.
+  // The whole thickness first: slices are equal, so that no thin rest becomes a particle of its
+  // own.
   for (std::size_t i = first; i < last; ++i) thickness += thickness_of(taken_[i], density, cell_);
   const int count = std::max(1, static_cast<int>(std::lround(2 * thickness / cell_)));
 
@@ -62,11 +67,14 @@ void Activator::slice(std::size_t first, std::size_t last, double bottom) {
       const heightfield::SoilLayer& l = taken_[layer];
       least = std::min(least, l.specific_volume);
       most = std::max(most, l.specific_volume);
-      const double layer_thickness = thickness_of(l, density, cell_), mass = static_cast<double>(l.mass);
+      const double layer_thickness = thickness_of(l, density, cell_),
+                   mass = static_cast<double>(l.mass);
       const bool ends_here = layer_bottom + layer_thickness > top || layer + 1 == last;
-      const double share = layer_thickness > 0 ? std::clamp((top - layer_bottom) / layer_thickness, 0.0, 1.0) : 1.0;
+      const double share =
+          layer_thickness > 0 ? std::clamp((top - layer_bottom) / layer_thickness, 0.0, 1.0) : 1.0;
       at = below + (ends_here ? share : 1.0) * mass;
-      shear_at = shear_below + (ends_here ? share : 1.0) * mass * static_cast<double>(l.plastic_shear);
+      shear_at =
+          shear_below + (ends_here ? share : 1.0) * mass * static_cast<double>(l.plastic_shear);
       if (ends_here) break;
       layer_bottom += layer_thickness;
       below += mass;
@@ -82,9 +90,11 @@ void Activator::slice(std::size_t first, std::size_t last, double bottom) {
     Slice out{soil, upto - given, bottom + thickness * k / count, thickness / count, 1, 0};
     if (out.mass > 0) {
       const double volume = out.thickness * cell_ * cell_ * density / kilograms(out.mass);
-      // Rounding of the mass must not make soil denser or looser than any layer that the slice came from.
+      // Rounding of the mass must not make soil denser or looser than any layer that the slice came
+      // from.
       out.specific_volume = std::clamp(static_cast<float>(volume), least, most);
-      out.shear = static_cast<float>(std::max(0.0, (shear_at - last_shear) / std::max(at - last_below, 1e-300)));
+      out.shear = static_cast<float>(
+          std::max(0.0, (shear_at - last_shear) / std::max(at - last_below, 1e-300)));
       slices_.push_back(out);
     }
     given = upto;
@@ -97,15 +107,18 @@ void Activator::slice(std::size_t first, std::size_t last, double bottom) {
 void Activator::stress(const Slice& slice, double weight, Particle& particle) const {
   const LawConstants& law = law_[slice.soil];
   const double nu = ground_.setup().soils[slice.soil].poisson;
-  // What is left in this density state and after remoulding, as in the law [docs/soil.md, cohesion].
-  const double dense =
-      std::clamp(law.dense_offset - static_cast<double>(slice.specific_volume) * law.inv_range, 0.0, 1.0);
+  // What is left in this density state and after remoulding, as in the law
+  // [docs/soil.md, cohesion].
+  const double dense = std::clamp(
+      law.dense_offset - static_cast<double>(slice.specific_volume) * law.inv_range, 0.0, 1.0);
   const double soft = 1 + static_cast<double>(slice.shear) * law.inv_remould;
   const double strength = law.k_loose + law.k_dense * dense + law.k_bond / (soft * soft);
-  // K0 of an elastic half space, or what the yield surface allows: (1 - K0) w / sqrt 3 <= alpha p + k.
+  // K0 of an elastic half space, or what the yield surface allows: (1 - K0) w / sqrt 3 <= alpha p +
+  // k.
   const double root = 1 / std::sqrt(3.0);
-  const double bound =
-      weight > 0 ? (weight * (root - law.alpha / 3) - strength) / (weight * (root + 2 * law.alpha / 3)) : 0;
+  const double bound = weight > 0 ? (weight * (root - law.alpha / 3) - strength) /
+                                        (weight * (root + 2 * law.alpha / 3))
+                                  : 0;
   const double k0 = std::clamp(std::max(nu / (1 - nu), bound), 0.0, 1.0);
   const double pressure = weight * (1 + 2 * k0) / 3;
   // Deviatoric stress, tension positive: the pressure is kept apart, in the volume.
@@ -128,13 +141,15 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
     std::size_t last = first;
     double thickness = 0;
     for (; last < taken_.size() && taken_[last].soil == taken_[first].soil; ++last)
-      thickness += thickness_of(taken_[last], ground_.setup().soils[taken_[last].soil].bank_density, cell_);
+      thickness +=
+          thickness_of(taken_[last], ground_.setup().soils[taken_[last].soil].bank_density, cell_);
     slice(first, last, bottom);
     bottom += thickness;
     first = last;
   }
 
-  // Weight from above a slice: what rests on the column, then every slice over it, and half of its own.
+  // Weight from above a slice: what rests on the column, then every slice over it, and half of its
+  // own.
   double above = load;
   for (const Slice& s : slices_) above += kilograms(s.mass);
   const double to_pressure = gravity_ / (cell_ * cell_);
@@ -145,7 +160,8 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
     p.j0 = s.specific_volume;
     p.shear = s.shear;
     stress(s, (above + 0.5 * kilograms(s.mass)) * to_pressure, p);
-    // Heights are counted from where the column ends now, which is within a quantum of the height asked for.
+    // Heights are counted from where the column ends now, which is within a quantum of the height
+    // asked for.
     const double z = (cut - ground_.datum() + s.bottom + 0.5 * s.thickness) / cell_;
     const int cells[3] = {ix - grid_.x, iy - grid_.y, static_cast<int>(std::floor(z))};
     const double offset[3] = {0, 0, z - cells[2]};
@@ -155,9 +171,10 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
       if (p.mass == 0) continue;
       const double plan[3] = {(k % kInPlan + 0.5) / kInPlan, (k / kInPlan + 0.5) / kInPlan, 0};
       for (int a = 0; a < 3; ++a) {
-        // Rounded down also for cells below zero, as blocks are counted from the grid's corner, which may lie within
-        // the site.
-        p.block[a] = cells[a] >= 0 ? cells[a] / kBlockCells : -((kBlockCells - 1 - cells[a]) / kBlockCells);
+        // Rounded down also for cells below zero, as blocks are counted from the grid's corner,
+        // which may lie within the site.
+        p.block[a] =
+            cells[a] >= 0 ? cells[a] / kBlockCells : -((kBlockCells - 1 - cells[a]) / kBlockCells);
         p.x[a] = static_cast<float>(cells[a] - kBlockCells * p.block[a] + plan[a] + offset[a]);
       }
       born.push_back(p);

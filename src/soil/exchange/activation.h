@@ -14,23 +14,25 @@ namespace navvy::soil {
 
 /// Turns columns into particles, mass-exact per soil.
 ///
-/// The soil above the cut is divided, soil by soil, into equal layers of about half a cell and each layer into 2 x 2
-/// particles; masses are differences of rounded cumulative integers. Particles are at rest under their own weight and
-/// that of what lies on them, so untouched woken ground stays where it is [docs/exchange.md, wake].
+/// The soil above the cut is divided, soil by soil, into equal layers of about half a cell and each
+/// layer into 2 x 2 particles; masses are differences of rounded cumulative integers. Particles are
+/// at rest under their own weight and that of what lies on them, so untouched woken ground stays
+/// where it is [docs/exchange.md, wake].
 class Activator {
  public:
-  /// `gravity` [m/s2]. Elastic constants of the soils are worked out once, here; the ground must outlive it. @throws
-  /// InputError when a particle of these soils would not fit its integer mass.
+  /// `gravity` [m/s2]. Elastic constants of the soils are worked out once, here; the ground must
+  /// outlive it. @throws InputError when a particle of these soils would not fit its integer mass.
   Activator(heightfield::Ground& ground, PlanGrid grid, double gravity);
 
-  /// Appends the particles of column (ix, iy) above W height `z_bottom` [m], from the lowest up, and takes them off the
-  /// column. `load` is the mass resting on the column [kg]. Nothing happens when the column is not higher. z_bottom
-  /// below the datum wakes the whole column. Ids and velocities are left at zero for the solver. Costs the layers of
-  /// the column and the particles it gives.
+  /// Appends the particles of column (ix, iy) above W height `z_bottom` [m], from the lowest up,
+  /// and takes them off the column. `load` is the mass resting on the column [kg]. Nothing happens
+  /// when the column is not higher. z_bottom below the datum wakes the whole column. Ids and
+  /// velocities are left at zero for the solver. Costs the layers of the column and the particles
+  /// it gives.
   void wake(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born);
 
-  /// At least the number of particles that waking the top `thickness` [m] of a column of few soils can give. For the
-  /// budget, before anything wakes.
+  /// At least the number of particles that waking the top `thickness` [m] of a column of few soils
+  /// can give. For the budget, before anything wakes.
   int particle_bound(double thickness) const;
 
  private:
@@ -50,7 +52,7 @@ class Activator {
   double gravity_, cell_;
   std::vector<LawConstants> law_;
   std::vector<heightfield::SoilLayer> taken_;  // scratch
-  std::vector<Slice> slices_;              // scratch
+  std::vector<Slice> slices_;                  // scratch
 };
 
 }  // namespace navvy::soil

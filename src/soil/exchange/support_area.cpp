@@ -9,8 +9,8 @@ namespace navvy::soil {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-/// Columns around the rim that count with it [cells]: the ground between two of them is what a tyre feels, and an edge
-/// that stands may not run under it.
+/// Columns around the rim that count with it [cells]: the ground between two of them is what a tyre
+/// feels, and an edge that stands may not run under it.
 constexpr double kAround = 1;
 /// Ground so near below the rim is met [cells]: more than a rut sinks between two checks.
 constexpr double kNear = 0.25;
@@ -22,7 +22,8 @@ double slope(const Vec3& direction) {
 
 }  // namespace
 
-SupportPlacement::SupportPlacement(const SupportArea& footing, const heightfield::Ground& ground, double interval)
+SupportPlacement::SupportPlacement(const SupportArea& footing, const heightfield::Ground& ground,
+                                   double interval)
     : footing_(footing), origin_(ground.origin()), cell_(ground.cell()) {
   ahead_ = footing.ahead_W.head<2>().normalized();
   left_ = Vec2(-ahead_.y(), ahead_.x());
@@ -40,7 +41,8 @@ SupportPlacement::SupportPlacement(const SupportArea& footing, const heightfield
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
-  const Vec2i first = ground.column_at(low.x(), low.y()), last = ground.column_at(high.x(), high.y());
+  const Vec2i first = ground.column_at(low.x(), low.y()),
+              last = ground.column_at(high.x(), high.y());
   rect_ = {std::max(first.x(), 0), std::max(first.y(), 0), std::min(last.x() + 1, ground.nx()),
            std::min(last.y() + 1, ground.ny())};
 }
@@ -54,7 +56,8 @@ double SupportPlacement::underside(double along, double across, double widened) 
   const double aside = std::max(0.0, std::abs(across) - widened);
   const double out = std::max(0.0, std::abs(along) - footing_.half_run - widened);
   if (aside > footing_.half_width || out >= footing_.radius) return kNowhere;
-  return footing_.p_W.z() + slope(footing_.ahead_W) * std::clamp(along, -footing_.half_run, footing_.half_run) +
+  return footing_.p_W.z() +
+         slope(footing_.ahead_W) * std::clamp(along, -footing_.half_run, footing_.half_run) +
          slope(footing_.left_W) * std::clamp(across, -footing_.half_width, footing_.half_width) -
          std::sqrt(footing_.radius * footing_.radius - out * out);
 }
@@ -71,8 +74,9 @@ double SupportPlacement::room(int ix, int iy) const {
   return underside(at.x(), at.y(), 0) + footing_.give;
 }
 
-std::vector<SupportPlacement> support_placements(std::span<const SupportArea> support_areas, const heightfield::Ground& ground,
-                                         double interval) {
+std::vector<SupportPlacement> support_placements(std::span<const SupportArea> support_areas,
+                                                 const heightfield::Ground& ground,
+                                                 double interval) {
   std::vector<SupportPlacement> out;
   out.reserve(support_areas.size());
   for (const SupportArea& footing : support_areas) out.emplace_back(footing, ground, interval);

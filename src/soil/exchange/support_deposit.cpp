@@ -23,18 +23,20 @@ constexpr double kShareUnit = 1e-7;
 bool tool_touches(std::span<const ToolZone> zones, int ix, int iy, double top) {
   return std::any_of(zones.begin(), zones.end(), [&](const ToolZone& tool) {
     const heightfield::CellRect& box = tool.box;
-    const heightfield::CellRect beside{box.x0 - kBesideTool, box.y0 - kBesideTool, box.x1 + kBesideTool,
-                                       box.y1 + kBesideTool};
+    const heightfield::CellRect beside{box.x0 - kBesideTool, box.y0 - kBesideTool,
+                                       box.x1 + kBesideTool, box.y1 + kBesideTool};
     return !tool.supported && top > tool.low - kUnderTool && beside.contains(ix, iy);
   });
 }
 
-bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
-                   std::span<const SupportPlacement> support_areas, int ix, int iy) {
+bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& index,
+                      std::span<const ToolZone> zones,
+                      std::span<const SupportPlacement> support_areas, int ix, int iy) {
   for (const SupportPlacement& footing : support_areas) {
     if (!footing.rect().contains(ix, iy)) continue;
     const double top = ground.height(ix, iy) + index.pile_height(ix, iy) * ground.cell();
-    if (footing.meets(ix, iy, top)) return !tool_touches(zones, ix, iy, (top - ground.datum()) / ground.cell());
+    if (footing.meets(ix, iy, top))
+      return !tool_touches(zones, ix, iy, (top - ground.datum()) / ground.cell());
   }
   return false;
 }
@@ -63,22 +65,27 @@ const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
 double SupportDeposit::smoothed(int ix, int iy) {
   double height = 0;
   for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) height += column_weight(dx) * column_weight(dy) * ground_.height(ix + dx, iy + dy);
+    for (int dx = -1; dx <= 1; ++dx)
+      height += column_weight(dx) * column_weight(dy) * ground_.height(ix + dx, iy + dy);
   const PlanGrid& grid = index_.grid();
   for (int dy = -2; dy <= 2; ++dy)
     for (int dx = -2; dx <= 2; ++dx) {
       const Stack& near = stack(ix + dx, iy + dy);
       for (std::size_t g = 0; g < near.grains.size(); ++g) {
         const Particle& p = index_[near.grains[g]];
-        const double x = static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]);
-        const double y = static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]);
-        height += near.volumes[g] * spline(x - (ix - grid.x + 0.5)) * spline(y - (iy - grid.y + 0.5));
+        const double x =
+            static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]);
+        const double y =
+            static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]);
+        height +=
+            near.volumes[g] * spline(x - (ix - grid.x + 0.5)) * spline(y - (iy - grid.y + 0.5));
       }
     }
   return height;
 }
 
-SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& footing, std::set<PlanKey>& claimed) {
+SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& footing,
+                                                    std::set<PlanKey>& claimed) {
   PendingDeposit out;
   std::vector<std::int64_t> taken;  // mass over each column, for soil too thin to show in heights
   bool shows = false;
@@ -91,10 +98,12 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& foot
       if (tool_touches(zones_, ix, iy, (lying.top - ground_.datum()) / ground_.cell())) continue;
       if (!claimed.insert({iy, ix}).second) continue;
       // What would stand in the wheel stays.
-      const double ground = ground_.height(ix, iy), room = std::max(0.0, footing.room(ix, iy) - ground);
+      const double ground = ground_.height(ix, iy),
+                   room = std::max(0.0, footing.room(ix, iy) - ground);
       double stands = 0;
       std::int64_t mass = 0;
-      for (std::size_t g = 0; g < lying.grains.size() && stands + 0.5 * lying.volumes[g] <= room; ++g) {
+      for (std::size_t g = 0; g < lying.grains.size() && stands + 0.5 * lying.volumes[g] <= room;
+           ++g) {
         stands += lying.volumes[g];
         mass += index_[lying.grains[g]].mass;
         out.grains.push_back(lying.grains[g]);
@@ -109,18 +118,21 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& foot
   return out;
 }
 
-int SupportDeposit::deposit(std::span<const SupportPlacement> support_areas, std::vector<std::uint8_t>& removed,
-                            std::set<PlanKey>& blocks) {
+int SupportDeposit::deposit(std::span<const SupportPlacement> support_areas,
+                            std::vector<std::uint8_t>& removed, std::set<PlanKey>& blocks) {
   std::set<PlanKey> claimed;
   // All are planned before any is booked, as one footing's soil is another one's neighbour.
   std::vector<PendingDeposit> pending_deposits;
-  for (const SupportPlacement& footing : support_areas) pending_deposits.push_back(plan(footing, claimed));
+  for (const SupportPlacement& footing : support_areas)
+    pending_deposits.push_back(plan(footing, claimed));
   int count = 0;
   for (const PendingDeposit& pending_deposit : pending_deposits) {
     for (const SoilShare& share : soil_shares(index_, pending_deposit.grains))
-      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell), share.mass, pending_deposit.columns);
+      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell), share.mass,
+                pending_deposit.columns);
     for (const std::uint32_t i : pending_deposit.grains) removed[i] = 1;
-    for (const SharedColumn& column : pending_deposit.columns) blocks.insert(index_.grid().block_of(column.ix, column.iy));
+    for (const SharedColumn& column : pending_deposit.columns)
+      blocks.insert(index_.grid().block_of(column.ix, column.iy));
     count += static_cast<int>(pending_deposit.columns.size());
   }
   return count;

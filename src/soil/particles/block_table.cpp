@@ -52,7 +52,8 @@ void BlockTable::build(std::vector<BlockKey> sorted_keys) {
   neighbours.resize(27 * particle_blocks.size());
   for (std::size_t h = 0; h < particle_blocks.size(); ++h)
     for (int n = 0; n < 27; ++n)
-      neighbours[27 * h + static_cast<std::size_t>(n)] = active_index.find(particle_blocks[h] + neighbour_offset(n));
+      neighbours[27 * h + static_cast<std::size_t>(n)] =
+          active_index.find(particle_blocks[h] + neighbour_offset(n));
   // Neighbour n of a home sees that home as its neighbour 26 - n.
   around.assign(27 * active.size(), -1);
   for (std::size_t h = 0; h < particle_blocks.size(); ++h)

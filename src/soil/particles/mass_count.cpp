@@ -22,7 +22,9 @@ void MassCount::reserve(std::size_t particle_blocks) {
 
 void MassCount::queue(ParticleStore& store) {
   reserve(store.particle_blocks().size());
-  kernel_.args(store.state(), store.capacity(), store.particle_blocks_buffer(), masses_, static_cast<int>(soils_))
+  kernel_
+      .args(store.state(), store.capacity(), store.particle_blocks_buffer(), masses_,
+            static_cast<int>(soils_))
       .enqueue_groups(store.particle_blocks().size());
   sums_.emplace(masses_.map_read_later(0, store.particle_blocks().size() * soils_));
 }

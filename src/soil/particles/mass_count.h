@@ -12,18 +12,20 @@
 
 namespace navvy::soil {
 
-/// Sums of particle masses per soil in kMassQuantum, exact. Unlike ParticleStore::masses it moves no particle to the
-/// host and does not look for values that are not finite (the step's report does).
+/// Sums of particle masses per soil in kMassQuantum, exact. Unlike ParticleStore::masses it moves
+/// no particle to the host and does not look for values that are not finite (the step's report
+/// does).
 class MassCount {
  public:
   MassCount(device::Device& device, std::size_t soils);
 
-  /// Makes room for a count of so many homes: a step asks before it queues its first kernel, so that a full device does
-  /// not stop it half-way. @throws DeviceError when there is none.
+  /// Makes room for a count of so many homes: a step asks before it queues its first kernel, so
+  /// that a full device does not stop it half-way. @throws DeviceError when there is none.
   void reserve(std::size_t particle_blocks);
   /// Queues the count of what is stored now and its way to the host.
   void queue(ParticleStore& store);
-  /// The sums of the last `queue`, once something queued after it was waited for; zeros when there are none.
+  /// The sums of the last `queue`, once something queued after it was waited for; zeros when there
+  /// are none.
   std::vector<std::int64_t> take();
 
  private:

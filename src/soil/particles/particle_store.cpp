@@ -33,7 +33,8 @@ BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}
 /// Cell of the base node inside its home, x fastest.
 int cell_of(const Particle& p) {
   int cell = 0;
-  for (int a = 2; a >= 0; --a) cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
+  for (int a = 2; a >= 0; --a)
+    cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
   return cell;
 }
 
@@ -47,8 +48,8 @@ void put_record(const Particle& p, float* state, std::size_t capacity, std::size
 #undef PUT_ONE
 #undef PUT_MANY
   words[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
-  words[FIELD_TAG * capacity] =
-      std::bit_cast<float>(static_cast<std::int32_t>(p.soil) | static_cast<std::int32_t>(p.side) << 16);
+  words[FIELD_TAG * capacity] = std::bit_cast<float>(static_cast<std::int32_t>(p.soil) |
+                                                     static_cast<std::int32_t>(p.side) << 16);
   words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
@@ -70,14 +71,16 @@ Particle get_record(const float* state, std::size_t capacity, std::size_t slot) 
 }
 
 int slots_of(const std::vector<int>& counts) {
-  return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
+  return std::accumulate(counts.begin(), counts.end(), 0,
+                         [](int sum, int count) { return sum + padded(count); });
 }
 
 /// What a lane without a particle holds: the values at rest of particle_fields.h.
 Particle empty_lane() {
   Particle p;
 #define REST_ONE(NAME, member, rest) p.member = rest;
-#define REST_MANY(NAME, member, count, rest) std::fill(std::begin(p.member), std::end(p.member), rest);
+#define REST_MANY(NAME, member, count, rest) \
+  std::fill(std::begin(p.member), std::end(p.member), rest);
   FLOAT_FIELDS(REST_ONE, REST_MANY)
 #undef REST_ONE
 #undef REST_MANY
@@ -87,8 +90,9 @@ Particle empty_lane() {
 /// No site has blocks beyond: it has at most 2^30 columns a side.
 constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
 
-/// The particles of one home as they are hashed and saved: words as on the device, field after field, which are not
-/// copied: that alone would take a quarter of the time that hashing them takes.
+/// The particles of one home as they are hashed and saved: words as on the device, field after
+/// field, which are not copied: that alone would take a quarter of the time that hashing them
+/// takes.
 class BlockWords {
  public:
   void visit(Archive& a) {
@@ -97,7 +101,8 @@ class BlockWords {
       a.item(f, [&] { a.loading() ? a("words", loaded_[f]) : a("words", fields_[f]); });
   }
   BlockKey key() const { return {block[0], block[1], block[2]}; }
-  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive the visit.
+  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive
+  /// the visit.
   void take(const float* first, std::size_t capacity, std::size_t count) {
     for (std::size_t f = 0; f < FIELD_COUNT; ++f) fields_[f] = {first + f * capacity, count};
   }
@@ -117,7 +122,8 @@ class BlockWords {
 void BlockWords::take(std::span<const Particle> particles) {
   std::copy(std::begin(particles.front().block), std::end(particles.front().block), block.begin());
   words_.resize(FIELD_COUNT * particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) put_record(particles[i], words_.data(), particles.size(), i);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    put_record(particles[i], words_.data(), particles.size(), i);
   take(words_.data(), particles.size(), particles.size());
 }
 
@@ -128,7 +134,8 @@ void BlockWords::give(Archive& a, std::vector<Particle>& particles, std::size_t 
   const std::size_t count = loaded_[0].size();
   words_.clear();
   for (const std::vector<float>& field : loaded_) {
-    a.require(count > 0 && field.size() == count, "words", "must be those of as many particles in every field");
+    a.require(count > 0 && field.size() == count, "words",
+              "must be those of as many particles in every field");
     words_.insert(words_.end(), field.begin(), field.end());
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -146,7 +153,8 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
   assign({});
 }
 
-// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
+// Home h begins where the one before it ends, padded; without tools every home has one tile, its
+// own number.
 void ParticleStore::lay_out(const std::vector<int>& counts) {
   particle_blocks_.assign(table_.particle_blocks.size(), ParticleBlock{});
   int slot = 0;
@@ -162,7 +170,9 @@ void ParticleStore::lay_out(const std::vector<int>& counts) {
 void ParticleStore::upload_particle_blocks() {
   particle_blocks_buffer_.write(particle_blocks_);
   std::vector<std::array<std::int32_t, 4>> keys(particle_blocks_.size());
-  for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.particle_blocks[h].x, table_.particle_blocks[h].y, table_.particle_blocks[h].z, 0};
+  for (std::size_t h = 0; h < keys.size(); ++h)
+    keys[h] = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+               table_.particle_blocks[h].z, 0};
   block_keys_.write(keys);
 }
 
@@ -180,8 +190,8 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
 
 std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   for (Particle& p : particles) find_particle_block(p);
-  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about takes three times as
-  // long.
+  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about
+  // takes three times as long.
   struct Place {
     BlockKey home;
     int cell;
@@ -233,8 +243,10 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
     for (const ParticleBlock& home : particle_blocks_) {
-      const auto start = static_cast<std::size_t>(home.start), n = static_cast<std::size_t>(home.count);
-      for (std::size_t i = 0; i < n; ++i) put_record(sorted[next++], view.data(), capacity, start + i);
+      const auto start = static_cast<std::size_t>(home.start),
+                 n = static_cast<std::size_t>(home.count);
+      for (std::size_t i = 0; i < n; ++i)
+        put_record(sorted[next++], view.data(), capacity, start + i);
       for (std::size_t i = n; i < static_cast<std::size_t>(padded(home.count)); ++i)
         put_record(empty_lane(), view.data(), capacity, start + i);
     }
@@ -253,7 +265,9 @@ std::vector<ContactSoil> ParticleStore::surfaces(const std::vector<Particle>& so
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
     const auto count = static_cast<std::size_t>(particle_blocks_[h].count);
     for (const auto& [mean, of_soil] : kWords) {
-      const auto value = [&, word = of_soil](std::size_t i) { return soil_rows_[sorted[i].soil].*word; };
+      const auto value = [&, word = of_soil](std::size_t i) {
+        return soil_rows_[sorted[i].soil].*word;
+      };
       float more = 0;
       for (std::size_t i = next; i < next + count; ++i) more += value(i) - value(next);
       out[h].*mean = value(next) + more / static_cast<float>(count);
@@ -281,16 +295,19 @@ std::vector<Particle> ParticleStore::records() const {
 }
 
 std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
-  // From half a cell above its key on a home holds what re-bins found there; between them it drifts by less than a
-  // cell.
+  // From half a cell above its key on a home holds what re-bins found there; between them it drifts
+  // by less than a cell.
   constexpr double kFrom = -1, kTo = kBlockCells + 2;
   std::vector<PointMass> out;
   if (count_ == 0) return out;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    const Vec3 corner = kBlockCells * Vec3(table_.particle_blocks[h].x, table_.particle_blocks[h].y, table_.particle_blocks[h].z);
-    if (((corner.array() + kFrom) > high.array()).any() || ((corner.array() + kTo) < low.array()).any()) continue;
+    const Vec3 corner = kBlockCells * Vec3(table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                                           table_.particle_blocks[h].z);
+    if (((corner.array() + kFrom) > high.array()).any() ||
+        ((corner.array() + kTo) < low.array()).any())
+      continue;
     for (int i = 0; i < particle_blocks_[h].count; ++i) {
       const float* words = view.data() + particle_blocks_[h].start + i;
       PointMass point;
@@ -307,7 +324,8 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
 
 double ParticleStore::densest() const {
   double out = 0;
-  for (const SoilRow& soil : soil_rows_) out = std::max(out, 1 / static_cast<double>(soil.inv_density));
+  for (const SoilRow& soil : soil_rows_)
+    out = std::max(out, 1 / static_cast<double>(soil.inv_density));
   return out;
 }
 
@@ -320,7 +338,8 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   for (const ParticleBlock& home : particle_blocks_) {
     const auto n = static_cast<std::size_t>(home.count);
     const float* first = view.data() + home.start;
-    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the run is lost anyway.
+    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the
+    // run is lost anyway.
     sums.assign(n, 0.0f);
     for (std::size_t f = 0; f < FIELD_MASS; ++f)
       for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
@@ -352,7 +371,8 @@ std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
   const std::size_t old_particle_blocks = particle_blocks_.size();
   const std::vector<int> counts =
-      rebin_.count({state_[now_], capacity_[now_], particle_blocks_buffer_}, old_particle_blocks, block_keys_, site_);
+      rebin_.count({state_[now_], capacity_[now_], particle_blocks_buffer_}, old_particle_blocks,
+                   block_keys_, site_);
   for (std::size_t h = 0; h < old_particle_blocks; ++h)
     if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
@@ -370,8 +390,9 @@ std::vector<Particle> ParticleStore::rebin() {
   if (!(plan.keys == table_.particle_blocks)) table_.build(plan.keys);
   lay_out(plan.counts);
   upload_particle_blocks();
-  rebin_.move({state_[now_], capacity_[now_], old_particle_blocks_buffer_}, {state_[other], capacity_[other], particle_blocks_buffer_},
-              plan, soils_, block_surface_);
+  rebin_.move({state_[now_], capacity_[now_], old_particle_blocks_buffer_},
+              {state_[other], capacity_[other], particle_blocks_buffer_}, plan, soils_,
+              block_surface_);
   now_ = other;
   return {};
 }
@@ -390,8 +411,10 @@ void ParticleStore::visit(Archive& a) {
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   BlockWords home;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    home.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y, table_.particle_blocks[h].z};
-    home.take(view.data() + particle_blocks_[h].start, capacity, static_cast<std::size_t>(particle_blocks_[h].count));
+    home.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                  table_.particle_blocks[h].z};
+    home.take(view.data() + particle_blocks_[h].start, capacity,
+              static_cast<std::size_t>(particle_blocks_[h].count));
     a.item(h, [&] { home.visit(a); });
   }
 }

@@ -18,9 +18,10 @@ class ParticleToGrid {
 
   /// Makes room for this many homes and tiles.
   void set_blocks(std::size_t particle_blocks, int tiles);
-  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]; of a `hold` step only what stress adds to the
-  /// momentum of the nodes. Writes Report.broken of every home.
-  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold);
+  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]; of a `hold` step only what
+  /// stress adds to the momentum of the nodes. Writes Report.broken of every home.
+  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
+               bool hold);
 
   device::Buffer<float>& tiles() { return tiles_; }
   device::Buffer<std::int32_t>& used() { return used_; }

@@ -13,12 +13,13 @@ RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   RebinPlan plan;
   for (std::size_t h = 0; h < table.particle_blocks.size(); ++h)
     for (std::size_t n = 0; n < 27; ++n)
-      if (counts[kRebinCodes * h + n] > 0) plan.keys.push_back(table.particle_blocks[h] + neighbour_offset(static_cast<int>(n)));
+      if (counts[kRebinCodes * h + n] > 0)
+        plan.keys.push_back(table.particle_blocks[h] + neighbour_offset(static_cast<int>(n)));
   std::sort(plan.keys.begin(), plan.keys.end());
   plan.keys.erase(std::unique(plan.keys.begin(), plan.keys.end()), plan.keys.end());
 
-  // For each new home the old ones around it that send it something, in the fixed order of the codes: the order in
-  // which particles arrive does not depend on the device.
+  // For each new home the old ones around it that send it something, in the fixed order of the
+  // codes: the order in which particles arrive does not depend on the device.
   plan.sources.assign(27 * plan.keys.size(), -1);
   plan.counts.assign(plan.keys.size(), 0);
   for (std::size_t k = 0; k < plan.keys.size(); ++k)
@@ -50,7 +51,9 @@ std::vector<int> Rebin::count(const StoredParticles& now, std::size_t particle_b
   fit(device_, codes_, static_cast<std::size_t>(now.capacity));
   fit(device_, cells_, static_cast<std::size_t>(now.capacity));
   fit(device_, counts_, counts.size());
-  count_kernel_.args(now.state, now.capacity, now.particle_blocks, keys, codes_, cells_, counts_, site).enqueue_groups(particle_blocks);
+  count_kernel_
+      .args(now.state, now.capacity, now.particle_blocks, keys, codes_, cells_, counts_, site)
+      .enqueue_groups(particle_blocks);
   counts_.read(counts);
   return counts;
 }
@@ -63,8 +66,12 @@ void Rebin::reserve(std::size_t particle_blocks, std::size_t slots) {
 void Rebin::move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
                  const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface) {
   sources_.write(plan.sources);
-  gather_kernel_.args(now.particle_blocks, codes_, cells_, counts_, next.particle_blocks, sources_, from_).enqueue_groups(plan.keys.size());
-  move_kernel_.args(now.state, now.capacity, codes_, from_, next.particle_blocks, next.state, next.capacity, soils, block_surface)
+  gather_kernel_
+      .args(now.particle_blocks, codes_, cells_, counts_, next.particle_blocks, sources_, from_)
+      .enqueue_groups(plan.keys.size());
+  move_kernel_
+      .args(now.state, now.capacity, codes_, from_, next.particle_blocks, next.state, next.capacity,
+            soils, block_surface)
       .enqueue_groups(plan.keys.size());
 }
 

@@ -9,9 +9,13 @@
 namespace navvy::soil {
 
 Transfer::Transfer(device::Device& device, bool extended_law)
-    : device_(device), particle_to_grid_(device, extended_law), grid_(device), grid_to_particle_(device) {}
+    : device_(device),
+      particle_to_grid_(device, extended_law),
+      grid_(device),
+      grid_to_particle_(device) {}
 
-void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles) {
+void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& near_slot,
+                          int tiles) {
   const BlockTable& table = store.table();
   particle_to_grid_.set_blocks(table.particle_blocks.size(), tiles);
   grid_.set_blocks(table, near_slot);
@@ -19,14 +23,16 @@ void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& ne
   ensure(device_, report_, table.particle_blocks.size());
 }
 
-void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold) {
+void Transfer::scatter(ParticleStore& store, NearNodes& near, double dt, double cell,
+                       const Vec3& gravity, bool hold) {
   // The queue is in order: the grid update sees finished tiles.
   particle_to_grid_.enqueue(store, report_, dt, cell, hold);
   grid_.enqueue(store, particle_to_grid_, near, gravity * dt, hold);
 }
 
 void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell) {
-  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt, part, cell);
+  grid_to_particle_.enqueue(store, grid_.velocity(), near, particle_to_grid_.used(), report_, dt,
+                            part, cell);
 }
 
 Transfer::Largest Transfer::read_report(std::size_t particle_blocks) const {

@@ -12,13 +12,14 @@ namespace {
 
 /// A tool stands while no corner of its shell is faster [m/s], for so long [s].
 constexpr double kStill = 1e-3, kStillTime = 0.8;
-/// Feet lie no higher than this over the lowest, along the ground's normal [cells]: what stands higher stands on other
-/// ground.
+/// Feet lie no higher than this over the lowest, along the ground's normal [cells]: what stands
+/// higher stands on other ground.
 constexpr double kLevel = 0.25;
-/// The same on a slope, where the lower edge bears more and sinks deeper; no more than contact reaches.
+/// The same on a slope, where the lower edge bears more and sinks deeper; no more than contact
+/// reaches.
 constexpr double kSloping = 0.5;  // tuned: Seat.ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns
-/// A seat is left when a corner has moved by this share of a cell (columns that come back may lift a body that has
-/// collision shapes besides), and under this much more than what it bore: more is
+/// A seat is left when a corner has moved by this share of a cell (columns that come back may lift
+/// a body that has collision shapes besides), and under this much more than what it bore: more is
 /// asked of the ground than it has shown.
 constexpr double kMoved = 0.25, kOverload = 1.25;
 constexpr double kLoadTime = 0.1;  ///< loads are means over about this time [s]
@@ -44,21 +45,22 @@ Row row_of(const Vec3& arm, const Vec3& along, const Mat6& inverse_mass) {
 /// Adds impulse so that the row's speed becomes `wanted`, within bounds.
 void solve(Row& row, Vec6& twist, double wanted, double low, double high) {
   if (!(row.yields > 0)) return;
-  const double next = std::clamp(row.impulse + (wanted - row.direction.dot(twist)) / row.yields, low, high);
+  const double next =
+      std::clamp(row.impulse + (wanted - row.direction.dot(twist)) / row.yields, low, high);
   twist += (next - row.impulse) * row.change;
   row.impulse = next;
 }
 
-/// Wrench impulse (moment about the tool's origin, impulse) of feet at `arms` [m] that come `up` by at least `rise`
-/// [m/s] each; `twist` is changed by it.
-Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const Vec3& up, const Mat6& inverse_mass,
-           double friction, Vec6& twist) {
+/// Wrench impulse (moment about the tool's origin, impulse) of feet at `arms` [m] that come `up` by
+/// at least `rise` [m/s] each; `twist` is changed by it.
+Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const Vec3& up,
+           const Mat6& inverse_mass, double friction, Vec6& twist) {
   const std::array<Vec3, 2> along = along_ground(up);
   std::vector<std::array<Row, 3>> rows;
   rows.reserve(arms.size());
   for (const Vec3& arm : arms)
-    rows.push_back(
-        {row_of(arm, up, inverse_mass), row_of(arm, along[0], inverse_mass), row_of(arm, along[1], inverse_mass)});
+    rows.push_back({row_of(arm, up, inverse_mass), row_of(arm, along[0], inverse_mass),
+                    row_of(arm, along[1], inverse_mass)});
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t i = 0; i < rows.size(); ++i) {
       solve(rows[i][0], twist, rise[i], 0, HUGE_VAL);
@@ -119,7 +121,8 @@ std::vector<Vec3> feet(const scene::Shell& shell, const Pose& X_WT, double cell,
       };
       if (farthest == nullptr || reach(v) > reach(*farthest)) farthest = &v;
     }
-    if (farthest != nullptr && std::find(out.begin(), out.end(), *farthest) == out.end()) out.push_back(*farthest);
+    if (farthest != nullptr && std::find(out.begin(), out.end(), *farthest) == out.end())
+      out.push_back(*farthest);
   }
   return out;
 }
@@ -129,7 +132,8 @@ Vec3 normal_under(const Vec2& gradient, double across, double cell) {
   return Vec3(-gradient.x(), -gradient.y(), 1).normalized();
 }
 
-bool RestingContact::stands(const scene::Shell& shell, const ToolMotion& motion, double seconds, const Vec3& force) {
+bool RestingContact::stands(const scene::Shell& shell, const ToolMotion& motion, double seconds,
+                            const Vec3& force) {
   // By the way it went: its velocity is the one before the soil acts, with the weight of a step.
   const bool stands = farthest(shell, motion.X_WT, X_WT) < kStill * seconds && force.z() > 0;
   X_WT = motion.X_WT;
@@ -137,8 +141,8 @@ bool RestingContact::stands(const scene::Shell& shell, const ToolMotion& motion,
   return still >= kStillTime;
 }
 
-void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force, const Vec3& moment,
-                double tangent, double cell, const Vec3& normal) {
+void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
+                          const Vec3& moment, double tangent, double cell, const Vec3& normal) {
   // The tool as it would go without the soil; its feet must stop that.
   Vec6 wrench;
   wrench << moment, force;
@@ -154,7 +158,8 @@ void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, c
   friction = tangent;
 }
 
-bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, double dt, double cell, ToolImpulse& impulse) {
+bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, double dt,
+                          double cell, ToolImpulse& impulse) {
   if (!taken) return false;
   const double moved = farthest(shell, motion.X_WT, X_WT);
   if (moved > kMoved * cell || load > kOverload * bears) {
@@ -168,11 +173,13 @@ bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, d
   const std::vector<Vec3> standing = feet(shell, X_WT, cell, up);
   std::vector<double> rise;
   for (const Vec3& foot : standing) {
-    // A foot above its place may come down to it and no farther; one that sank by rounding is pressed out slowly.
+    // A foot above its place may come down to it and no farther; one that sank by rounding is
+    // pressed out slowly.
     const double above = up.dot(motion.X_WT * foot) - up.dot(X_WT * foot);
     rise.push_back(above > 0 ? -above / dt : std::min(-kPressOut * above / dt, kSlowly));
   }
-  const Vec6 given = stand(arms_of(standing, motion.X_WT), rise, up, motion.inverse_mass, friction, twist);
+  const Vec6 given =
+      stand(arms_of(standing, motion.X_WT), rise, up, motion.inverse_mass, friction, twist);
   impulse.L_W += given.head<3>();
   impulse.J_W += given.tail<3>();
   load += std::min(1.0, dt / kLoadTime) * (up.dot(impulse.J_W) / dt - load);
@@ -187,11 +194,13 @@ void RestingContact::visit(Archive& a) {
   a("bears", bears);
   a("load", load);
   a("friction", friction);
-  a.require(std::isfinite(still + bears + load + friction) && still >= 0 && bears >= 0 && friction >= 0, "still",
-            "must be finite and not negative, as must the load that is borne and the friction");
-  a.require(std::abs(up.norm() - 1) < 1e-9 && up.z() > 0, "up", "must be a direction that leads upward");
-  a.require(std::isfinite(X_WT.matrix().sum()) && X_WT.translation().norm() < limits::kFarthest, "X_WT",
-            "must be a place on the site");
+  a.require(
+      std::isfinite(still + bears + load + friction) && still >= 0 && bears >= 0 && friction >= 0,
+      "still", "must be finite and not negative, as must the load that is borne and the friction");
+  a.require(std::abs(up.norm() - 1) < 1e-9 && up.z() > 0, "up",
+            "must be a direction that leads upward");
+  a.require(std::isfinite(X_WT.matrix().sum()) && X_WT.translation().norm() < limits::kFarthest,
+            "X_WT", "must be a place on the site");
 }
 
 }  // namespace navvy::soil

@@ -15,7 +15,8 @@ ShellQuery::ShellQuery(device::Device& device)
       particles_kernel_(program_, "shell_particles") {}
 
 // Rows are as many as near blocks and homes, and one more entry ends the last.
-void ShellQuery::set_near(const CandidateRows& node_candidates, const CandidateRows& particle_candidates,
+void ShellQuery::set_near(const CandidateRows& node_candidates,
+                          const CandidateRows& particle_candidates,
                           const std::vector<std::int32_t>& near_particle_blocks) {
   near_particle_blocks_ = near_particle_blocks.size();
   upload(device_, block_first_, node_candidates.first);
@@ -48,18 +49,21 @@ void ShellQuery::set_twists(std::vector<Tool> tools) {
 
 void ShellQuery::enqueue_nodes(Transfer& transfer, NearNodes& near, double band) {
   nodes_kernel_
-      .args(near.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(now_.rims.size()), tools_,
-            block_first_, block_triangles_, static_cast<float>(band), near.split, node_tool_, node_shell_)
+      .args(near.list, transfer.active_keys(), triangles_, rims_,
+            static_cast<int>(now_.rims.size()), tools_, block_first_, block_triangles_,
+            static_cast<float>(band), near.split, node_tool_, node_shell_)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 
-void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
+void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
+                         double longest_push) {
   // Neither kernel reads what the other writes; both see the poses of this step.
   enqueue_nodes(transfer, near, band);
   // Particles may be near a shell although no node of their own block is.
   particles_kernel_
-      .args(store.state(), store.capacity(), particle_block_list_, store.particle_blocks_buffer(), store.block_keys(), triangles_, tools_,
-            particle_first_, particle_triangles_, static_cast<float>(band), static_cast<float>(longest_push), transfer.report())
+      .args(store.state(), store.capacity(), particle_block_list_, store.particle_blocks_buffer(),
+            store.block_keys(), triangles_, tools_, particle_first_, particle_triangles_,
+            static_cast<float>(band), static_cast<float>(longest_push), transfer.report())
       .enqueue_groups(near_particle_blocks_);
 }
 

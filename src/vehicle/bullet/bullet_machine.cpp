@@ -9,8 +9,10 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kContactStiffness = 2e7;  // [N/m] tuned: BulletContact.RaisedGroundDoesNotLaunchABody
-constexpr double kContactDamping = 1e7;    // [N s/m] with it: overlap is pressed out at 2 per second
+// [N/m] tuned: BulletContact.RaisedGroundDoesNotLaunchABody
+constexpr double kContactStiffness = 2e7;
+// [N s/m] with it: overlap is pressed out at 2 per second
+constexpr double kContactDamping = 1e7;
 
 }  // namespace
 
@@ -25,18 +27,20 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
   add_steel();
   place_colliders();
   // Wheels and shells are at work even where they stand.
-  if (!tree_.fixed_base() && machine_.links.size() == 1 && machine_.wheels.empty() && machine_.shells.empty() &&
-      colliders_[0])
+  if (!tree_.fixed_base() && machine_.links.size() == 1 && machine_.wheels.empty() &&
+      machine_.shells.empty() && colliders_[0])
     rest_.emplace();
 }
 
 void BulletMachine::add_colliders() {
-  // One compound a link, placed in Bullet's inertial frame; links without collision shapes have none.
+  // One compound a link, placed in Bullet's inertial frame; links without collision shapes have
+  // none.
   shapes_.resize(machine_.links.size());
   colliders_.resize(machine_.links.size());
   for (std::size_t i = 0; i < machine_.links.size(); ++i) {
     const int link = static_cast<int>(i), k = tree_.bullet_of_link(link);
-    shapes_[i] = make_link_shape(machine_.links[i], tree_.inertial_frame(link).inverse(), i == 0 && tree_.fixed_base());
+    shapes_[i] = make_link_shape(machine_.links[i], tree_.inertial_frame(link).inverse(),
+                                 i == 0 && tree_.fixed_base());
     if (!shapes_[i].compound) continue;
     auto collider = make_collider(shapes_[i], link);
     // The tree and the world both point at it; it is owned here.
@@ -48,8 +52,10 @@ void BulletMachine::add_colliders() {
   }
 }
 
-std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const LinkShape& shape, int link) {
-  auto collider = std::make_unique<btMultiBodyLinkCollider>(&tree_.multibody(), tree_.bullet_of_link(link));
+std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const LinkShape& shape,
+                                                                      int link) {
+  auto collider =
+      std::make_unique<btMultiBodyLinkCollider>(&tree_.multibody(), tree_.bullet_of_link(link));
   collider->setCollisionShape(shape.compound.get());
   collider->setFriction(shape.friction);
   collider->setRestitution(0);
@@ -79,7 +85,8 @@ std::vector<btMultiBodyLinkCollider*> BulletMachine::all_colliders() const {
 // The tree moves its links' own colliders; the plates of shells are beside them.
 void BulletMachine::place_colliders() {
   tree_.place_colliders();
-  for (const auto& plates : steel_) plates->setWorldTransform(to_bt(tree_.link(link_of(*plates)).X_WL));
+  for (const auto& plates : steel_)
+    plates->setWorldTransform(to_bt(tree_.link(link_of(*plates)).X_WL));
 }
 
 void BulletMachine::add_rock() {
@@ -103,7 +110,8 @@ void BulletMachine::add_force(int link, const Vec3& f_W, const Vec3& p_W) {
   pushes_.push_back({link, f_W, p_W});
 }
 
-void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
+void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                                  double dt) {
   disturb();
   if (tree_.apply_impulse(link, J_W, L_W, p_W, dt)) place_colliders();
   external_impulse_ += J_W;
@@ -149,7 +157,8 @@ void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
     set_active(true);
   }
   joints_.note_speeds();
-  // The drive commands joints, so it comes before them; forces are summed by the tree and may come in any order.
+  // The drive commands joints, so it comes before them; forces are summed by the tree and may come
+  // in any order.
   drive_.begin_step(dt);
   joints_.begin_step(dt);
   tyre_impulse_ = wheels_.push(ground, dt);
@@ -211,7 +220,8 @@ void BulletMachine::visit(Archive& a) {
   // Told between two steps, to act in the next.
   a("pushes", pushes_);
   const auto links = static_cast<int>(machine_.links.size());
-  a.require(std::all_of(pushes_.begin(), pushes_.end(), [&](const Push& p) { return p.link >= 0 && p.link < links; }),
+  a.require(std::all_of(pushes_.begin(), pushes_.end(),
+                        [&](const Push& p) { return p.link >= 0 && p.link < links; }),
             "pushes", "the machine has no such link");
   a("ground_impulse", ground_impulse_);
   a("external_impulse", external_impulse_);

@@ -11,8 +11,8 @@
 namespace navvy::vehicle {
 namespace {
 
-/// Gathers what one disc meets of one body: the places weighed by their depth squared, so that the deepest leads and
-/// the normal turns without jumps as the wheel rolls over an edge.
+/// Gathers what one disc meets of one body: the places weighed by their depth squared, so that the
+/// deepest leads and the normal turns without jumps as the wheel rolls over an edge.
 struct Meeting final : btCollisionWorld::ContactResultCallback {
   explicit Meeting(const Vec3& middle) : center(middle) {}
 
@@ -81,13 +81,15 @@ void ContactCandidates::gather(BulletMachine& machine) {
     if (body.collider == nullptr) continue;
     body.machine = &machine;
     body.link = static_cast<int>(l);
-    body.collider->getCollisionShape()->getAabb(body.collider->getWorldTransform(), body.low, body.high);
+    body.collider->getCollisionShape()->getAabb(body.collider->getWorldTransform(), body.low,
+                                                body.high);
     bodies_.push_back(body);
   }
 }
 
-std::optional<terramechanics::BodyTouch> ContactCandidates::touch(Disc& disc, const MetBody& body, double friction,
-                                                          btCollisionWorld& world) {
+std::optional<terramechanics::BodyTouch> ContactCandidates::touch(Disc& disc, const MetBody& body,
+                                                                  double friction,
+                                                                  btCollisionWorld& world) {
   if (!TestAabbAgainstAabb2(disc.low, disc.high, body.low, body.high)) return {};
   Meeting meeting(disc.center);
   meeting.disc = disc.object.get();

@@ -26,8 +26,8 @@ struct MetBody {
   void push(const Vec3& f_W, const Vec3& p_W) const;
 };
 
-/// A flat disc swept by a ball: what turns or runs round, as bodies meet it. Its distance from a shape is exact up to
-/// half its thickness.
+/// A flat disc swept by a ball: what turns or runs round, as bodies meet it. Its distance from a
+/// shape is exact up to half its thickness.
 struct Disc {
   /// @param half of its thickness [m]
   Disc(double radius, double half);
@@ -48,9 +48,10 @@ class ContactCandidates {
   void gather(const Machines& machines, const std::vector<Mover>& movers);
   const std::vector<MetBody>& all() const { return bodies_; }
 
-  /// Where a disc that slides with `friction` reaches into a body, if it does. Costs one search where their boxes meet.
-  static std::optional<terramechanics::BodyTouch> touch(Disc& disc, const MetBody& body, double friction,
-                                                        btCollisionWorld& world);
+  /// Where a disc that slides with `friction` reaches into a body, if it does. Costs one search
+  /// where their boxes meet.
+  static std::optional<terramechanics::BodyTouch> touch(Disc& disc, const MetBody& body,
+                                                        double friction, btCollisionWorld& world);
 
  private:
   void gather(BulletMachine& machine);

@@ -10,8 +10,9 @@
 
 namespace navvy::vehicle {
 
-/// While it is closed, the eye on the child stays in the hook on the parent at any cost, and the ball keeps to its cone
-/// and twist. What parts them (a start, a hook that takes an eye) is closed slowly.
+/// While it is closed, the eye on the child stays in the hook on the parent at any cost, and the
+/// ball keeps to its cone and twist. What parts them (a start, a hook that takes an eye) is closed
+/// slowly.
 class HitchRows final : public MultibodyRows {
  public:
   /// Both trees must outlive it.
@@ -33,7 +34,8 @@ class HitchRows final : public MultibodyRows {
  private:
   Vec3 hook() const { return parent_.link(hitch_.parent_link).X_WL * hitch_.hook; }
   Vec3 eye() const { return child_.link(hitch_.child_link).X_WL * hitch_.eye; }
-  /// The Jacobians of a row: parent minus child, moved along `J_W` and turned about `L_W` at their points.
+  /// The Jacobians of a row: parent minus child, moved along `J_W` and turned about `L_W` at their
+  /// points.
   void aim(int row, const Vec3& J_W, const Vec3& L_W, const Vec3& on_parent, const Vec3& on_child);
 
   scene::Hitch hitch_;

@@ -20,7 +20,8 @@
 namespace navvy::vehicle {
 namespace {
 
-[[noreturn]] void refuse(const scene::Collision& collision, const std::string& value, const std::string& rule) {
+[[noreturn]] void refuse(const scene::Collision& collision, const std::string& value,
+                         const std::string& rule) {
   Fault fault;
   fault.element = "collision[" + collision.name + "]";
   fault.value = value;
@@ -34,15 +35,17 @@ std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   auto hull = std::make_unique<btConvexHullShape>();
   for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices)
     hull->addPoint(to_bt(Vec3(g.scale.cwiseProduct(v))), false);
-  if (hull->getNumPoints() < 4) refuse(collision, g.mesh_file, "the mesh needs at least four vertices");
+  if (hull->getNumPoints() < 4)
+    refuse(collision, g.mesh_file, "the mesh needs at least four vertices");
   hull->optimizeConvexHull();
   hull->recalcLocalAabb();
   return hull;
 }
 
 /// The triangles of a mesh that never moves, from both sides. The shape reads them from `keep`.
-std::unique_ptr<btCollisionShape> make_triangles(const scene::Collision& collision,
-                                                 std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
+std::unique_ptr<btCollisionShape> make_triangles(
+    const scene::Collision& collision,
+    std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   const scene::Geometry& g = collision.geometry;
   const geometry::TriangleMesh mesh = geometry::read_obj(g.mesh_file);
   auto triangles = std::make_unique<btTriangleMesh>(true, false);
@@ -56,8 +59,9 @@ std::unique_ptr<btCollisionShape> make_triangles(const scene::Collision& collisi
   return std::make_unique<btBvhTriangleMeshShape>(keep.back().get(), true);
 }
 
-std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, bool stands,
-                                             std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
+std::unique_ptr<btCollisionShape> make_shape(
+    const scene::Collision& collision, bool stands,
+    std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   using Kind = scene::Geometry::Kind;
   const scene::Geometry& g = collision.geometry;
   switch (g.kind) {
@@ -76,10 +80,12 @@ std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, 
     case Kind::kPlane:
       break;
   }
-  refuse(collision, "plane", "no body collides as a plane: in a scene it is the rock under the ground");
+  refuse(collision, "plane",
+         "no body collides as a plane: in a scene it is the rock under the ground");
 }
 
-/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual 0.8.
+/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual
+/// 0.8.
 constexpr double kSteelFriction = 0.6;
 
 }  // namespace

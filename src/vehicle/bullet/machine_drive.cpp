@@ -14,7 +14,8 @@ constexpr double kDragged = 0.02;  // [rad/s] a braked wheel that turns faster h
 
 }  // namespace
 
-MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, MachineJoints& joints, MachineWheels& wheels)
+MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, MachineJoints& joints,
+                           MachineWheels& wheels)
     : machine_(machine),
       tree_(tree),
       joints_(joints),
@@ -24,7 +25,8 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
       turns_(wheels.size()),
       torque_(wheels.size()),
       shaft_(wheels.size()) {
-  // From here on joints know which of them wheels spin on: those get their torque here, not from a servo.
+  // From here on joints know which of them wheels spin on: those get their torque here, not from a
+  // servo.
   joints.set_drive_rate(line_->steer_rate());
   for (const MachineWheel& wheel : wheels.all()) {
     joints[wheel.spin_joint].spins_wheel = true;
@@ -35,10 +37,12 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
     find_axles();
     coupled_ = line_->coupled();
     const scene::CombustionEngine* engine = scene::drive_engine(machine.drive);
-    const auto driven =
-        std::count_if(about_.begin(), about_.end(), [](const DriveWheel& wheel) { return wheel.driven; });
-    if (engine != nullptr && engine->kind == scene::CombustionEngine::Kind::kSpeedSource && driven > 0)
-      for (const DriveWheel& wheel : about_) carrier_.push_back(wheel.driven ? 1.0 / static_cast<double>(driven) : 0.0);
+    const auto driven = std::count_if(about_.begin(), about_.end(),
+                                      [](const DriveWheel& wheel) { return wheel.driven; });
+    if (engine != nullptr && engine->kind == scene::CombustionEngine::Kind::kSpeedSource &&
+        driven > 0)
+      for (const DriveWheel& wheel : about_)
+        carrier_.push_back(wheel.driven ? 1.0 / static_cast<double>(driven) : 0.0);
   }
   for (const Coupled& coupled : coupled_) add_row(coupled.weight);
   if (!carrier_.empty()) add_row(carrier_);
@@ -48,12 +52,14 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
 void MachineDrive::add_row(const std::vector<double>& weight) {
   std::vector<std::pair<int, double>> weights;
   for (std::size_t w = 0; w < wheels_.size(); ++w)
-    if (weight[w] != 0) weights.emplace_back(tree_.bullet_of_joint(wheels_[w].spin_joint), weight[w]);
+    if (weight[w] != 0)
+      weights.emplace_back(tree_.bullet_of_joint(wheels_[w].spin_joint), weight[w]);
   rows_.push_back(std::make_unique<DifferentialRow>(&tree_.multibody(), weights));
 }
 
 void MachineDrive::find_axles() {
-  // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate, or a caster swivel.
+  // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate, or a
+  // caster swivel.
   for (const MachineWheel& wheel : wheels_.all())
     // From the wheel's carrier inward, joint by joint, until the chassis.
     for (int link = wheel.carrier_link; link > 0;) {
@@ -85,8 +91,9 @@ void MachineDrive::begin_step(double dt) {
   lock_axles();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const MachineWheel& wheel = wheels_[w];
-    turns_[w] = {about_[w].driven && joints_[wheel.spin_joint].driven, tree_.velocity(wheel.spin_joint),
-                 about_[w].radius - wheel.force.deflection, wheel.spin_inertia, machine_.wheels[w].track.has_value()};
+    turns_[w] = {about_[w].driven && joints_[wheel.spin_joint].driven,
+                 tree_.velocity(wheel.spin_joint), about_[w].radius - wheel.force.deflection,
+                 wheel.spin_inertia, machine_.wheels[w].track.has_value()};
   }
   // Present speeds go in, torques come out; the governors' memory moves on by one step.
   const HydraulicPump& pump = joints_.pump();
@@ -123,8 +130,9 @@ void MachineDrive::couple(double dt) {
       whole = whole && turns_[w].on_line;
     }
     // One side gets what the other loses, so they differ by twice the row's torque.
-    const double torque =
-        about.kind == scene::Differential::Kind::kLocked ? kHeld : 0.5 * (about.preload + about.bias * through);
+    const double torque = about.kind == scene::Differential::Kind::kLocked
+                              ? kHeld
+                              : 0.5 * (about.preload + about.bias * through);
     rows_[d]->limit(whole ? torque * dt : 0);
   }
   if (carrier_.empty()) return;
@@ -147,11 +155,13 @@ void MachineDrive::end_step(double dt) {
   if (!machine_.has_drive) return;
   shaft_ = torque_;
   for (std::size_t d = 0; d < coupled_.size(); ++d)
-    for (std::size_t w = 0; w < shaft_.size(); ++w) shaft_[w] += coupled_[d].weight[w] * rows_[d]->impulse() / dt;
+    for (std::size_t w = 0; w < shaft_.size(); ++w)
+      shaft_[w] += coupled_[d].weight[w] * rows_[d]->impulse() / dt;
   if (carrier_.empty()) return;
   const double torque = rows_.back()->impulse() / dt;
   double speed = 0;
-  for (std::size_t w = 0; w < carrier_.size(); ++w) speed += carrier_[w] * tree_.velocity(wheels_[w].spin_joint);
+  for (std::size_t w = 0; w < carrier_.size(); ++w)
+    speed += carrier_[w] * tree_.velocity(wheels_[w].spin_joint);
   line_->settle(speed, torque);
   for (std::size_t w = 0; w < shaft_.size(); ++w) {
     if (carrier_[w] == 0 || !turns_[w].on_line) continue;
@@ -172,18 +182,22 @@ void MachineDrive::steer() {
 }
 
 void MachineDrive::lock_axles() {
-  // As the service brake of a wheeled excavator does: the axle is locked for work and free for travel.
+  // As the service brake of a wheeled excavator does: the axle is locked for work and free for
+  // travel.
   for (const int joint : axles_)
-    if (joints_[joint].driven) joints_[joint].servo.set({input_.brake ? JointMode::kVelocity : JointMode::kFree, 0});
+    if (joints_[joint].driven)
+      joints_[joint].servo.set({input_.brake ? JointMode::kVelocity : JointMode::kFree, 0});
 }
 
 void MachineDrive::brake(MachineWheel& wheel, double torque, double dt) {
   const double q = tree_.position(wheel.spin_joint), qd = tree_.velocity(wheel.spin_joint);
-  // The wheel is held where it came to rest; while it is dragged or still turns, that place goes along.
+  // The wheel is held where it came to rest; while it is dragged or still turns, that place goes
+  // along.
   const bool dragged = std::abs(qd) > kDragged;
   if (!wheel.braked || dragged) wheel.held_spin = q;
   wheel.braked = true;
-  // Back to it gently, with the brake's torque at most: on a slope the machine neither creeps nor trembles.
+  // Back to it gently, with the brake's torque at most: on a slope the machine neither creeps nor
+  // trembles.
   const double back = std::min(kBrakeGain, 0.2 / dt) * (wheel.held_spin - q);
   joints_.servo(wheel.spin_joint).command(back, -torque * dt, torque * dt);
 }
@@ -193,8 +207,8 @@ void MachineDrive::visit(Archive& a) {
   a("input", input_);
   if (const scene::CombustionEngine* engine = scene::drive_engine(machine_.drive))
     a.ranged("gear", input_.gear, 0, static_cast<int>(engine->gears.size()));
-  // With a source of speed limited slip goes by it; otherwise it is only told, and without rows it is the joints'
-  // effort.
+  // With a source of speed limited slip goes by it; otherwise it is only told, and without rows it
+  // is the joints' effort.
   if (!carrier_.empty()) {
     a.fixed("shaft", shaft_);
   } else if (!rows_.empty()) {

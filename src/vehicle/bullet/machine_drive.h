@@ -12,14 +12,15 @@
 
 namespace navvy::vehicle {
 
-/// Puts what a DriveLine says into joints and wheels. A machine without a drive has wheels that turn freely, as a
-/// trailer's do.
+/// Puts what a DriveLine says into joints and wheels. A machine without a drive has wheels that
+/// turn freely, as a trailer's do.
 ///
 /// A joint that set_joint took over is left alone until the next command of the drive.
 class MachineDrive {
  public:
   /// Takes the joints of wheels, steering and oscillating axles. All references must outlive it.
-  MachineDrive(const scene::Machine& machine, TreeBody& tree, MachineJoints& joints, MachineWheels& wheels);
+  MachineDrive(const scene::Machine& machine, TreeBody& tree, MachineJoints& joints,
+               MachineWheels& wheels);
 
   /// A new command; joints that were taken over are the drive's again.
   void set(const DriveInput& input);
@@ -29,7 +30,8 @@ class MachineDrive {
   /// Rows that hold shafts together, for the engine's solver.
   const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const { return rows_; }
 
-  /// Before the joints' part of a step: commands of steering and axles, torque or brake of the wheels.
+  /// Before the joints' part of a step: commands of steering and axles, torque or brake of the
+  /// wheels.
   void begin_step(double dt);
   /// After the solver and before the joints' part: what went through the shafts.
   void end_step(double dt);
@@ -49,7 +51,8 @@ class MachineDrive {
   void lock_axles();
   /// Adds a row over these wheels by their weights.
   void add_row(const std::vector<double>& weight);
-  /// Bounds of the differentials that are not open, by the torques of this step; the speed of a cage that is held.
+  /// Bounds of the differentials that are not open, by the torques of this step; the speed of a
+  /// cage that is held.
   void couple(double dt);
   /// Holds a wheel where it stopped with `torque` [N m] at most.
   void brake(MachineWheel& wheel, double torque, double dt);
@@ -58,14 +61,17 @@ class MachineDrive {
   TreeBody& tree_;
   MachineJoints& joints_;
   MachineWheels& wheels_;
-  std::unique_ptr<DriveLine> line_;  // of the default drive, asked nothing, where the machine has none
-  std::vector<DriveWheel> about_;    // by wheel
-  std::vector<int> axles_;           // joints between chassis and wheel carriers: oscillation, casters
-  std::vector<WheelTurn> turns_;     // of the present step, by wheel
-  std::vector<double> torque_;       // likewise [N m]
-  std::vector<double> shaft_;        // of the last step, by wheel [N m]
-  std::vector<Coupled> coupled_;     // differentials that are not open
-  std::vector<double> carrier_;         // by wheel: weight of it in the cage that a source of speed turns; empty: none
+  // Of the default drive, asked nothing, where the machine has none
+  std::unique_ptr<DriveLine> line_;
+  std::vector<DriveWheel> about_;  // by wheel
+  // Joints between chassis and wheel carriers: oscillation, casters
+  std::vector<int> axles_;
+  std::vector<WheelTurn> turns_;  // of the present step, by wheel
+  std::vector<double> torque_;    // likewise [N m]
+  std::vector<double> shaft_;     // of the last step, by wheel [N m]
+  std::vector<Coupled> coupled_;  // differentials that are not open
+  // By wheel: weight of it in the cage that a source of speed turns; empty: none
+  std::vector<double> carrier_;
   std::vector<std::unique_ptr<DifferentialRow>> rows_;  // one each, the cage's last
   DriveInput input_;
 };

@@ -9,8 +9,9 @@
 
 namespace navvy::vehicle {
 
-/// Each link with collision shapes or a shell is a body that stands, of a place and speed that are told step by step:
-/// to contacts a wall that moves. Its wheels push nothing: tyres are forces, and it feels none.
+/// Each link with collision shapes or a shell is a body that stands, of a place and speed that are
+/// told step by step: to contacts a wall that moves. Its wheels push nothing: tyres are forces, and
+/// it feels none.
 class Mover {
  public:
   /// @throws InputError, FileError for shapes that cannot be built.

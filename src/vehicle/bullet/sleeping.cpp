@@ -10,12 +10,14 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kStill = 1e-3, kStillTurn = 2e-3, kStillFor = 0.5;  // [m], [rad], [s]
-constexpr double kStartled = 0.2;   // [s] in which what begins to fall comes far further than kStill
+// [s] in which what begins to fall comes far further than kStill
+constexpr double kStartled = 0.2;
 constexpr double kMostCells = 256;  // along a side
 
-/// Of the heights of every `of`-th node, from number `part` on, among those that carry a triangle under the box.
-std::uint64_t hash_under(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high,
-                         std::uint32_t part, std::uint32_t of) {
+/// Of the heights of every `of`-th node, from number `part` on, among those that carry a triangle
+/// under the box.
+std::uint64_t hash_under(const terramechanics::GroundQuery& ground, const btVector3& low,
+                         const btVector3& high, std::uint32_t part, std::uint32_t of) {
   const terramechanics::GroundLattice lattice = ground.lattice();
   // Nodes are left out under a body of a hundred metres, as where it meets them.
   const double span = std::max(high.x() - low.x(), high.y() - low.y()) / lattice.spacing;
@@ -45,15 +47,19 @@ void Rest::wake(double still) {
 bool Rest::tire(const Pose& X_WB, double dt) {
   still_ += dt;
   const double turn = (X_WB.linear() - near_.linear()).norm() / std::sqrt(2.0);  // small angles
-  if ((X_WB.translation() - near_.translation()).norm() > kStill || turn > kStillTurn) near_ = X_WB, still_ = 0;
+  if ((X_WB.translation() - near_.translation()).norm() > kStill || turn > kStillTurn)
+    near_ = X_WB, still_ = 0;
   return asleep_ = still_ >= kStillFor;
 }
 
-void Rest::lie_down(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high) {
-  for (std::uint32_t part = 0; part < kParts; ++part) ground_[part] = hash_under(ground, low, high, part, kParts);
+void Rest::lie_down(const terramechanics::GroundQuery& ground, const btVector3& low,
+                    const btVector3& high) {
+  for (std::uint32_t part = 0; part < kParts; ++part)
+    ground_[part] = hash_under(ground, low, high, part, kParts);
 }
 
-void Rest::feel(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high) {
+void Rest::feel(const terramechanics::GroundQuery& ground, const btVector3& low,
+                const btVector3& high) {
   part_ = (part_ + 1) % kParts;
   if (hash_under(ground, low, high, part_, kParts) != ground_[part_]) disturb();
 }

@@ -9,8 +9,8 @@
 
 namespace navvy::vehicle {
 
-TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t wheel, const scene::Wheel& about,
-                                   const Vec3& p_sprocket) {
+TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t wheel,
+                                               const scene::Wheel& about, const Vec3& p_sprocket) {
   if (tracks_.size() <= machine) tracks_.resize(machine + 1);
   if (tracks_[machine].size() <= wheel) tracks_[machine].resize(wheel + 1);
   Track& out = tracks_[machine][wheel];
@@ -23,34 +23,41 @@ TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t 
   return out;
 }
 
-void TrackBodies::look_round(const BulletMachine& own, const Track& running_track, const Pose& X_WC, const ContactCandidates& bodies) {
+void TrackBodies::look_round(const BulletMachine& own, const Track& running_track, const Pose& X_WC,
+                             const ContactCandidates& bodies) {
   near_.clear();
   btVector3 low(1e18, 1e18, 1e18), high(-1e18, -1e18, -1e18);
   for (std::size_t s = 0; s < running_track.stations.size(); ++s) {
     const btVector3 p = to_bt(Vec3(X_WC * running_track.stations[s].p_C));
-    const btVector3 far = btVector3(1, 1, 1) * (running_track.stations[s].radius + 0.5 * running_track.width);
+    const btVector3 far =
+        btVector3(1, 1, 1) * (running_track.stations[s].radius + 0.5 * running_track.width);
     low.setMin(p - far);
     high.setMax(p + far);
   }
   for (const MetBody& body : bodies.all())
-    if (body.machine != &own && TestAabbAgainstAabb2(low, high, body.low, body.high)) near_.push_back(&body);
+    if (body.machine != &own && TestAabbAgainstAabb2(low, high, body.low, body.high))
+      near_.push_back(&body);
 }
 
-void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Wheel& about, btCollisionWorld& world) {
+void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Wheel& about,
+                        btCollisionWorld& world) {
   touches_.clear();
   for (std::size_t d = 0; d < running_track.discs.size(); ++d) {
-    const std::size_t station = d / terramechanics::kTrackLines, line = d % terramechanics::kTrackLines;
+    const std::size_t station = d / terramechanics::kTrackLines,
+                      line = d % terramechanics::kTrackLines;
     Pose X = X_WC;
-    X.translation() = X_WC * Vec3(running_track.stations[station].p_C + Vec3(0, (line == 0 ? 0.25 : -0.25) * about.width, 0));
+    X.translation() = X_WC * Vec3(running_track.stations[station].p_C +
+                                  Vec3(0, (line == 0 ? 0.25 : -0.25) * about.width, 0));
     running_track.discs[d].place(X);
     for (std::size_t b = 0; b < near_.size(); ++b)
-      if (const auto at = ContactCandidates::touch(running_track.discs[d], *near_[b], about.friction, world))
+      if (const auto at =
+              ContactCandidates::touch(running_track.discs[d], *near_[b], about.friction, world))
         touches_.push_back({*at, station, line, b});
   }
 }
 
-void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t wheel, const ContactCandidates& bodies,
-                      btCollisionWorld& world, double dt) {
+void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t wheel,
+                       const ContactCandidates& bodies, btCollisionWorld& world, double dt) {
   MachineWheel& at = own.wheels()[wheel];
   const scene::Wheel& about = own.wheels().about(wheel);
   const terramechanics::TrackMotion motion = own.wheels().track_motion(at);

@@ -25,7 +25,8 @@ Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
 
 }  // namespace
 
-MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : machine_(machine), tree_(tree) {
+MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
+    : machine_(machine), tree_(tree) {
   for (const scene::Wheel& about : machine.wheels) {
     MachineWheel wheel;
     wheel.spin_joint = machine.joint_index(about.joint);
@@ -51,26 +52,30 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : ma
       wheel.running_track = terramechanics::TrackState::of(*about.track);
       wheel.body_shear.assign(terramechanics::track_stations(about, wheel.center_C).size(),
                               {Vec2::Zero(), Vec2::Zero()});
-      if (tree.bullet_of_joint(wheel.spin_joint) < 0) refuse("track", about.joint, "its sprocket cannot turn");
+      if (tree.bullet_of_joint(wheel.spin_joint) < 0)
+        refuse("track", about.joint, "its sprocket cannot turn");
     }
     wheels_.push_back(wheel);
   }
 }
 
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
-  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead is.
+  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead
+  // is.
   const LinkState carrier = tree_.link(wheel.carrier_link);
   terramechanics::TyreMotion motion;
   motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);
   motion.w_W = carrier.w_WL;
-  motion.v_W = carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
+  motion.v_W =
+      carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
   motion.spin = tree_.velocity(wheel.spin_joint);
   motion.spin_inertia = wheel.spin_inertia;
   return motion;
 }
 
 Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
-  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle only the wheel.
+  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle
+  // only the wheel.
   Vec3 impulse = Vec3::Zero();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     MachineWheel& wheel = wheels_[w];
@@ -81,7 +86,8 @@ Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
     }
     const terramechanics::TyreMotion now = motion(wheel);
     wheel.force = terramechanics::tyre_force(machine_.wheels[w], now, ground, dt, wheel.tyre);
-    tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W, now.X_WWheel.translation());
+    tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W,
+                    now.X_WWheel.translation());
     impulse += dt * wheel.force.force_W;
   }
   return impulse;
@@ -99,11 +105,13 @@ terramechanics::TrackMotion MachineWheels::track_motion(const MachineWheel& whee
   return motion;
 }
 
-void MachineWheels::push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground, double dt) {
+void MachineWheels::push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground,
+                                      double dt) {
   MachineWheel& wheel = wheels_[w];
-  const terramechanics::TrackForce force =
-      terramechanics::track_force(machine_.wheels[w], track_motion(wheel), ground, dt, wheel.running_track);
-  // The carrier bears what acts on the lower run; what that does along the belt goes to the sprocket as a torque.
+  const terramechanics::TrackForce force = terramechanics::track_force(
+      machine_.wheels[w], track_motion(wheel), ground, dt, wheel.running_track);
+  // The carrier bears what acts on the lower run; what that does along the belt goes to the
+  // sprocket as a torque.
   for (const terramechanics::TrackForce::Push& push : force.pushes)
     tree_.add_force(wheel.carrier_link, push.f_W, Vec3::Zero(), push.p_W);
   tree_.multibody().addJointTorque(tree_.bullet_of_joint(wheel.spin_joint), force.torque);
@@ -116,7 +124,8 @@ void MachineWheels::push_ground_track(std::size_t w, const terramechanics::Groun
 std::vector<terramechanics::TrackPatch> MachineWheels::track_patches(int i) const {
   const auto w = static_cast<std::size_t>(i);
   if (!machine_.wheels.at(w).track) return {};
-  return terramechanics::track_patches(machine_.wheels[w], track_motion(wheels_[w]), wheels_[w].running_track);
+  return terramechanics::track_patches(machine_.wheels[w], track_motion(wheels_[w]),
+                                       wheels_[w].running_track);
 }
 
 WheelState MachineWheels::state(int i) const {

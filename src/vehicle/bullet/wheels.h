@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wheels of a machine in the Bullet engine: where they are and what the ground does to their tyres.
+// The wheels of a machine in the Bullet engine: where they are and what the ground does to their
+// tyres.
 #pragma once
 
 #include <array>
@@ -27,23 +28,25 @@ struct MachineWheel {
   // Of a crawler's sprocket: the belt on its rollers; no contacts of others.
   terramechanics::TrackState running_track;
 
-  // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
+  // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each
+  // track [m].
   Vec3 body_W = Vec3::Zero();
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
-  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle of what presses, in
-  // the carrier [m].
+  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle
+  // of what presses, in the carrier [m].
   terramechanics::TrackBodyShear body_shear;
   Vec3 body_p_C = Vec3::Zero();
 
   void visit(Archive& a);
 };
 
-/// Tyres push on the tree once a step, by terramechanics' law of the ground under them. What they meet of bodies is
-/// TyreBodies'; collision shapes of other links touch the ground in the engine's solver and are no wheels.
+/// Tyres push on the tree once a step, by terramechanics' law of the ground under them. What they
+/// meet of bodies is TyreBodies'; collision shapes of other links touch the ground in the engine's
+/// solver and are no wheels.
 class MachineWheels {
  public:
-  /// @throws InputError for a wheel whose joint is missing, is not revolute or hangs on the world. Machine and tree
-  /// must outlive it.
+  /// @throws InputError for a wheel whose joint is missing, is not revolute or hangs on the world.
+  /// Machine and tree must outlive it.
   MachineWheels(const scene::Machine& machine, TreeBody& tree);
 
   /// In the order of machine.wheels.

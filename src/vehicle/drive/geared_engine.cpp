@@ -10,20 +10,27 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kDwell = 1;        // [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
+// [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
+constexpr double kDwell = 1;
 constexpr double kSpare = 1.25;     // tuned: same
 constexpr double kAboveIdle = 1.1;  // [-] tuned: paper/ackermann changes up and back at 1
-constexpr double kDroop = 0.04;     // [-] above the governed speed, over which torque falls to nothing (U)
-constexpr double kDragFrom = 1.25;  // [-] of idle: below, the governor begins to carry the engine itself
+// [-] above the governed speed, over which torque falls to nothing (U)
+constexpr double kDroop = 0.04;
+// [-] of idle: below, the governor begins to carry the engine itself
+constexpr double kDragFrom = 1.25;
 
-bool sources(const scene::CombustionEngine& engine) { return engine.kind == scene::CombustionEngine::Kind::kSpeedSource; }
+bool sources(const scene::CombustionEngine& engine) {
+  return engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
+}
 
 }  // namespace
 
-GearedEngine::GearedEngine(scene::CombustionEngine about, bool drives_pump) : about_(std::move(about)), held_(kDwell) {
+GearedEngine::GearedEngine(scene::CombustionEngine about, bool drives_pump)
+    : about_(std::move(about)), held_(kDwell) {
   if (about_.gears.empty() || (!sources(about_) && about_.curve.size() < 2))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "engine", "",
-                           "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
+    throw InputError(Fault{
+        Fault::Severity::kError, "", 0, "engine", "",
+        "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
   if (sources(about_)) return;
   slowest_ = drives_pump ? scene::rated_point(about_).speed : about_.curve.front().speed;
 }
@@ -79,8 +86,8 @@ void GearedEngine::shift(int command, double carrier, double torque, double dt) 
   if (command > 0 || sources(about_)) {
     next = std::clamp(command, 1, count());
   } else if (held_ >= kDwell || !fits(gear_, carrier)) {
-    // Upwards it is enough to give what there is now: while the machine is slower than asked, more is asked for than it
-    // takes to keep its speed.
+    // Upwards it is enough to give what there is now: while the machine is slower than asked, more
+    // is asked for than it takes to keep its speed.
     const double up = kSpare * std::min(std::abs(torque), has(gear_));
     double most = -1;
     for (int gear = count(); gear > 0; --gear) {
@@ -95,7 +102,8 @@ void GearedEngine::shift(int command, double carrier, double torque, double dt) 
 
 GearedEngine::Bounds GearedEngine::bounds(double carrier, double pump_power) const {
   const double r = ratio();
-  if (sources(about_)) return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
+  if (sources(about_))
+    return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
   const double speed = engine_speed(r * carrier);
   // Of the curve's torque what the pump leaves.
   const double torque = std::max(0.0, full_torque(speed) - pump_power / speed);

@@ -3,8 +3,8 @@
 //
 //   w = i g u,   M = i g eta T     while it drives     (M = i g T / eta while it is dragged)
 //
-// u speed [rad/s] and M torque [N m] of the differential's cage, w and T those of the engine, g ratio of the gear, i of
-// the final drive, eta their efficiency.
+// u speed [rad/s] and M torque [N m] of the differential's cage, w and T those of the engine, g
+// ratio of the gear, i of the final drive, eta their efficiency.
 #pragma once
 
 #include "scene/drive.h"
@@ -14,10 +14,11 @@ namespace navvy::vehicle {
 
 /// What an engine with gears can do to the cage of a differential, and which gear is in.
 ///
-/// An engine with a torque curve never turns slower than at idle, one that shares its power with a pump never slower
-/// than where its power is largest: below, a clutch slips and passes the torque of that speed. Above the governed speed
-/// it gives none. Without fuel it brakes with its braking torque, which fades in from idle to 1.25 times idle. Shifting
-/// takes no time and the engine has no inertia of its own.
+/// An engine with a torque curve never turns slower than at idle, one that shares its power with a
+/// pump never slower than where its power is largest: below, a clutch slips and passes the torque
+/// of that speed. Above the governed speed it gives none. Without fuel it brakes with its braking
+/// torque, which fades in from idle to 1.25 times idle. Shifting takes no time and the engine has
+/// no inertia of its own.
 ///
 /// All values count in the way the machine is asked to go: a reverser turns the whole line round.
 class GearedEngine {
@@ -32,12 +33,13 @@ class GearedEngine {
   /// Speed of the cage [rad/s] that no gear which `command` allows goes beyond.
   double fastest(int command) const;
 
-  /// Puts in the gear `command` for the next step; 0 chooses: the highest one that gives `torque` [N m] at the cage's
-  /// speed `cage` [rad/s], or where none does, the strongest; for a change upwards a quarter more than it, or than what
-  /// the gear that is in gives. It changes once a second at most unless the engine would leave its range. A source of
-  /// speed stays in the first.
+  /// Puts in the gear `command` for the next step; 0 chooses: the highest one that gives `torque`
+  /// [N m] at the cage's speed `cage` [rad/s], or where none does, the strongest; for a change
+  /// upwards a quarter more than it, or than what the gear that is in gives. It changes once a
+  /// second at most unless the engine would leave its range. A source of speed stays in the first.
   void shift(int command, double carrier, double torque, double dt);
-  /// Torque of the cage [N m] that is to be had at its speed while a pump takes `pump_power` [W], which goes first.
+  /// Torque of the cage [N m] that is to be had at its speed while a pump takes `pump_power` [W],
+  /// which goes first.
   struct Bounds {
     double low = 0, high = 0;
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines moved by their commands alone: joints go where they are told at limited rates, nothing pushes back.
+// Machines moved by their commands alone: joints go where they are told at limited rates, nothing
+// pushes back.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +10,8 @@
 #include "core/error.h"
 #include "core/limits.h"
 #include "vehicle/drive/drive_line.h"
-#include "vehicle/physics_engine.h"
 #include "vehicle/kinematics.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -76,7 +77,8 @@ class KinematicEngine final : public PhysicsEngine {
     body.drive = input;
     body.placed = false;
     for (const scene::Wheel& wheel : body.machine.wheels)
-      for (const int joint : {body.machine.joint_index(wheel.joint), body.machine.joint_index(wheel.steer_joint)})
+      for (const int joint :
+           {body.machine.joint_index(wheel.joint), body.machine.joint_index(wheel.steer_joint)})
         if (body.machine.has_drive && joint >= 0 && body.taken[index(joint)] != 0) {
           body.taken[index(joint)] = 0;
           body.input[index(joint)] = {JointMode::kFree, 0};
@@ -93,14 +95,17 @@ class KinematicEngine final : public PhysicsEngine {
     body.goal = input;
     body.left = input.duration;
   }
-  BaseInput base(int machine) const override { return at(machine).placed ? at(machine).goal : PhysicsEngine::base(machine); }
+  BaseInput base(int machine) const override {
+    return at(machine).placed ? at(machine).goal : PhysicsEngine::base(machine);
+  }
   // Nothing pushes it: impulses and forces are swallowed.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void apply_impulse_of_step(int, int, const Vec3&, const Vec3&, const Vec3&, double) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
   void step(double dt, const GroundQuery& ground) override {
-    if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    if (!(dt > 0))
+      throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
     for (Body& body : bodies_) {
       // Joints first: a drive may then say otherwise of its wheels' joints for the next step.
       move_joints(body, dt);
@@ -137,7 +142,8 @@ class KinematicEngine final : public PhysicsEngine {
     const LinkState& carrier = body.links[index(spin.parent)];
     // By the carrier, with the spin joint at 0: the wheel's frame does not spin with it.
     state.X_WWheel = carrier.X_WL * joint_pose(body.machine, spin, 0) * spin.X_LcJ;
-    state.v_W = carrier.v_WL + carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
+    state.v_W = carrier.v_WL +
+                carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
     state.spin = body.qd[index(joint)];
     const int steer = body.machine.joint_index(about.steer_joint);
     if (steer >= 0) state.steer = body.q[index(steer)];
@@ -151,8 +157,10 @@ class KinematicEngine final : public PhysicsEngine {
 
   void visit(Archive& a) override {
     a.section("kinematic", kVersion, [&] {
-      a.constant("machines", bodies_.size(), "the snapshot holds another number of kinematic machines than the scene");
-      for (std::size_t b = 0; b < bodies_.size(); ++b) a.item(b, [&] { visit_body(bodies_[b], a); });
+      a.constant("machines", bodies_.size(),
+                 "the snapshot holds another number of kinematic machines than the scene");
+      for (std::size_t b = 0; b < bodies_.size(); ++b)
+        a.item(b, [&] { visit_body(bodies_[b], a); });
     });
   }
 
@@ -175,7 +183,8 @@ class KinematicEngine final : public PhysicsEngine {
     a("placed", body.placed);
     a("goal", body.goal);
     a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
-    a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() && body.goal.p_W.norm() < limits::kFarthest,
+    a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() &&
+                  body.goal.p_W.norm() < limits::kFarthest,
               "goal", "a machine is on its way to no finite place, or to none near any site");
     a.require(body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
               "a machine has no finite place, or none near any site");
@@ -192,8 +201,8 @@ class KinematicEngine final : public PhysicsEngine {
     a("on", which);
     a.require(which == static_cast<int>(j) + 1, "on", "another joint's brake");
   }
-  /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where it stands, if it has
-  /// one, and no more than the joint's own.
+  /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where
+  /// it stands, if it has one, and no more than the joint's own.
   static double opened_speed(const Body& body, std::size_t j, double opening) {
     const scene::Joint& joint = body.machine.joints[j];
     double most = joint.velocity;
@@ -212,7 +221,8 @@ class KinematicEngine final : public PhysicsEngine {
       double wanted = body.q[j];
       if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
-      if (body.input[j].mode == JointMode::kOpening) wanted += dt * opened_speed(body, j, body.input[j].target);
+      if (body.input[j].mode == JointMode::kOpening)
+        wanted += dt * opened_speed(body, j, body.input[j].target);
       if (body.braked[j] != 0) wanted = body.q[j];
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
       // At the joint's largest rate at once: no inertia, no valve.
@@ -223,24 +233,27 @@ class KinematicEngine final : public PhysicsEngine {
     }
   }
 
-  /// Where the machine rolls in this step: as the drive says, or as its wheels turn and steer where a command has taken
-  /// one of them. Turns those wheels that the drive moves.
+  /// Where the machine rolls in this step: as the drive says, or as its wheels turn and steer where
+  /// a command has taken one of them. Turns those wheels that the drive moves.
   static Roll move_wheels(Body& body, double dt) {
     const Roll told = body.line->roll(body.drive);
     std::vector<WheelMotion> motion(body.machine.wheels.size());
     bool any_taken = false;
     for (std::size_t w = 0; w < motion.size(); ++w) {
       const scene::Wheel& wheel = body.machine.wheels[w];
-      const int spin = body.machine.joint_index(wheel.joint), turn = body.machine.joint_index(wheel.steer_joint);
+      const int spin = body.machine.joint_index(wheel.joint),
+                turn = body.machine.joint_index(wheel.steer_joint);
       if (spin >= 0) {
-        if (body.taken[index(spin)] == 0 && body.wheels[w].driven) turn_wheel(body, w, spin, told, dt);
+        if (body.taken[index(spin)] == 0 && body.wheels[w].driven)
+          turn_wheel(body, w, spin, told, dt);
         any_taken |= body.taken[index(spin)] != 0 && body.wheels[w].driven;
         motion[w].spin = body.qd[index(spin)];
       }
       if (turn < 0) continue;
       // Steered joints follow at their own rate in the next step; the base is on its arc at once.
       const auto angle = body.line->steer_angle(body.drive, body.wheels[w]);
-      if (angle && body.taken[index(turn)] == 0) body.input[index(turn)] = {JointMode::kPosition, *angle};
+      if (angle && body.taken[index(turn)] == 0)
+        body.input[index(turn)] = {JointMode::kPosition, *angle};
       any_taken |= body.taken[index(turn)] != 0;
       motion[w].steer = body.q[index(turn)];
     }
@@ -248,7 +261,8 @@ class KinematicEngine final : public PhysicsEngine {
     // The others roll along, wherever that goes.
     for (std::size_t w = 0; w < motion.size(); ++w) {
       const int spin = body.machine.joint_index(body.machine.wheels[w].joint);
-      if (spin >= 0 && body.taken[index(spin)] == 0 && !body.wheels[w].driven) turn_wheel(body, w, spin, roll, dt);
+      if (spin >= 0 && body.taken[index(spin)] == 0 && !body.wheels[w].driven)
+        turn_wheel(body, w, spin, roll, dt);
     }
     return roll;
   }
@@ -275,12 +289,14 @@ class KinematicEngine final : public PhysicsEngine {
     body.X_WB = make_pose(next.x(), next.y(), next.z(), 0, 0, yaw + rate * dt);
   }
 
-  /// By a share of what is left, so that it arrives with the time; the turn goes the short way round.
+  /// By a share of what is left, so that it arrives with the time; the turn goes the short way
+  /// round.
   static void move_to_goal(Body& body, double dt) {
     const double share = body.left > dt ? dt / body.left : 1;
     body.left = std::max(0.0, body.left - dt);
     const Vec3& to = body.goal.angles;
-    const Pose goal = make_pose(body.goal.p_W.x(), body.goal.p_W.y(), body.goal.p_W.z(), to.x(), to.y(), to.z());
+    const Pose goal =
+        make_pose(body.goal.p_W.x(), body.goal.p_W.y(), body.goal.p_W.z(), to.x(), to.y(), to.z());
     const Eigen::AngleAxisd turn(Mat3(goal.linear() * body.X_WB.linear().transpose()));
     const Vec3 step = share * (goal.translation() - body.X_WB.translation());
     body.v_W = step / dt;
@@ -290,7 +306,8 @@ class KinematicEngine final : public PhysicsEngine {
       return;
     }
     body.X_WB.translation() += step;
-    body.X_WB.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix() * body.X_WB.linear();
+    body.X_WB.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix() *
+                         body.X_WB.linear();
   }
 
   static void update_links(Body& body) {
@@ -327,6 +344,8 @@ class KinematicEngine final : public PhysicsEngine {
 
 }  // namespace
 
-std::unique_ptr<PhysicsEngine> make_kinematic_engine() { return std::make_unique<KinematicEngine>(); }
+std::unique_ptr<PhysicsEngine> make_kinematic_engine() {
+  return std::make_unique<KinematicEngine>();
+}
 
 }  // namespace navvy::vehicle

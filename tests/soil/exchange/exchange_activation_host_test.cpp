@@ -15,7 +15,8 @@ namespace {
 
 double stress_zz(const Site& site, const Particle& p) {
   const double bulk = law_constants(site.world.soils[p.soil], kCell).bulk;
-  return static_cast<double>(p.s[2]) - bulk * std::max(0.0, 1.0 - static_cast<double>(p.j) / static_cast<double>(p.j0));
+  return static_cast<double>(p.s[2]) -
+         bulk * std::max(0.0, 1.0 - static_cast<double>(p.j) / static_cast<double>(p.j0));
 }
 
 TEST(ExchangeActivation, KeepsTheMassOfEverySoilInRandomColumns) {
@@ -23,11 +24,13 @@ TEST(ExchangeActivation, KeepsTheMassOfEverySoilInRandomColumns) {
   Site site({sand(), loam()}, 40, 40, {{"loam", 0.33}, {"sand", 0.21}, {"loam", 9}},
             [](int ix, int iy) { return 0.03 * ix - 0.017 * iy; });
   for (int n = 0; n < 60; ++n) {
-    const int ix = static_cast<int>(random.uniform(0, 39)), iy = static_cast<int>(random.uniform(0, 39));
+    const int ix = static_cast<int>(random.uniform(0, 39)),
+              iy = static_cast<int>(random.uniform(0, 39));
     const double z = site.ground.height(ix, iy) + random.uniform(-1.2, 0.1);
-    site.ground.put(ix, iy,
-                    {static_cast<std::uint16_t>(n % 2), static_cast<std::int64_t>(random.uniform(1, 3e7)),
-                     static_cast<float>(random.uniform(0.9, 1.2)), 1.0f});
+    site.ground.put(
+        ix, iy,
+        {static_cast<std::uint16_t>(n % 2), static_cast<std::int64_t>(random.uniform(1, 3e7)),
+         static_cast<float>(random.uniform(0.9, 1.2)), 1.0f});
     const std::vector<std::int64_t> before = site.ground.mass_change();
     std::vector<std::int64_t> after = before;
     const auto born = site.exchange.wake({ix - 1, iy, ix + 2, iy + 1}, z);
@@ -62,7 +65,8 @@ TEST(ExchangeActivation, PutsFlatGroundUnderTheStressOfItsWeight) {
       const double pressure = p.s[2] - stress_zz(site, p);
       EXPECT_LE(q, law.alpha * pressure + law.k_loose + law.k_dense + law.k_bond + 5);
     }
-    std::printf("[ VALUE    ] %s: sum sigma_z %.1f Pa, expected %.1f +-0.1 %%\n", soil.name.c_str(), sum, expected_sum);
+    std::printf("[ VALUE    ] %s: sum sigma_z %.1f Pa, expected %.1f +-0.1 %%\n", soil.name.c_str(),
+                sum, expected_sum);
     EXPECT_NEAR(sum, expected_sum, 1e-3 * std::abs(expected_sum));
   }
 }
@@ -72,7 +76,8 @@ TEST(ExchangeActivation, CarriesTheWeightOfSoilOnTopButNotOfSoilInTheAir) {
   const double extra = 0.5;  // [m] of loose soil in its own state
   for (const bool hangs : {false, true}) {
     const int z0 = 50 + (hangs ? 4 : 0);
-    const auto load = fill(site, {10, 10, z0}, {11, 11, z0 + 5}, 1.13f, [](double, double, double) { return true; });
+    const auto load = fill(site, {10, 10, z0}, {11, 11, z0 + 5}, 1.13f,
+                           [](double, double, double) { return true; });
     const auto born = site.exchange.wake({10, 10, 11, 11}, -0.5, load);
     const double weight = 1600 * kGravity * (0.25 + (hangs ? 0 : extra / 1.13));
     double sum = 0;

@@ -24,7 +24,8 @@ void set_scene(Site& site) {
     for (int ix = 0; ix < 12; ++ix) site.ground.take_above(ix, iy, -1, taken);
   site.add(fill(
       site, {28, 24, 50}, {36, 32, 54}, 1.13f,
-      [](double x, double y, double z) { return std::hypot(x - 32, y - 28) < 4 - 1.5 * (z - 50); }, 0.2));
+      [](double x, double y, double z) { return std::hypot(x - 32, y - 28) < 4 - 1.5 * (z - 50); },
+      0.2));
   site.wake({20, 8, 28, 14}, -0.4);
   for (std::size_t i = 0; i < site.particles.size(); ++i)
     if (i % 37 == 0) site.particles[i].v[0] = 0.3f;
@@ -32,7 +33,8 @@ void set_scene(Site& site) {
 
 ToolRegion tool_at(const Site& site, double time) {
   ToolRegion tool;
-  tool.min = Vec3(site.ground.origin().x() + 1.5 + 0.5 * time, site.ground.origin().y() + 2.4, -0.25);
+  tool.min =
+      Vec3(site.ground.origin().x() + 1.5 + 0.5 * time, site.ground.origin().y() + 2.4, -0.25);
   tool.max = tool.min + Vec3(0.3, 0.6, 0.6);
   tool.velocity = Vec3(0.5, 0, 0);
   return tool;
@@ -74,7 +76,8 @@ TEST(ExchangeState, TheOrderOfParticlesAndToolsDoesNotMatter) {
     const ToolRegion tool = tool_at(a, a.time);
     const Exchange::Result one = a.check({tool, far});
     for (std::size_t i = b.particles.size(); i > 1; --i)
-      std::swap(b.particles[i - 1], b.particles[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
+      std::swap(b.particles[i - 1],
+                b.particles[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
     const Exchange::Result two = b.check({far, tool});
     ASSERT_EQ(one.born.size(), two.born.size());
     for (std::size_t i = 0; i < one.born.size(); ++i) ASSERT_EQ(one.born[i].mass, two.born[i].mass);

@@ -19,20 +19,24 @@ constexpr double kRadius = 0.5, kDepth = 0.2;  // of the wheel, of the layer [m]
 /// A wheel that rolls along x over column (24, 20), its lowest point at this height [m].
 SupportArea wheel_at(const Site& site, double height) {
   SupportArea wheel;
-  wheel.p_W = Vec3(site.ground.origin().x() + 2.45, site.ground.origin().y() + 2.05, height + kRadius);
+  wheel.p_W =
+      Vec3(site.ground.origin().x() + 2.45, site.ground.origin().y() + 2.05, height + kRadius);
   wheel.radius = kRadius;
   wheel.half_width = 0.15;
   return wheel;
 }
 
-/// Loose sand on columns at height 0, two cells deep, everywhere but at the edges; no particle of it moves.
+/// Loose sand on columns at height 0, two cells deep, everywhere but at the edges; no particle of
+/// it moves.
 std::vector<Particle> layer(const Site& site, double jitter = 0.2) {
   return fill(
       site, {4, 4, 50}, {44, 36, 52}, 1.1f, [](double, double, double) { return true; }, jitter);
 }
 
-Exchange::Result check(Site& site, const std::vector<SupportArea>& support_areas, const std::vector<ToolRegion>& tools = {}) {
-  Exchange::Result result = site.exchange.check(site.particles, tools, site.time, site.step, {support_areas, 0.05});
+Exchange::Result check(Site& site, const std::vector<SupportArea>& support_areas,
+                       const std::vector<ToolRegion>& tools = {}) {
+  Exchange::Result result =
+      site.exchange.check(site.particles, tools, site.time, site.step, {support_areas, 0.05});
   site.time += site.step;
   std::vector<Particle> stay;
   for (std::size_t i = 0; i < site.particles.size(); ++i)
@@ -58,8 +62,9 @@ TEST(ExchangeSupportArea, DepositsTheSoilUnderAWheelLevelAndLeavesTheRestActive)
   const std::size_t before = site.particles.size();
   const Exchange::Result result = check(site, {wheel_at(site, kDepth)});
   EXPECT_EQ(site.mass_errors(), site.closed());
-  // The rim comes within a quarter of a cell of the layer over a length of 2 sqrt(2 r 0.025) = 0.32 m; with the column
-  // around and the wheel's width that are five or six columns along and five across.
+  // The rim comes within a quarter of a cell of the layer over a length of 2 sqrt(2 r 0.025) = 0.32
+  // m; with the column around and the wheel's width that are five or six columns along and five
+  // across.
   EXPECT_GE(result.support_columns, 5 * 5);
   EXPECT_LE(result.support_columns, 7 * 6);
   EXPECT_LT(site.particles.size(), before);
@@ -69,8 +74,8 @@ TEST(ExchangeSupportArea, DepositsTheSoilUnderAWheelLevelAndLeavesTheRestActive)
       EXPECT_EQ(mass_over(site, ix, iy), 0);
       most = std::max(most, std::abs(site.ground.height(ix, iy) - kDepth));
     }
-  // Counted by column, jittered particles would scatter by centimetres; smoothed by place they lie level. What stays
-  // is the share of grains that the pool's edge cuts: one in forty.
+  // Counted by column, jittered particles would scatter by centimetres; smoothed by place they lie
+  // level. What stays is the share of grains that the pool's edge cuts: one in forty.
   EXPECT_LT(most, 0.008);
   EXPECT_NEAR(site.ground.height(24, 30), 0, 1e-9);
   EXPECT_NEAR(site.ground.specific_volume(24, 20), 1.1, 1e-3);
@@ -101,7 +106,9 @@ TEST(ExchangeSupportArea, IsReadyWhereAWheelRollsUntilTheNextCheck) {
 }
 
 TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
-  const auto in_column = [](const Particle& p) { return PlanGrid{}.column_of(p) == std::pair{24, 20}; };
+  const auto in_column = [](const Particle& p) {
+    return PlanGrid{}.column_of(p) == std::pair{24, 20};
+  };
   enum { kInTheAir, kInABucket, kTouched, kKinds };
   for (int kind = 0; kind < kKinds; ++kind) {
     Site site({sand()});
@@ -109,7 +116,8 @@ TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
     std::vector<ToolRegion> tools;
     for (Particle& p : site.particles) {
       if (!in_column(p)) continue;
-      if (kind == kInTheAir) p.x[2] += 2.5f, p.block[2] += 1;  // 0.65 m over the ground, where the axle is
+      // 0.65 m over the ground, where the axle is
+      if (kind == kInTheAir) p.x[2] += 2.5f, p.block[2] += 1;
       if (kind == kTouched) p.side = 1;
     }
     if (kind == kInABucket) {
@@ -117,7 +125,8 @@ TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
       tools.emplace_back();
       tools[0].min = Vec3(site.ground.origin().x() + 2.41, site.ground.origin().y() + 2.01, 0.1);
       tools[0].max = tools[0].min + Vec3(0.08, 0.08, 0.2);
-      std::erase_if(site.particles, [&](const Particle& p) { return in_column(p) && height_in_cells(p) < 51; });
+      std::erase_if(site.particles,
+                    [&](const Particle& p) { return in_column(p) && height_in_cells(p) < 51; });
       site.inserted = {0};
       for (const Particle& p : site.particles) site.inserted[0] += p.mass;
     }
@@ -133,7 +142,8 @@ TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
 TEST(ExchangeSupportArea, DoesNotLiftAWheelByWhatStandsInIt) {
   Site site({sand()});
   site.add(layer(site));
-  // The wheel stands half as deep in the layer as that is high, and its load presses it flat by 20 mm.
+  // The wheel stands half as deep in the layer as that is high, and its load presses it flat by 20
+  // mm.
   SupportArea wheel = wheel_at(site, 0.5 * kDepth);
   wheel.give = 0.02;
   check(site, {wheel});
@@ -154,8 +164,10 @@ TEST(ExchangeSupportArea, SoilUnderAWheelActivatesOnlyWhereAToolTouchesIt) {
     for (const bool touches : {false, true}) {
       Site site({sand()});
       ToolRegion tool;
-      // Beside the wheel's columns, or over them; its zone of a depth to all sides covers them in both cases.
-      tool.min = Vec3(site.ground.origin().x() + 2.3, site.ground.origin().y() + (touches ? 2.0 : 2.3), -0.3);
+      // Beside the wheel's columns, or over them; its zone of a depth to all sides covers them in
+      // both cases.
+      tool.min = Vec3(site.ground.origin().x() + 2.3,
+                      site.ground.origin().y() + (touches ? 2.0 : 2.3), -0.3);
       tool.max = tool.min + Vec3(0.3, 0.2, 1);
       std::vector<SupportArea> support_areas;
       if (wheel) support_areas.push_back(wheel_at(site, 0));
@@ -173,7 +185,8 @@ TEST(ExchangeSupportArea, ABankThatIsTooSteepStaysUnderAWheel) {
     std::vector<heightfield::SoilLayer> taken;
     for (int iy = 22; iy < 36; ++iy)
       for (int ix = 4; ix < 44; ++ix) site.ground.take_above(ix, iy, -0.5, taken);
-    site.add(fill(site, {20, 24, 45}, {28, 28, 46}, 1.1f, [](double, double, double) { return true; }));
+    site.add(
+        fill(site, {20, 24, 45}, {28, 28, 46}, 1.1f, [](double, double, double) { return true; }));
     std::vector<SupportArea> support_areas;
     if (wheel) support_areas.push_back(wheel_at(site, 0));
     EXPECT_GT(check(site, support_areas).activated_columns, 10);
@@ -202,11 +215,13 @@ TEST(ExchangeSupportArea, TheOrderOfParticlesDoesNotMatterAndTwoSoilsKeepTheirMa
     site->add(fill(
         *site, {4, 4, 50}, {44, 36, 51}, 1.1f, [](double, double, double) { return true; }, 0.2));
     site->add(fill(
-        *site, {4, 4, 51}, {44, 36, 52}, 1.2f, [](double, double, double) { return true; }, 0.2, 1));
+        *site, {4, 4, 51}, {44, 36, 52}, 1.2f, [](double, double, double) { return true; }, 0.2,
+        1));
   }
   Random random(3);
   for (std::size_t i = b.particles.size(); i > 1; --i)
-    std::swap(b.particles[i - 1], b.particles[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
+    std::swap(b.particles[i - 1],
+              b.particles[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
   for (int n = 0; n < 5; ++n) {
     SupportArea wheel = wheel_at(a, kDepth);
     wheel.p_W.x() += 0.07 * n;

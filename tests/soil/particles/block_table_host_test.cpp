@@ -19,7 +19,8 @@ TEST(BlockTable, NeighboursAndSurroundingsAgree) {
     for (int n = 0; n < 27; ++n) {
       const int active = table.neighbours[27 * h + static_cast<std::size_t>(n)];
       ASSERT_GE(active, 0);
-      EXPECT_EQ(table.active[static_cast<std::size_t>(active)], table.particle_blocks[h] + neighbour_offset(n));
+      EXPECT_EQ(table.active[static_cast<std::size_t>(active)],
+                table.particle_blocks[h] + neighbour_offset(n));
     }
   for (std::size_t b = 0; b < table.active.size(); ++b)
     for (int n = 0; n < 27; ++n)

@@ -24,7 +24,8 @@ class Laid : public lab::Site {
  public:
   Laid() : Laid(0, lab::cohesive(28, 5000)) {}
   /// On ground that rises along x by `slope` [rad].
-  Laid(double slope, const scene::Soil& soil) : Site(rig::Rig::device(), {soil}, 0.1, options(slope)) {
+  Laid(double slope, const scene::Soil& soil)
+      : Site(rig::Rig::device(), {soil}, 0.1, options(slope)) {
     scene::Shell shell = lab::closed_box(0.6, 0.6, kHeight);
     for (Vec3& v : shell.vertices) v.z() -= kHeight / 2;
     const double under = kHeight / 2 + 0.05;
@@ -83,7 +84,8 @@ TEST(RestingContact, AboveItsPreviousLoadTheGroundActivatesAndSupportsAnew) {
 }
 
 TEST(RestingContact, IsLeftByABodyThatIsLiftedOrPushedAside) {
-  for (const Vec3& push : {Vec3(0, 0, 1.5 * kMass * kGravity), Vec3(0.8 * kMass * kGravity, 0, 0)}) {
+  for (const Vec3& push :
+       {Vec3(0, 0, 1.5 * kMass * kGravity), Vec3(0.8 * kMass * kGravity, 0, 0)}) {
     Laid site;
     ASSERT_TRUE(site.come_to_rest());
     const Vec3 before = site.box().motion.X_WT.translation();
@@ -136,7 +138,8 @@ TEST(RestingContact, ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns) {
     site.run(2);
     EXPECT_EQ(site.active(), 0) << degrees;
     // Rows are solved in sixty sweeps: what they leave is far below what would be seen in a day.
-    EXPECT_LT((site.box().motion.X_WT.translation() - before).norm(), 1e-6) << degrees << " deg, [m] in 2 s";
+    EXPECT_LT((site.box().motion.X_WT.translation() - before).norm(), 1e-6)
+        << degrees << " deg, [m] in 2 s";
     EXPECT_NEAR(site.box().impulse.force_W.z() / (kMass * kGravity), 1, 1e-6) << degrees;
     EXPECT_EQ(site.solver().ledger().error(), 0);
   }
@@ -154,7 +157,8 @@ TEST(RestingContact, ABodyOnASlopeBeyondItsFrictionAngleSlidesAndTakesNone) {
 
 TEST(RestingContact, FeetOfABodyOnASlopeAreItsCornersOnTheSlope) {
   const scene::Shell box = lab::closed_box(0.6, 0.6, 0.3);
-  EXPECT_EQ(normal_under(Vec2(0.03, 0), 0.6, 0.1), Vec3::UnitZ()) << "18 mm under the box, feet may differ by 25";
+  EXPECT_EQ(normal_under(Vec2(0.03, 0), 0.6, 0.1), Vec3::UnitZ())
+      << "18 mm under the box, feet may differ by 25";
   for (const double degrees : {5.0, 12.0, 25.0}) {
     const double slope = radians(degrees);
     const Vec3 normal = normal_under(Vec2(std::tan(slope), 0), 0.6, 0.1);

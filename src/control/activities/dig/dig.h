@@ -7,15 +7,17 @@
 
 namespace navvy::control {
 
-/// Dig a straight trench by whole cycles (scoop, swing, dump, return) until floor and length are reached.
+/// Dig a straight trench by whole cycles (scoop, swing, dump, return) until floor and length are
+/// reached.
 ///
-/// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the cycles it was ordered. It is
-/// done when little is left of the design, or all its cycles were made; its account tells what is left and how deep it
-/// came.
+/// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the cycles it
+/// was ordered. It is done when little is left of the design, or all its cycles were made; its
+/// account tells what is left and how deep it came.
 struct Dig final : ProgramStep {
   static constexpr const char* kElement = "dig";
   Vec2 from = Vec2::Zero(),
-       to = Vec2::Zero();         ///< ends of the centre line at the surface [m] in W; far end first or not
+       /// Ends of the centre line at the surface [m] in W; far end first or not.
+      to = Vec2::Zero();
   double depth = 0.8;             ///< below the surface at the start [m]
   double width = 1.05;            ///< one bucket wide by default [m]
   Vec2 dump_at = Vec2::Zero();    ///< where the spoil goes [m] in W
@@ -23,8 +25,8 @@ struct Dig final : ProgramStep {
   double pass_depth = 0.25;       ///< depth of one slice [m]
   std::optional<int> max_cycles;  ///< so many and no more; without, until the trench is done
 
-  /// Elements: <from_m>, <to_m>, <depth_m>, <dump_at_m> and what has a default; all places must lie on the site, the
-  /// depth above rock.
+  /// Elements: <from_m>, <to_m>, <depth_m>, <dump_at_m> and what has a default; all places must lie
+  /// on the site, the depth above rock.
   static Dig read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
