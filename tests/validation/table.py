@@ -15,7 +15,7 @@ A table stands in the page between two marks; the first names the cases it holds
   <!-- generated: end -->
 
 Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in the logs; a log without
-`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/gates,
+`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/tolerances,
 | figure | measured | expected | gate | result | source |, and those of tests/values.h,
 [ VALUE    ] figure: measured M, expected E (source).
 """
