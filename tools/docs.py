@@ -236,7 +236,7 @@ def doxygen():
     os.makedirs(folder)
     settings = read("docs/site/Doxyfile") + "\n".join([
         "INPUT = src", "RECURSIVE = YES", "FILE_PATTERNS = *.h", "OUTPUT_DIRECTORY = " + folder,
-        "INPUT_FILTER = \"sed -E '/^ *\\/\\/\\//s/<([\\/A-Za-z])/\\&lt;\\1/g'\""]) + "\n"
+        "INPUT_FILTER = \"sed -E '/^ *\\/\\/\\//s/<([\\/A-Za-z])/\\&lt;\\1/g; s/@throws/Throws/g'\""]) + "\n"
     path = os.path.join(folder, "Doxyfile")
     with open(path, "w", encoding="utf-8") as file:
         file.write(settings)
