@@ -120,6 +120,17 @@ def wrong_links(all_pages):
     return wrong
 
 
+def long_entries(changelog):
+    """Entries of the changelog that are not one line of at most 160 characters."""
+    wrong = []
+    for number, line in enumerate(changelog.split("\n"), 1):
+        if line.startswith("- ") and len(line) > 162:
+            wrong.append("CHANGELOG.md:%d: an entry has at most 160 characters, not %d" % (number, len(line) - 2))
+        elif line.startswith("  "):
+            wrong.append("CHANGELOG.md:%d: an entry is one line" % number)
+    return wrong
+
+
 def csv_table(path):
     """Markdown of a CSV file."""
     with open(path, newline="", encoding="utf-8") as file:
@@ -377,7 +388,7 @@ def main(arguments=None):
     all_pages = pages()
     good = csv_tables(all_pages, bool(arguments))
     good &= "--pages" in arguments or generated("--check" in arguments)
-    wrong = wrong_links(all_pages)
+    wrong = wrong_links(all_pages) + long_entries(read("CHANGELOG.md"))
     for line in wrong:
         print(line, file=sys.stderr)
     if wrong or not good:
