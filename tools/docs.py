@@ -42,8 +42,9 @@ NAVIGATION = [
     ("Theory", ["docs/soil.md", "docs/tools.md", "docs/exchange.md", "docs/machines.md", "docs/bibliography.md"]),
     ("Validation", ["docs/validation_summary.md", "docs/validation.md", "bench/README.md"]),
     ("Development", ["CONTRIBUTING.md", "src/README.md", "kernels/README.md", "tests/README.md", "CHANGELOG.md",
-                     "vehicles/*/SOURCE.md", "*.md", "*/*.md", "*/*/*.md"]),
+                     "tests/tolerances/known_deviations.md"]),
     ("C++ library", ["docs/api/*"]),
+    ("Sources of data", ["vehicles/*/SOURCE.md", "*.md", "*/*.md", "*/*/*.md", "*/*/*/*.md"]),
 ]
 LINK = re.compile(r"(!?)\[((?:[^\[\]`]|`[^`]*`|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 BEGIN = re.compile(r"^<!-- generated: begin; csv: (\S+) -->$")
@@ -56,7 +57,10 @@ LITERATURE = re.compile(r"\[((?:[A-Z][\w'-]+|ISO) \d{4,5})((?:[,:;][^\[\]]*)?)\]
 def pages():
     """All pages of the repository, relative to its root."""
     command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]
-    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
+    if not any(listed):  # no clone: an archive of the sources
+        listed = [os.path.relpath(os.path.join(folder, name), ROOT) for folder, _, names in os.walk(ROOT)
+                  for name in names if name.endswith(".md") and "/build" not in folder]
     return sorted(path for path in set(listed) if path and os.path.exists(os.path.join(ROOT, path)))
 
 
@@ -240,6 +244,17 @@ def run(*command, **more):
     return done.stdout + done.stderr
 
 
+def sphinx_python():
+    """The Python that has Sphinx: this one, or Debian's where another one comes first on the path."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        done = subprocess.run([python, "-c", "import sphinx, myst_parser, breathe, sphinx_rtd_theme"],
+                              capture_output=True, check=False)
+        if done.returncode == 0:
+            return python
+    sys.exit("docs.py: Sphinx is missing: apt-get install python3-sphinx python3-myst-parser python3-breathe "
+             "python3-sphinx-rtd-theme doxygen")
+
+
 def doxygen():
     """XML of the headers. Comments name elements of scene files, which are no tags of Doxygen's."""
     folder = os.path.join(BUILD, "doxygen")
@@ -336,7 +351,7 @@ def build_site(all_pages):
     version = re.search(r"project\(navvy VERSION ([\d.]+)", read("CMakeLists.txt"))
     environment = dict(os.environ, NAVVY_DOCS_XML=folder, NAVVY_DOCS_VERSION=version[1] if version else "")
     shutil.rmtree(site, ignore_errors=True)
-    run(sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", os.path.join(BUILD, "doctrees"),
+    run(sphinx_python(), "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", os.path.join(BUILD, "doctrees"),
         source, site, env=environment)
     write(os.path.join(site, "index.html"),
           '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/README.html">'
