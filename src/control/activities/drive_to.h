@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 #include "control/pursuit.h"
 
 namespace navvy::control {
@@ -9,7 +9,7 @@ namespace navvy::control {
 /// Drive (rear-wheel drive, Ackermann steering) until the machine's origin is at `target`, facing
 /// `heading`; then brake and stand for half a second. Gives up after 30 s and three times the way's
 /// own time.
-struct DriveTo final : ProgramStep, DriveGoal {
+struct DriveTo final : ActivityStep, DriveGoal {
   /// Name in scene files.
   static constexpr const char* kElement = "drive_to";
   double tolerance = 0.15;  ///< of the origin from the target at the end; more is a warning [m]

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Open the bucket where it is, then curl back.
-struct Dump final : ProgramStep {
+struct Dump final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "dump";
   explicit Dump(double hold_in = 1.0) : hold(hold_in) {}

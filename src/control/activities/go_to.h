@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
@@ -13,7 +13,7 @@ namespace navvy::control {
 /// is left of the path is no longer traversable, when the machine is off it, and when it ends
 /// beside the goal. Where there is none the machine stands for `retry` and tries again, `tries`
 /// times in all; then the program ends with the state no_path.
-struct GoTo final : ProgramStep {
+struct GoTo final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "go_to";
   Vec2 target = Vec2::Zero();          ///< of the base link's origin, [m] in W

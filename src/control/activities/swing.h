@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Turn the upper structure to this angle of the swing joint, the bucket held.
-struct Swing final : ProgramStep {
+struct Swing final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "swing";
   explicit Swing(double angle_in = 0) : angle(angle_in) {}

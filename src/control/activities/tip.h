@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Tip the bed to an angle of its joint, at the pace its cylinder allows, and keep it there for a
 /// while. It stays until the next tip, also while the machine drives.
-struct Tip final : ProgramStep {
+struct Tip final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "tip";
   explicit Tip(double angle_in = 0, double hold_in = 0) : angle(angle_in), hold(hold_in) {}

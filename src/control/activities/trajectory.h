@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Open-loop joint positions over time, linear between knots; times count from the start of this
 /// step.
-struct Trajectory final : ProgramStep {
+struct Trajectory final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
   std::vector<std::string> joints;

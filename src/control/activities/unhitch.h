@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Let go of what hangs on the machine, or of what it hangs on.
-struct Unhitch final : ProgramStep {
+struct Unhitch final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "unhitch";
   explicit Unhitch(std::string hitch_in = "") : hitch(std::move(hitch_in)) {}

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Stay as it is for a while.
-struct Wait final : ProgramStep {
+struct Wait final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "wait";
   explicit Wait(double duration_in = 1) : duration(duration_in) {}

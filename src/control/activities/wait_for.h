@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
 /// Wait until another machine of the world has done some or all steps of its program. What cannot
 /// come any more, or not within `longest`, ends the program.
-struct WaitFor final : ProgramStep {
+struct WaitFor final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "wait_for";
   explicit WaitFor(std::string machine_in = "", int steps_in = 0, double longest_in = 3600)

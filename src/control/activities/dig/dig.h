@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
@@ -13,7 +13,7 @@ namespace navvy::control {
 /// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the cycles it
 /// was ordered. It is done when little is left of the design, or all its cycles were made; its
 /// account tells what is left and how deep it came.
-struct Dig final : ProgramStep {
+struct Dig final : ActivityStep {
   static constexpr const char* kElement = "dig";
   Vec2 from = Vec2::Zero(),
        /// Ends of the centre line at the surface [m] in W; far end first or not.

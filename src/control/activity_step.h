@@ -29,7 +29,7 @@ struct DumpPoint {
 ///
 /// A kind of step is a class derived from this one in `activities/`, with `kElement` and a static
 /// `read` beside it (scene::step_kind), and one row of `step_kinds()`. Nobody else knows it.
-class ProgramStep : public scene::Step {
+class ActivityStep : public scene::Step {
  public:
   // For the operator, before and while the step runs.
   /// Whether its machine must have an arm (swing, boom, stick, bucket). The operator of a program
@@ -65,6 +65,6 @@ class ProgramStep : public scene::Step {
 
 /// The operator's view of a step. @throws InputError for a description that did not come from this
 /// module.
-const ProgramStep& step_of(const scene::ProgramStep& step);
+const ActivityStep& step_of(const scene::ProgramStep& step);
 
 }  // namespace navvy::control
