@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program step as the operator knows it: what a scene may say, and what carries it out.
+// A program step as the operator knows it: the values a scene may set, and the activity that
+// carries it out.
 #pragma once
 
 #include <memory>
@@ -14,57 +15,56 @@
 
 namespace navvy::control {
 
-// Only those who write steps need these.
+// Needed only by code that implements steps.
 class Activity;
 class ReachCheck;
 struct OperatorContext;
 
 /// Where a step opens the bucket.
 struct DumpPoint {
-  Vec2 at = Vec2::Zero();  ///< [m] in W
-  double height = 0;       ///< of the tip over the ground there [m]
+  /// Position [m] in W.
+  Vec2 at = Vec2::Zero();
+  /// Height of the tip over the ground there [m].
+  double height = 0;
 };
 
-/// The description of one step: its values, and everything that is known of it before it runs.
+/// Description of one step: its values, and everything known about it before it runs.
 ///
 /// A kind of step is a class derived from this one in `activities/`, with `kElement` and a static
-/// `read` beside it (scene::step_kind), and one row of `step_kinds()`. Nobody else knows it.
+/// `read` (scene::step_kind), and one row of `step_kinds()`. No other code knows it.
 class ActivityStep : public scene::Step {
  public:
-  // For the operator, before and while the step runs.
-  /// Whether its machine must have an arm (swing, boom, stick, bucket). The operator of a program
-  /// with such a step holds the arm in all its steps.
+  /// Returns true when the machine must have an arm (swing, boom, stick, bucket). The operator of a
+  /// program with such a step holds the arm during all its steps.
   virtual bool needs_arm() const { return false; }
-  /// @throws InputError when the machine lacks what the step needs; programs built in C++ have met
-  /// no reader.
+  /// Checks the machine; programs built in C++ have passed no reader. @throws InputError when the
+  /// machine lacks what the step needs.
   virtual void check_machine(const scene::Machine&) const {}
-  /// Whether it asks for paths; the operator then brings a planner.
+  /// Returns true when the step asks for paths; the operator then provides a planner.
   virtual bool needs_planner() const { return false; }
-  /// What to plan before the program begins, for a machine that will stand at `from` when the
-  /// step's turn comes.
+  /// Returns the path to plan before the program begins, for a machine that will stand at `from`
+  /// when the step starts.
   virtual std::optional<PathQuery> path_ahead(const PlanePose& /*from*/) const {
     return std::nullopt;
   }
-  /// A new activity that carries the step out. Step and workplace must outlive it.
+  /// Returns a new activity that carries the step out. Step and context must outlive it.
   virtual std::unique_ptr<Activity> activity(OperatorContext& place) const = 0;
 
-  // For checks of a scene that does not run yet.
   /// Reports every target of the step that cannot be reached from where the machine will then
   /// stand.
   virtual void check_reach(ReachCheck&) const {}
-  /// Pose of the base link after a step that moves the machine, as far as it can be foretold from
-  /// its pose before.
+  /// Predicts the pose of the base link after a step that moves the machine, from its pose before.
   virtual std::optional<Pose> station(const scene::Machine&, const Pose& /*X_WB*/,
                                       const SurfaceView&) const {
     return std::nullopt;
   }
-  /// Where the step empties the bucket, if that is said beforehand. Its element has a child
-  /// <dump_height_m> then.
+  /// Returns where the step empties the bucket, if the scene states it. Its element then has a
+  /// child <dump_height_m>.
   virtual std::optional<DumpPoint> dump_point() const { return std::nullopt; }
 };
 
-/// The operator's view of a step. @throws InputError for a description that did not come from this
-/// module.
+/// Returns the operator's view of a step. @throws InputError for a description that this module did
+/// not make.
 const ActivityStep& step_of(const scene::ProgramStep& step);
 
 }  // namespace navvy::control

@@ -50,7 +50,7 @@ struct StepReport {
   /// Number in the program, 1-based.
   std::int64_t step = 0;
   /// Element in scene files: "drive_to".
-  std::string element;    ///< as scene files call it: "drive_to"
+  std::string element;  ///< as scene files call it: "drive_to"
   StepState state = StepState::kRunning;
   /// A sentence; empty when the step is done and there is nothing to say.
   std::string reason;
