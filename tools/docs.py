@@ -39,7 +39,7 @@ NAVIGATION = [
     ("How-to", ["docs/howto/*.md"]),
     ("Reference", ["docs/reference/scene.md", "docs/reference/*.md", "scenarios/README.md", "terrain/README.md",
                    "src/planner/README.md", "src/map/README.md"]),
-    ("Theory", ["docs/soil.md", "docs/tools.md", "docs/exchange.md", "docs/machines.md", "docs/bibliography.md"]),
+    ("Theory", ["docs/theory.md", "docs/soil.md", "docs/tools.md", "docs/exchange.md", "docs/machines.md", "docs/bibliography.md"]),
     ("Validation", ["docs/validation_summary.md", "docs/validation.md", "bench/README.md"]),
     ("Development", ["CONTRIBUTING.md", "src/README.md", "kernels/README.md", "tests/README.md", "CHANGELOG.md",
                      "tests/tolerances/known_deviations.md"]),
