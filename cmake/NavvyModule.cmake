@@ -88,6 +88,12 @@ function(navvy_module name)
   set_property(GLOBAL APPEND PROPERTY NAVVY_MODULES navvy_${name})
 endfunction()
 
+# navvy_define(DEFINITION files...): defines it for these files of the folder only. Every other object stays the same
+# whatever the build includes, so the compiler cache serves one preset with the objects of another.
+function(navvy_define definition)
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS ${definition})
+endfunction()
+
 # Where a test or bench finds its tree (tests/paths.h); made once, by whoever comes first.
 function(navvy_paths)
   if(NOT TARGET navvy_paths)
