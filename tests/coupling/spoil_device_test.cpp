@@ -112,7 +112,7 @@ void run(
   }
 }
 
-std::string kind(bool active) { return active ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "active" : "columns"; }
 
 /// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
 /// [m].
@@ -137,7 +137,7 @@ TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
                 active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
