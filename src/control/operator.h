@@ -53,8 +53,6 @@ class Operator {
   /// The report of the running step as it would end now at `time` [s]; of the last one over when none runs, of no step
   /// (number 0) before the first.
   StepReport present(const Observation& seen, double time) const;
-  /// Digging cycles so far.
-  int cycles() const;
   /// Steps of the program that are done, and how many it has.
   ProgramProgress progress() const;
   /// The event of the last update.

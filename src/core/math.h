@@ -16,7 +16,6 @@ namespace navvy {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Vec2i = Eigen::Vector2i;
-using Vec3i = Eigen::Vector3i;
 using Mat3 = Eigen::Matrix3d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;

@@ -30,10 +30,6 @@ class Random {
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   /// In [low, high), up to rounding: a range of few doubles may answer `high`.
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// For snapshots that hold the word themselves. A class with a `visit` needs neither of the two.
-  std::uint64_t state() const { return state_; }
-  /// Goes on as the generator did from which `state` was taken.
-  void set_state(std::uint64_t state) { state_ = state; }
   /// The one word is all there is to save.
   void visit(Archive& a) { a("state", state_); }
 

@@ -78,13 +78,6 @@ void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   device.compiling.reset();
 }
 
-void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes) {
-  if (bytes == 0) return;
-  const Device::State& device = *memory_->device;
-  check(clEnqueueCopyBuffer(device.queue, other.memory_->memory, memory_->memory, from, to, bytes, 0, nullptr, nullptr),
-        "clEnqueueCopyBuffer", device);
-}
-
 void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes) {
   if (bytes == 0) return;
   const Device::State& device = *memory_->device;
@@ -107,10 +100,7 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   Device::State& device = *memory_->device;
-  cl_map_flags flags = CL_MAP_READ;
-  // What the region held is lost with this flag, which spares a copy to the host where memory is not shared.
-  if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
-  if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
+  const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
   void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
                                 nullptr, nullptr, &code);

@@ -30,14 +30,11 @@ class RawBuffer {
   void write(const void* data, std::size_t offset, std::size_t bytes, bool wait = true);
   /// Copies to the host and waits for everything queued before.
   void read(void* data, std::size_t offset, std::size_t bytes) const;
-  /// Queues a copy between two buffers of one device. The ranges must not overlap where both are one buffer.
-  void copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes);
   /// Queues repeating a pattern over the range; both sizes in bytes, the range a multiple of the pattern. A pattern
   /// that is not a power of two or longer than 128 bytes is repeated by the host, which waits.
   void fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes);
-  /// What the caller will do with mapped memory. kOverwrite promises that every byte is written: what was there is
-  /// undefined meanwhile.
-  enum class Access { kRead, kOverwrite, kUpdate };
+  /// What the caller does with mapped memory: kRead reads it, kUpdate reads and writes it.
+  enum class Access { kRead, kUpdate };
   /// The range as host memory. Without `wait` the pointer is valid but its values are there only once a later call has
   /// waited.
   void* map(Access access, std::size_t offset, std::size_t bytes, bool wait = true) const;
@@ -85,7 +82,7 @@ class Mapped {
 /// `size()` values of T on one device, zero-copy when the device shares the host's memory.
 ///
 /// New memory is not initialised. An empty buffer is allowed and can be a kernel's argument. Moving is cheap, copying
-/// is not offered. `write`, `read` and maps wait for what was queued before; `fill`, `copy_from`, `resize` and
+/// is not offered. `write`, `read` and maps wait for what was queued before; `fill`, `resize` and
 /// what is called `..._later` do not wait.
 template <class T>
 class Buffer {
@@ -142,13 +139,6 @@ class Buffer {
     need(at, count);
     raw_.fill(&value, sizeof(T), at * sizeof(T), count * sizeof(T));
   }
-  /// Queues a copy of `count` values of another buffer of the same device. The ranges are in values. @throws
-  /// DeviceError when one of them is outside.
-  void copy_from(const Buffer& other, std::size_t count, std::size_t from = 0, std::size_t to = 0) {
-    other.need(from, count);
-    need(to, count);
-    raw_.copy_from(other.raw_, from * sizeof(T), to * sizeof(T), count * sizeof(T));
-  }
 
   /// The values, to read. The range is `count` values from `at` on, by default all that follow. Waits for what was
   /// queued before. @throws DeviceError when the range is outside; so do the maps below.
@@ -158,10 +148,6 @@ class Buffer {
   /// The same without waiting: the values are there once a later call has waited.
   Mapped<const T> map_read_later(std::size_t at = 0, std::size_t count = npos) const {
     return mapped<const T>(RawBuffer::Access::kRead, at, count, false);
-  }
-  /// The values, every one of which the caller will write; what they were is lost.
-  Mapped<T> map_write(std::size_t at = 0, std::size_t count = npos) {
-    return mapped<T>(RawBuffer::Access::kOverwrite, at, count);
   }
   /// The values, to read and change. Costs a copy both ways where memory is not shared.
   Mapped<T> map_update(std::size_t at = 0, std::size_t count = npos) {

@@ -263,7 +263,6 @@ Device& Device::operator=(Device&&) noexcept = default;
 const DeviceInfo& Device::info() const { return state_->info; }
 std::uint64_t Device::memory_used() const { return state_->memory_used; }
 void Device::finish() { state_->finish(); }
-void Device::flush() { check(clFlush(state_->queue), "clFlush", *state_); }
 
 void Device::set_profile(bool on) {
   if (on == state_->profiling) return;

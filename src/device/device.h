@@ -69,9 +69,6 @@ class Device {
 
   /// Waits until everything queued is done. @throws DeviceError when something queued failed.
   void finish();
-  /// Hands queued work to the device without waiting. For a host that has other work to do before it waits; a driver
-  /// may otherwise hold back launches until somebody does.
-  void flush();
 
   /// Switches the per-kernel profile; off at start. Waits for the queue. Profiling slows a run down a little, so it is
   /// never on by itself.

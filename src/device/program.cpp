@@ -107,16 +107,6 @@ std::shared_ptr<Program::State> build(Device& device, const std::string& name, c
 
 std::string define(const std::string& name, int value) { return "-D" + name + "=" + std::to_string(value); }
 
-std::string define(const std::string& name, float value) {
-  // Hexadecimal keeps every bit; brackets keep a sign apart from what stands before it.
-  char text[64];
-  std::snprintf(text, sizeof text, "=(%af)", static_cast<double>(value));
-  return "-D" + name + text;
-}
-
-// Text goes in as it is, so it must hold no blanks: flags are joined by them.
-std::string define(const std::string& name, const std::string& value) { return "-D" + name + "=" + value; }
-
 std::vector<std::string> compiler_flags(const DeviceInfo& device) {
   std::vector<std::string> flags;
   // The common denominator of PoCL and the GPU vendors, and what the kernels are written in.
@@ -153,16 +143,6 @@ Kernel::Kernel(const Program& program, const std::string& name) : state_(std::ma
                                  state_->group, nullptr),
         "clGetKernelWorkGroupInfo", device, name);
   for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);  // 0: it asks for none
-}
-
-const std::string& Kernel::name() const { return state_->name; }
-
-std::size_t Kernel::max_work_group() const {
-  const Device::State& device = *state_->program->device;
-  std::size_t size = 0;
-  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_WORK_GROUP_SIZE, sizeof size, &size, nullptr),
-        "clGetKernelWorkGroupInfo", device, state_->name);
-  return size;
 }
 
 void Kernel::expect(std::size_t count) const {

@@ -18,8 +18,6 @@ namespace navvy::device {
 /// when it is compiled let the driver unroll loops and drop branches; each other value makes another program, compiled
 /// and kept on its own, so give only what takes few values in a run.
 std::string define(const std::string& name, int value);
-std::string define(const std::string& name, float value);
-std::string define(const std::string& name, const std::string& value);
 
 /// The flags every program is built with on this device; the reason of each is in program.cpp. They are the same for
 /// every program, so that two kernels cannot round one formula in two ways.
@@ -99,12 +97,6 @@ class Kernel {
   /// Queues `groups` work-groups of the size the kernel was written for (reqd_work_group_size; without it, one
   /// work-item).
   void enqueue_groups(std::size_t groups);
-
-  /// As in the file, without the name of its program.
-  const std::string& name() const;
-  /// Largest work-group this kernel can have on its device. It depends on the registers and the local memory that the
-  /// kernel uses; ask it before choosing `local`.
-  std::size_t max_work_group() const;
 
  private:
   // Refuses a wrong number of arguments before the driver would report it, at the launch, without saying which.

@@ -77,13 +77,6 @@ std::string kernel_source(const std::string& path) {
   throw DeviceError("no kernel file '" + path + "' was embedded by the build (it looks in kernels/)");
 }
 
-std::vector<std::string> kernel_paths() {
-  std::vector<std::string> paths;
-  for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) paths.emplace_back(file->path);
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
 std::string expand_includes(const std::string& path, const std::string& text) {
   std::set<std::string> seen;
   std::string out;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "device/error.h"
 
@@ -13,9 +12,6 @@ namespace navvy::device {
 /// the environment variable NAVVY_KERNEL_DIR when it is set (edit and run), else what the build embedded.
 /// @throws DeviceError when there is no such file.
 std::string kernel_source(const std::string& path);
-
-/// Paths of all embedded files in alphabetical order. Headers that kernels include are among them.
-std::vector<std::string> kernel_paths();
 
 /// `text` of file `path` with every `#include "..."` (relative to kernels/) replaced by that file, each file once, and
 /// `#line` so that a build log names our files. `#include <...>` is left alone (shared headers hide it from OpenCL).

@@ -94,10 +94,6 @@ struct Slabs {
 
 }  // namespace
 
-std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners) {
-  return meet(origin, Shear(direction), corners);
-}
-
 RayTree::RayTree(const TriangleMesh& mesh, const std::string& name) {
   require_valid(mesh, name);
   std::vector<Vec3> centres;

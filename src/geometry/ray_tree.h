@@ -52,8 +52,4 @@ class RayTree {
   std::vector<Node> nodes_;
 };
 
-/// A ray against one triangle: the distance, none when it passes by or runs in the triangle's plane. `direction` is
-/// unit. This is what `RayTree` asks of every triangle that its boxes leave.
-std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners);
-
 }  // namespace navvy::geometry

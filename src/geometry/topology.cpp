@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace navvy::geometry {
@@ -54,25 +53,6 @@ std::map<std::pair<int, int>, Runs> runs_of(const TriangleMesh& mesh) {
 }
 
 }  // namespace
-
-MeshReport inspect(const TriangleMesh& mesh) {
-  require_valid(mesh, "mesh");
-  MeshReport report;
-  for (const auto& [edge, runs] : runs_of(mesh)) {
-    if (edge.first == edge.second) continue;  // a corner named twice; told as a flat triangle
-    report.free_edges += runs.up + runs.down == 1;
-    report.crowded_edges += runs.up + runs.down > 2;
-    // Fronts agree where one triangle goes up the edge and the other down.
-    report.clashing_edges += runs.up > 1 || runs.down > 1;
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.flat_triangles += !(mesh.area_vector(t).norm() > 0);
-  Pieces pieces = pieces_of(mesh);
-  // Roots of triangles only: a loose vertex is a root of its own.
-  std::set<std::size_t> roots;
-  for (const auto& t : mesh.triangles) roots.insert(pieces.find(t[0]));
-  report.pieces = static_cast<int>(roots.size());
-  return report;
-}
 
 std::optional<WindingClash> find_winding_clash(const TriangleMesh& mesh) {
   // A directed edge belongs to one triangle of a consistently wound surface.

@@ -8,24 +8,6 @@
 
 namespace navvy::geometry {
 
-/// What `inspect` counts. Edges join two vertex indices; weld a mesh first if its faces do not share vertices.
-struct MeshReport {
-  int free_edges = 0;      ///< used by one triangle: the rim of an open surface
-  int crowded_edges = 0;   ///< used by more than two triangles: no surface divides space there
-  int clashing_edges = 0;  ///< run through in one direction by two triangles: their fronts lie on different sides
-  int flat_triangles = 0;  ///< of no area, or with a corner named twice
-  int pieces = 0;          ///< parts that share no vertex; vertices without a triangle do not count
-
-  /// Every edge has a triangle on either side.
-  bool closed() const { return free_edges == 0 && crowded_edges == 0; }
-  /// One front all over every piece.
-  bool oriented() const { return clashing_edges == 0; }
-};
-
-/// Counts faults of a mesh; a mesh without triangles has none. Time and memory follow n log n of the triangles.
-/// @throws InputError as `require_valid` does.
-MeshReport inspect(const TriangleMesh& mesh);
-
 /// Two triangles that run along a shared edge in the same direction: their fronts disagree, or more than two meet.
 struct WindingClash {
   std::size_t first = 0, second = 0;  ///< `second` is the first triangle of the list that clashes with an earlier one

@@ -22,7 +22,7 @@ struct MeshMaterial {
 ///
 /// A triangle's front is the side from which its corners run counter-clockwise; its normal points there. The front of
 /// a closed body is its outside. Nothing is promised beyond that: a mesh read from a file may be open, folded or
-/// empty, and whoever needs more asks `require_valid` here and `inspect` in geometry/topology.h.
+/// empty, and whoever needs more asks `require_valid` here and `is_solid` in geometry/topology.h.
 struct TriangleMesh {
   std::vector<Vec3> vertices;                 ///< [m]
   std::vector<std::array<int, 3>> triangles;  ///< three indices into `vertices` each

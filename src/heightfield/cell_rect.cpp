@@ -25,8 +25,6 @@ CellRect CellRect::cut(const CellRect& other) const {
   return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1), std::min(y1, other.y1)};
 }
 
-void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
-
 // An empty rectangle has no place, so it neither adds nor pulls.
 void CellRect::include(const CellRect& other) {
   if (other.empty()) return;

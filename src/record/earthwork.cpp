@@ -21,10 +21,6 @@ void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vect
 
 }  // namespace
 
-Earthwork measure_earthwork(const sim::World& world) {
-  return measure_earthwork(world, sim::awake_places(world).lying);
-}
-
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;

@@ -9,6 +9,7 @@
 #include "record/summary.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
+#include "sim/terrain_view.h"
 #include "values.h"
 
 namespace navvy::session {
@@ -49,7 +50,7 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {
       awake[i] = std::max(awake[i], kilograms(ledger.particles[i]));
     }
   }
-  const record::Earthwork earth = record::measure_earthwork(world);
+  const record::Earthwork earth = record::measure_earthwork(world, sim::awake_places(world).lying);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = world.description().soils.at(i).name;
     const double kept = earth.soils.at(i).spoil / earth.soils[i].dug;
