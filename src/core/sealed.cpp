@@ -16,9 +16,9 @@ namespace navvy {
 namespace {
 
 constexpr char kMagic[16] = "navvy state 1\n\n";
-/// Of the magic, what all versions share.
+/// Length of the part of the magic that all versions share.
 constexpr std::size_t kName = 11;
-/// Of the file: magic, length of all, checksum of the two.
+/// Size of the file's head [bytes]: magic, length of the file, checksum of both.
 constexpr std::size_t kHead = sizeof kMagic + 2 * sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::string& where, const std::string& rule) {
@@ -37,6 +37,7 @@ std::uint64_t number_at(const char* at) {
   return out;
 }
 
+/// Returns the hash of a section's bytes and its index, so that exchanged sections are found.
 std::uint64_t checksum(std::uint64_t place, const char* data, std::size_t size) {
   StateHash sum;
   sum.value(place);
@@ -44,14 +45,15 @@ std::uint64_t checksum(std::uint64_t place, const char* data, std::size_t size) 
   return sum.digest();
 }
 
-/// Length of the section that begins at `at`, with its head; 0 when there is none that fits into `size`.
+/// Returns the length of the section that begins at `at`, with its head, or 0 if no section fits
+/// into `size`.
 std::size_t section_size(const char* at, std::size_t size) {
   if (size < kSectionHead) return 0;
   const std::uint64_t body = number_at(at + kSectionHead - sizeof(std::uint64_t));
   return body <= size - kSectionHead ? kSectionHead + static_cast<std::size_t>(body) : 0;
 }
 
-/// "section 2, 'ground'": its place and, as far as that can be read, the name that its head begins with.
+/// Returns "section 2, 'ground'": the index of a section and its name, as far as it is readable.
 std::string name_of(std::uint64_t place, const char* at, std::size_t size) {
   // A head is {name, version, length}.
   const std::size_t most = std::min(size, kSectionHead - sizeof(std::uint32_t) - sizeof(std::uint64_t));
@@ -73,6 +75,7 @@ std::vector<char> seal(const std::vector<char>& state) {
     at += size;
   }
   const std::uint64_t length = out.size();
+  // The head is written last, when the length is known.
   std::memcpy(out.data(), kMagic, sizeof kMagic);
   std::memcpy(out.data() + sizeof kMagic, &length, sizeof length);
   const std::uint64_t sum = checksum(0, out.data(), sizeof kMagic + sizeof length);
@@ -105,7 +108,7 @@ std::vector<char> unseal(const std::vector<char>& content) {
 }
 
 bool is_sealed(const std::string& path) {
-  // Opening a pipe would wait for a writer.
+  // Opening a pipe would block.
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) return false;
   char head[kName] = {};
