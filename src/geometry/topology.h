@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the triangles of a mesh hang together: free edges, folds that disagree, bodies that enclose space.
+// Topology of meshes: consistent winding and closed bodies.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,21 @@
 
 namespace navvy::geometry {
 
-/// Two triangles that run along a shared edge in the same direction: their fronts disagree, or more than two meet.
+/// Two triangles that traverse a shared edge in the same direction: their fronts disagree, or more
+/// than two triangles meet.
 struct WindingClash {
-  std::size_t first = 0, second = 0;  ///< `second` is the first triangle of the list that clashes with an earlier one
+  /// Indices of the triangles; `second` is the first triangle in the list that clashes with an
+  /// earlier one.
+  std::size_t first = 0, second = 0;
 };
-/// The first clash in the order of the triangles; none for a consistently wound mesh. Indices must be valid.
+/// Returns the first clash in the order of the triangles, or nothing for a consistently wound mesh.
+/// Indices must be valid.
 std::optional<WindingClash> find_winding_clash(const TriangleMesh& mesh);
 
-/// Whether the triangles enclose space piece by piece, each piece turned outwards: every edge is run through as often
-/// one way as the other and every connected piece has a positive volume. Vertices at one place count as one. Pieces may
-/// touch or overlap (a body of several boxes). Such a body's back is never seen. Indices must be valid.
+/// Returns true if each connected piece of the mesh encloses space and faces outwards: every edge
+/// is traversed equally often in both directions, and every piece has a positive volume. Vertices
+/// at one place count as one. Pieces may touch or overlap, as in a body of several boxes. The back
+/// of such a body is never visible. Indices must be valid.
 bool is_solid(const TriangleMesh& mesh);
 
 }  // namespace navvy::geometry
