@@ -80,7 +80,7 @@ struct ArchiveParts {
   /// otherwise.
   static std::uint64_t count(Archive& a, std::uint64_t present) {
     a.scalar(&present, sizeof present);
-    if (a.loading_ && present > a.left()) a.fail("a length is beyond the end of the section");
+    if (a.loading_ && present > a.left()) a.fail("a length exceeds the rest of the section");
     return present;
   }
 
@@ -129,7 +129,7 @@ struct ArchiveParts {
       for (int r = 0; r < 3; ++r) a.scalar(&X.matrix()(r, c), sizeof(double));
     if (!a.loading_) return;
     X.makeAffine();
-    if (!is_rigid(X)) a.fail("is no finite place of a rigid body");
+    if (!is_rigid(X)) a.fail("must be a finite rigid pose");
   }
 
   /// Visits text as bytes; no encoding is assumed.
@@ -151,7 +151,7 @@ struct ArchiveParts {
     // An element may take eight bytes where `count` assumes one, so the bound is checked again; by
     // division, as a product could overflow.
     if constexpr (kPlain<T>) {
-      if (n > a.left() / sizeof(T)) a.fail("a length is beyond the end of the section");
+      if (n > a.left() / sizeof(T)) a.fail("a length exceeds the rest of the section");
       v.resize(n);
       elements(a, v);
     } else {
@@ -219,7 +219,7 @@ struct ArchiveParts {
     // Checked before use: an invalid index from a damaged file would select nothing and load bytes
     // into the old alternative.
     a.scalar(&index, sizeof index);
-    if (a.loading_ && index >= sizeof...(T)) a.fail("names an alternative that does not exist");
+    if (a.loading_ && index >= sizeof...(T)) a.fail("must be the index of an alternative");
     if (a.loading_) emplace(v, index, std::index_sequence_for<T...>());
     std::visit([&a](auto& held) { part(a, held); }, v);
   }
@@ -279,7 +279,7 @@ struct ArchiveParts {
       const Archive::Scope scope(a, i);
       K key{};
       part(a, key);
-      if (last && !v.key_comp()(*last, key)) a.fail("keys must ascend");
+      if (last && !v.key_comp()(*last, key)) a.fail("keys must be in ascending order");
       last = key;
       add(std::move(key));
     }
@@ -308,7 +308,7 @@ void Archive::fixed(const char* name, std::vector<T>& field) {
   const Scope scope(*this, name);
   // The length is hashed like any other. It differs from `count`'s result only when loading, since
   // other archives return what they are given.
-  if (ArchiveParts::count(*this, field.size()) != field.size()) fail("has another length than in the scene");
+  if (ArchiveParts::count(*this, field.size()) != field.size()) fail("must have the same length as in the scene");
   ArchiveParts::elements(*this, field);
 }
 

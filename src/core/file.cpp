@@ -45,7 +45,7 @@ void require_replaceable(const std::string& path) {
   }
   if (!S_ISREG(found.st_mode))
     throw FileError("cannot write '" + path + "': it is " + kind_of(found) +
-                    ", and only a plain file is replaced (name a file)");
+                    ", and only a plain file can be replaced (name a file)");
 }
 
 /// Reports why the partial file of `path` could not be created; a missing folder is the most
@@ -54,7 +54,7 @@ void require_replaceable(const std::string& path) {
   const fs::path folder = fs::path(followed(path)).parent_path();
   std::error_code ignored;
   if (code == ENOENT && !folder.empty() && !fs::exists(folder, ignored))
-    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() + "' (make it: mkdir -p '" +
+    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() + "' (create it: mkdir -p '" +
                     folder.string() + "')");
   fail("create", partial_name(path), code);
 }

@@ -17,6 +17,7 @@ namespace navvy {
 /// does not affect the others.
 class Random {
  public:
+  /// Seeds the generator.
   explicit Random(std::uint64_t seed = 0) : state_(seed) {}
   /// Returns 64 random bits. The constants are those of the paper and must never change: recorded
   /// runs depend on them.

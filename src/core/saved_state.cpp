@@ -97,7 +97,7 @@ class LoadArchive final : public Archive {
  public:
   explicit LoadArchive(std::vector<char> bytes) : Archive(true), bytes_(std::move(bytes)) {}
   void finish() const {
-    if (left() > 0) fail("the state holds more than this version reads");
+    if (left() > 0) fail("the state is longer than this version reads");
   }
 
  private:
@@ -124,12 +124,12 @@ class LoadArchive final : public Archive {
     std::uint64_t size = 0;
     scalar(&size, sizeof size);
     // `left` counts within the enclosing section, so no section extends beyond it.
-    if (size > left()) fail("the section is cut short");
+    if (size > left()) fail("the section is truncated");
     ends_.push_back(at_ + size);
   }
   void end_section() override {
     // Left-over bytes mean that other fields were saved, so what was loaded may be nonsense.
-    if (left() > 0) fail("the section holds more than this version reads");
+    if (left() > 0) fail("the section is longer than this version reads");
     ends_.pop_back();
   }
   std::size_t left() const override { return (ends_.empty() ? bytes_.size() : ends_.back()) - at_; }

@@ -43,8 +43,11 @@ struct ByteMap {
 namespace saved_state {
 // A visit without its object's type.
 using Visit = std::function<void(Archive&)>;
+/// Implements add_to_hash.
 void hash(StateHash& sum, const Visit& visit);
+/// Implements `saved`. A null `map` is not filled.
 std::vector<char> save(const Visit& visit, ByteMap* map);
+/// Implements load_saved (`whole`: all bytes must be read) and load_front.
 void load(std::vector<char> bytes, const Visit& visit, bool whole);
 
 /// Wraps the visit of a const object. Hashing and saving only read, which is the one promise of a

@@ -23,7 +23,7 @@ constexpr std::size_t kHead = sizeof kMagic + 2 * sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::string& where, const std::string& rule) {
   throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, where, "", rule,
-                         "it is damaged, no snapshot, or of another version of Navvy; record it again"});
+                         "it is damaged, is no snapshot, or comes from another version of Navvy; record it again"});
 }
 
 void append(std::vector<char>& to, const void* data, std::size_t size) {
@@ -85,22 +85,22 @@ std::vector<char> seal(const std::vector<char>& state) {
 
 std::vector<char> unseal(const std::vector<char>& content) {
   if (content.size() < kHead || std::memcmp(content.data(), kMagic, sizeof kMagic) != 0)
-    refuse("head", "this is no snapshot of this version");
+    refuse("head", "must be a snapshot of this version");
   const char* const numbers = content.data() + sizeof kMagic;
   if (number_at(numbers + sizeof(std::uint64_t)) != checksum(0, content.data(), kHead - sizeof(std::uint64_t)))
-    refuse("head", "the checksum does not fit");
-  if (number_at(numbers) != content.size()) refuse("head", "the file is cut short or longer than it was written");
+    refuse("head", "the checksum does not match");
+  if (number_at(numbers) != content.size()) refuse("head", "the file is truncated or longer than it was written");
   std::vector<char> out;
   out.reserve(content.size());
   std::uint64_t place = 0;
   for (std::size_t at = kHead; at < content.size(); ++place) {
     const std::size_t left = content.size() - at;
-    if (left < sizeof(std::uint64_t)) refuse(name_of(place, "", 0), "the section is cut short");
+    if (left < sizeof(std::uint64_t)) refuse(name_of(place, "", 0), "the section is truncated");
     const char* const section = content.data() + at + sizeof(std::uint64_t);
     const std::string where = name_of(place, section, left - sizeof(std::uint64_t));
     const std::size_t size = section_size(section, left - sizeof(std::uint64_t));
-    if (size == 0) refuse(where, "the section is cut short");
-    if (number_at(content.data() + at) != checksum(place, section, size)) refuse(where, "the checksum does not fit");
+    if (size == 0) refuse(where, "the section is truncated");
+    if (number_at(content.data() + at) != checksum(place, section, size)) refuse(where, "the checksum does not match");
     append(out, section, size);
     at += sizeof(std::uint64_t) + size;
   }

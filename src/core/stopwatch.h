@@ -27,6 +27,7 @@ class Stopwatch {
 /// nest, or time counts twice.
 class Lap {
  public:
+  /// Starts the clock; the destructor adds the time to `sum` [s].
   explicit Lap(double& sum) : sum_(sum) {}
   ~Lap() { sum_ += watch_.seconds(); }
   Lap(const Lap&) = delete;

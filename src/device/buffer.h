@@ -60,6 +60,7 @@ template <class T>
 class Mapped {
   // Map a range once at a time: OpenCL leaves two maps that write to one place undefined.
  public:
+  /// Takes over `size` values at `data` that `buffer` has mapped.
   Mapped(const RawBuffer* buffer, T* data, std::size_t size) : buffer_(buffer), view_(data, size) {}
   Mapped(Mapped&& other) noexcept : buffer_(std::exchange(other.buffer_, nullptr)), view_(other.view_) {}
   Mapped(const Mapped&) = delete;
@@ -104,6 +105,7 @@ class Buffer {
 
   /// Returns the number of values, which may be less than the memory can hold.
   std::size_t size() const { return size_; }
+  /// Returns true for a buffer without values.
   bool empty() const { return size_ == 0; }
 
   /// Changes the number of values, preserving the first min(old, new). Memory is replaced only when

@@ -138,8 +138,8 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   if (found.empty() && cache.folder.empty()) {
     // PoCL offers no device if it cannot store its kernels; installing it again would not help.
     throw DeviceError(
-        "no OpenCL device, and no folder can be written for compiled kernels, without which PoCL offers none: " +
-        cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
+        "no OpenCL device: PoCL needs a folder for compiled kernels, and no folder can be written: " + cache.trouble +
+        "; set POCL_CACHE_DIR to a folder that can be written");
   }
   if (found.empty()) {
     throw DeviceError(
@@ -148,9 +148,9 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   }
   std::string text = "no OpenCL device matches '" + choice + "'";
   if (from_environment) text += " (from the environment variable NAVVY_DEVICE)";
-  text += "; there is:";
+  text += "; available devices:";
   for (const Found& f : found) text += "\n  " + f.info.text();
-  text += "\nchoose cpu, gpu, an index or a part of a name";
+  text += "\nchoose cpu, gpu, an index or part of a name";
   throw DeviceError(text);
 }
 

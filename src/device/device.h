@@ -19,8 +19,11 @@ enum class Kind { kCpu, kGpu, kOther };
 struct DeviceInfo {
   /// Index in the list of all devices, platform by platform.
   int index = 0;
+  /// Type by which kernels are scheduled.
   Kind kind = Kind::kOther;
+  /// Texts as the driver reports them.
   std::string name, vendor, platform, version, driver;
+  /// Number of units that run work-groups in parallel, the cores of a CPU.
   int compute_units = 0;
   /// Global memory [bytes], or the limit from NAVVY_DEVICE_MEMORY_MIB if that is less.
   std::uint64_t memory = 0;
@@ -45,8 +48,11 @@ std::vector<DeviceInfo> list_devices();
 /// Time that a kernel took on the device, summed over launches, on the device's clock. Launch
 /// overhead, copies and waits are not included. Counted only while the profile is on.
 struct KernelTime {
+  /// Name of the kernel, without the name of its program.
   std::string name;
+  /// Number of launches since the profile was switched on or cleared.
   std::uint64_t launches = 0;
+  /// Time on the device [s].
   double seconds = 0;
 };
 

@@ -13,6 +13,7 @@ namespace navvy::device {
 /// and what to do.
 class DeviceError : public Error {
  public:
+  /// Takes the whole message and the OpenCL error code, or 0 if no call failed.
   explicit DeviceError(const std::string& text, int code = 0) : Error(text), code_(code) {}
   /// Returns the OpenCL error code, or 0 if no call failed. It serves tests and callers that can
   /// continue with less memory.

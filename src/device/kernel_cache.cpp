@@ -115,7 +115,7 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   // With all parents, as ~/.cache may not exist on a new account.
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) fail(folder_, "the folder cannot be made: " + error.message());
+  if (error) fail(folder_, "the folder cannot be created: " + error.message());
   // The driver does not report that it cannot write: it leaves truncated files, which this class
   // protects against.
   struct statvfs disk {};
@@ -374,12 +374,12 @@ ProcessCache::ProcessCache() {
   if (folder.empty() || !open(folder)) open_temporary();
   if (status.folder.empty()) {
     log_warning("no folder can be written for compiled kernels (" + status.trouble +
-                "): set POCL_CACHE_DIR to one that can");
+                "); set POCL_CACHE_DIR to a folder that can");
     return;
   }
   if (status.temporary) temporary_folder = status.folder.c_str();
   // A warning if every run pays for it, otherwise an information.
-  if (status.temporary) log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
+  if (status.temporary) log_warning(status.trouble + ": kernels are compiled again for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
     status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " + status.folder +
                      " were damaged or left over from a killed run: they are compiled again";

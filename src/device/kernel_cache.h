@@ -57,10 +57,16 @@ class KernelCache {
   /// Files by path relative to the folder.
   using Manifest = std::map<std::string, Entry>;
 
+  /// Reads the manifest; a damaged or missing one lists fewer files or none.
   Manifest read_manifest() const;
+  /// Replaces the manifest.
+  /// @throws FileError if it cannot be written.
   void write_manifest(const Manifest& manifest) const;
+  /// Compares the files with the manifest and removes the programs of which a file differs.
   void check(bool alone);
+  /// Removes whole programs from the folder and from the manifest.
   void remove_programs(const std::set<std::filesystem::path>& programs, Manifest manifest);
+  /// Takes the shared lock, or an exclusive one if no other process uses the folder.
   void lock();
 
   std::filesystem::path folder_;

@@ -19,6 +19,7 @@ namespace navvy::device {
 /// OpenCL objects behind a Device; the queue is released before the context.
 struct Device::State {
   DeviceInfo info;
+  /// Handles of OpenCL; null until the constructor of Device has created them.
   cl_device_id device = nullptr;
   cl_context context = nullptr;
   cl_command_queue queue = nullptr;

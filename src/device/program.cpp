@@ -50,7 +50,7 @@ std::unique_ptr<SlowCall> tell_if_slow(const Device::State& device, const std::s
   return std::make_unique<SlowCall>(
       "the OpenCL driver (" + device.info.platform + ") is still compiling " + what + " for " + device.info.name +
       ", after " + std::to_string(static_cast<int>(SlowCall::kPatience)) + " s; some drivers take minutes" +
-      (folder.empty() ? "" : ", once: the result is kept in " + folder));
+      (folder.empty() ? "" : ", once: the result is cached in " + folder));
 }
 
 /// Returns the build log without trailing zeros and empty lines, which would split an error's text.
@@ -74,8 +74,8 @@ cl_int build_or_give_up(Program::State& state, const std::string& flags) {
   } catch (const std::exception& error) {
     state.program = nullptr;
     state.device->lost = true;
-    throw DeviceError("the OpenCL driver failed within itself (" + std::string(error.what()) +
-                          ") while it built kernels/" + state.name + "; is there memory left?",
+    throw DeviceError("the OpenCL driver threw an exception (" + std::string(error.what()) +
+                          ") while building kernels/" + state.name + "; check whether the machine is out of memory",
                       CL_OUT_OF_HOST_MEMORY);
   }
 }

@@ -80,7 +80,7 @@ class HullFaces {
     while (second < n && points_[at(second)] == points_[0]) ++second;
     if (second < n) third = second + 1;
     while (third < n && is_zero(cross(points_[0], points_[at(second)], points_[at(third)]))) ++third;
-    if (third >= n) refuse("at least three points that are not in line");
+    if (third >= n) refuse("needs at least three points that are not collinear");
     int fourth = third + 1;
     while (fourth < n && side({0, second, third}, fourth) == 0) ++fourth;
     if (fourth >= n) return false;
@@ -206,7 +206,7 @@ ConvexHull convex_hull(std::vector<Vec3> points) {
   });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   // From here on a point is identified by its index in this order.
-  if (points.size() < 3) refuse("at least three points that are not in line");
+  if (points.size() < 3) refuse("needs at least three points that are not collinear");
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) {
     low = low.cwiseMin(p);

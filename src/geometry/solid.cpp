@@ -60,7 +60,7 @@ SolidProperties solid_properties(const TriangleMesh& loose, const std::string& n
   const double size = (box.high - box.low).norm();
   // Rounding leaves a tiny volume for a flat mesh.
   if (!(six_volumes > 1e-12 * size * size * size))
-    refuse(name, "the mesh must enclose a positive volume", "turn its triangles round if it is inside out");
+    refuse(name, "the mesh must enclose a positive volume", "reverse its triangles if it is inside out");
   SolidProperties out;
   out.volume = six_volumes / 6;
   // Parallel axis theorem, from the centre of the box to the centre of mass.

@@ -99,7 +99,7 @@ TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
   EXPECT_EQ(message([&] { read_file(path("")); }),
             "cannot read '" + path("") + "': it is a directory, a plain file is needed");
   EXPECT_EQ(message([&] { write_file_atomically(path("no/where"), std::string("x")); }),
-            "cannot write '" + path("no/where") + "': there is no folder '" + path("no") + "' (make it: mkdir -p '" +
+            "cannot write '" + path("no/where") + "': there is no folder '" + path("no") + "' (create it: mkdir -p '" +
                 path("no") + "')");
   EXPECT_NE(message([&] { require_writable(path("no/where")); }).find("mkdir -p"), std::string::npos);
 }

@@ -59,7 +59,7 @@ class LineCheck {
     if (count > static_cast<long>(limit))
       refuse_obj(path_, line_, std::to_string(count),
                  "an OBJ file may have at most " + std::to_string(limit) + " " + what,
-                 "thin the mesh out, or split it");
+                 "simplify or split the mesh");
   }
 
   /// Checks the coordinates of a vertex.

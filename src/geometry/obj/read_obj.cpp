@@ -41,7 +41,7 @@ class MaterialsBeside final : public tinyobj::MaterialReader {
     try {
       bytes = read_file(path, limits::kMtlBytes);
     } catch (const FileError& failure) {
-      refuse_obj(obj_, 0, "mtllib " + name, failure.what(), "name a material file, or take the line out");
+      refuse_obj(obj_, 0, "mtllib " + name, failure.what(), "name a material file, or remove the line");
     }
     std::istringstream stream(std::string(bytes.begin(), bytes.end()));
     tinyobj::LoadMtl(map, materials, &stream, warning, error);
