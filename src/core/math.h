@@ -28,7 +28,6 @@ using Pose = Eigen::Isometry3d;
 /// Standard gravity rounded to two decimals [m/s2], the default of scenes; the solver uses the
 /// scene's value.
 inline constexpr double kGravity = 9.81;
-/// Ratio of a circle's circumference to its diagonal.
 inline constexpr double kPi = std::numbers::pi;
 /// Converts degrees to radians. Code uses radians throughout; degrees occur in files, options and
 /// output only.

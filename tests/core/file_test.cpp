@@ -116,7 +116,7 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
     // A lambda takes no structured binding along.
     const std::string &name = each.first, &what = each.second;
     const std::string told =
-        "cannot write '" + path(name) + "': it is " + what + ", and only a plain file is replaced (name a file)";
+        "cannot write '" + path(name) + "': it is " + what + ", and only a plain file can be replaced (name a file)";
     EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
     EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
     // Also when another library has written the part already.
