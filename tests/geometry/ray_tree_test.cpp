@@ -24,8 +24,10 @@ Vec3 somewhere(Random& random, double size) {
 std::optional<RayHit> by_force(const TriangleMesh& mesh, const Vec3& origin, const Vec3& direction, double reach) {
   std::optional<RayHit> best;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const RayTree one(TriangleMesh{{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, {{0, 1, 2}}});
-    const auto hit = one.first_hit(origin, direction, reach);
+    TriangleMesh one;
+    one.vertices = {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    one.triangles = {{0, 1, 2}};
+    const auto hit = RayTree(one).first_hit(origin, direction, reach);
     if (hit && (!best || hit->distance < best->distance))
       best = RayHit{static_cast<int>(t), hit->distance, mesh.area_vector(t).normalized()};
   }
