@@ -23,7 +23,8 @@ std::string Archive::path() const {
 // disk. The message says where in the state the visit was and what to do.
 void Archive::fail(const std::string& rule) const {
   throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, path(), "", rule,
-                         "it was written by another version of Navvy, for another scene, or damaged; record it again"});
+                         "it was written by another version of Navvy, for another scene, or "
+                         "damaged; record it again"});
 }
 
 }  // namespace navvy

@@ -49,17 +49,17 @@ namespace navvy {
 /// it for a struct only together with an assertion that the struct has no padding; padding would be
 /// saved and hashed as noise.
 template <class T>
-inline constexpr bool kPlain =
-    (std::is_arithmetic_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= sizeof(std::uint64_t)) || std::is_enum_v<T>;
+inline constexpr bool kPlain = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
+                                sizeof(T) <= sizeof(std::uint64_t)) ||
+                               std::is_enum_v<T>;
 /// An array has no gaps between its elements, so it is plain if its elements are.
 template <class T, std::size_t N>
 inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
 /// Fixed-size matrices are plain if their storage is exactly their elements, without bytes added
 /// for alignment.
 template <class T, int R, int C, int O>
-inline constexpr bool kPlain<Eigen::Matrix<T, R, C, O, R, C>> = kPlain<T>&& R > 0 && C > 0 &&
-                                                                sizeof(Eigen::Matrix<T, R, C, O, R, C>) ==
-                                                                    sizeof(T) * R* C;
+inline constexpr bool kPlain<Eigen::Matrix<T, R, C, O, R, C>> =
+    kPlain<T>&& R > 0 && C > 0 && sizeof(Eigen::Matrix<T, R, C, O, R, C>) == sizeof(T) * R* C;
 
 /// Visitor of a class's fields: hashes, saves or loads them one after the other, each with a name.
 ///
@@ -92,7 +92,8 @@ class Archive {
   /// range. Saving and hashing do not check the range.
   /// @throws InputError naming the field.
   template <class T>
-  void ranged(const char* name, T& field, const std::type_identity_t<T>& low, const std::type_identity_t<T>& high);
+  void ranged(const char* name, T& field, const std::type_identity_t<T>& low,
+              const std::type_identity_t<T>& high);
 
   /// Visits the elements of a vector whose length the scene has already set, such as arrays that
   /// determine the size of others.

@@ -37,9 +37,13 @@ concept VisitableBeside = requires(T& object, Archive& archive) {
 class Archive::Scope {
  public:
   /// Appends a named field, or the tag of a section.
-  Scope(Archive& archive, const char* name) : archive_(archive) { archive_.places_.push_back({name, 0}); }
+  Scope(Archive& archive, const char* name) : archive_(archive) {
+    archive_.places_.push_back({name, 0});
+  }
   /// Appends an element of a container by its index.
-  Scope(Archive& archive, std::uint64_t number) : archive_(archive) { archive_.places_.push_back({nullptr, number}); }
+  Scope(Archive& archive, std::uint64_t number) : archive_(archive) {
+    archive_.places_.push_back({nullptr, number});
+  }
   ~Scope() { archive_.places_.pop_back(); }
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
@@ -119,7 +123,9 @@ struct ArchiveParts {
   }
   /// Visits x y z w as stored, without normalising: normalising would change the last bits at every
   /// load, and a run resumed from a snapshot would diverge from the original.
-  static void part(Archive& a, Eigen::Quaterniond& q) { a.block(q.coeffs().data(), 4 * sizeof(double)); }
+  static void part(Archive& a, Eigen::Quaterniond& q) {
+    a.block(q.coeffs().data(), 4 * sizeof(double));
+  }
   /// Visits the rotation and the translation column by column; the last row is always 0 0 0 1 and
   /// is set by `makeAffine` after loading. A rotation that contains a scale is refused, since all
   /// users of a pose rely on there being none.
@@ -145,7 +151,8 @@ struct ArchiveParts {
   // are bytes. The previous content is discarded in both cases.
   template <class T>
   static void part(Archive& a, std::vector<T>& v) {
-    static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no elements to refer to; use std::uint8_t");
+    static_assert(!std::is_same_v<T, bool>,
+                  "std::vector<bool> has no elements to refer to; use std::uint8_t");
     const std::uint64_t n = count(a, v.size());
     if (!a.loading_) return elements(a, v);
     // An element may take eight bytes where `count` assumes one, so the bound is checked again; by
@@ -235,7 +242,8 @@ struct ArchiveParts {
   template <class K, class V>
   static void part(Archive& a, std::map<K, V>& v) {
     if (a.loading_) {
-      load_keys<K>(a, v, [&](K key) { part(a, v.emplace_hint(v.end(), std::move(key), V{})->second); });
+      load_keys<K>(a, v,
+                   [&](K key) { part(a, v.emplace_hint(v.end(), std::move(key), V{})->second); });
       return;
     }
     // Saving and hashing traverse the map in order; the index only serves the path.
@@ -308,7 +316,8 @@ void Archive::fixed(const char* name, std::vector<T>& field) {
   const Scope scope(*this, name);
   // The length is hashed like any other. It differs from `count`'s result only when loading, since
   // other archives return what they are given.
-  if (ArchiveParts::count(*this, field.size()) != field.size()) fail("must have the same length as in the scene");
+  if (ArchiveParts::count(*this, field.size()) != field.size())
+    fail("must have the same length as in the scene");
   ArchiveParts::elements(*this, field);
 }
 

@@ -35,7 +35,8 @@ std::string join(const std::vector<Fault>& faults) {
 }
 }  // namespace
 
-InputError::InputError(std::vector<Fault> faults) : Error(join(faults)), faults_(std::move(faults)) {}
+InputError::InputError(std::vector<Fault> faults)
+    : Error(join(faults)), faults_(std::move(faults)) {}
 InputError::InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
 
 }  // namespace navvy

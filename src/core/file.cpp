@@ -54,8 +54,8 @@ void require_replaceable(const std::string& path) {
   const fs::path folder = fs::path(followed(path)).parent_path();
   std::error_code ignored;
   if (code == ENOENT && !folder.empty() && !fs::exists(folder, ignored))
-    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() + "' (create it: mkdir -p '" +
-                    folder.string() + "')");
+    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() +
+                    "' (create it: mkdir -p '" + folder.string() + "')");
   fail("create", partial_name(path), code);
 }
 
@@ -156,7 +156,8 @@ void write_file_atomically(const std::string& path, const std::vector<char>& con
 void require_regular(const std::string& path) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode)) return;
-  throw FileError("cannot read '" + path + "': it is " + kind_of(found) + ", a plain file is needed");
+  throw FileError("cannot read '" + path + "': it is " + kind_of(found) +
+                  ", a plain file is needed");
 }
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -176,7 +177,8 @@ std::vector<char> read_file(const std::string& path, std::size_t most) {
     // Counted while reading, since some files do not report their size.
     if (n > most - content.size()) {
       std::fclose(file);
-      throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) + " bytes");
+      throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) +
+                      " bytes");
     }
     content.insert(content.end(), buffer, buffer + n);
   }

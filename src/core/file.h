@@ -46,6 +46,7 @@ bool same_file(const std::string& a, const std::string& b);
 /// Reads a whole file into memory.
 /// @throws FileError naming path and cause if the file is missing, is no regular file or has more
 /// than `most` bytes; the size is checked before the content is read.
-std::vector<char> read_file(const std::string& path, std::size_t most = std::numeric_limits<std::size_t>::max());
+std::vector<char> read_file(const std::string& path,
+                            std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace navvy

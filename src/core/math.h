@@ -44,12 +44,15 @@ inline constexpr double kMassQuantum = 1.0 / (1 << 24);
 inline double kilograms(std::int64_t units) { return static_cast<double>(units) * kMassQuantum; }
 /// Converts kilograms to quanta, rounded to the nearest, halves away from zero. The result must be
 /// below 2^63.
-inline std::int64_t mass_units(double kg) { return static_cast<std::int64_t>(std::llround(kg / kMassQuantum)); }
+inline std::int64_t mass_units(double kg) {
+  return static_cast<std::int64_t>(std::llround(kg / kMassQuantum));
+}
 
 /// Returns the pose with position x y z [m] and fixed-axis angles roll, pitch, yaw [rad], as in SDF
 /// and URDF: roll about x is applied first, then pitch about y, then yaw about z, all about the
 /// axes of the parent frame.
-inline Pose make_pose(double x, double y, double z, double roll = 0, double pitch = 0, double yaw = 0) {
+inline Pose make_pose(double x, double y, double z, double roll = 0, double pitch = 0,
+                      double yaw = 0) {
   Pose X = Pose::Identity();
   // Yaw is applied last, so it is leftmost.
   X.linear() = (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
@@ -69,7 +72,8 @@ inline bool is_rigid(const Pose& X) {
 /// the others within +-pi.
 inline Vec3 fixed_angles(const Mat3& R) {
   // Rounding may take the sine slightly beyond one.
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+          std::atan2(R(1, 0), R(0, 0))};
 }
 
 }  // namespace navvy

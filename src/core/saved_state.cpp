@@ -24,7 +24,8 @@ Tag tag_of(const char* text) {
   Tag tag{};
   const std::size_t size = std::strlen(text);
   // One byte stays free for the terminating zero.
-  if (size == 0 || size >= kTagSize) throw Error("archive: bad section '" + std::string(text) + "'");
+  if (size == 0 || size >= kTagSize)
+    throw Error("archive: bad section '" + std::string(text) + "'");
   std::memcpy(tag.data(), text, size);
   return tag;
 }
@@ -120,7 +121,8 @@ class LoadArchive final : public Archive {
     std::uint32_t number = 0;
     scalar(&number, sizeof number);
     if (number != version)
-      fail("version " + std::to_string(number) + " of this section, this program reads " + std::to_string(version));
+      fail("version " + std::to_string(number) + " of this section, this program reads " +
+           std::to_string(version));
     std::uint64_t size = 0;
     scalar(&size, sizeof size);
     // `left` counts within the enclosing section, so no section extends beyond it.
@@ -144,8 +146,9 @@ class LoadArchive final : public Archive {
 
 // Finds the last field that begins at or before the byte. Heads of sections lie between fields.
 const ByteMap::Field* ByteMap::at(std::size_t offset) const {
-  const auto after = std::upper_bound(fields.begin(), fields.end(), offset,
-                                      [](std::size_t value, const Field& field) { return value < field.offset; });
+  const auto after =
+      std::upper_bound(fields.begin(), fields.end(), offset,
+                       [](std::size_t value, const Field& field) { return value < field.offset; });
   if (after == fields.begin()) return nullptr;
   const Field& field = *(after - 1);
   return offset < field.offset + field.size ? &field : nullptr;

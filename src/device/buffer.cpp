@@ -14,16 +14,18 @@ struct RawBuffer::Memory {
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
     // Memory that host and device share is allocated where both reach it, so that mapping copies
     // nothing.
-    const cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
+    const cl_mem_flags flags =
+        CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     // A CPU driver would over-commit and be killed for it later, so the total is limited here.
     if (bytes <= device->info.memory && device->memory_used <= device->info.memory - bytes)
       memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
     if (code != CL_SUCCESS) {
-      throw DeviceError("clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
-                            ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
-                            " bytes are in use; use a larger soil cell or a device with more memory",
-                        code);
+      throw DeviceError(
+          "clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
+              ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
+              " bytes are in use; use a larger soil cell or a device with more memory",
+          code);
     }
     size = bytes;
     device->memory_used += bytes;
@@ -53,7 +55,8 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
   auto bigger = std::make_shared<Memory>(memory_->device, bytes);
   if (keep > 0) {
     const Device::State& device = *memory_->device;
-    check(clEnqueueCopyBuffer(device.queue, memory_->memory, bigger->memory, 0, 0, keep, 0, nullptr, nullptr),
+    check(clEnqueueCopyBuffer(device.queue, memory_->memory, bigger->memory, 0, 0, keep, 0, nullptr,
+                              nullptr),
           "clEnqueueCopyBuffer", device);
   }
   memory_ = std::move(bigger);
@@ -65,29 +68,31 @@ void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, b
   // With `wait` the driver has taken its copy of the data on return. Earlier work need not be done,
   // so the notice of a slow compilation stays.
   const Device::State& device = *memory_->device;
-  check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset, bytes, data, 0, nullptr,
-                             nullptr),
+  check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset,
+                             bytes, data, 0, nullptr, nullptr),
         "clEnqueueWriteBuffer", device);
 }
 
 void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
   Device::State& device = *memory_->device;
-  check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+  check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
+                            nullptr),
         "clEnqueueReadBuffer", device);
   // The queue is in order, so a blocking read returns after everything queued before it,
   // compilation included.
   device.compiling.reset();
 }
 
-void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes) {
+void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset,
+                     std::size_t bytes) {
   if (bytes == 0) return;
   const Device::State& device = *memory_->device;
   const bool power_of_two = (pattern_bytes & (pattern_bytes - 1)) == 0;
   if (power_of_two && pattern_bytes <= 128) {
-    check(
-        clEnqueueFillBuffer(device.queue, memory_->memory, pattern, pattern_bytes, offset, bytes, 0, nullptr, nullptr),
-        "clEnqueueFillBuffer", device);
+    check(clEnqueueFillBuffer(device.queue, memory_->memory, pattern, pattern_bytes, offset, bytes,
+                              0, nullptr, nullptr),
+          "clEnqueueFillBuffer", device);
     return;
   }
   // OpenCL fills with powers of two only; the host repeats other structs. The write waits, since
@@ -104,8 +109,8 @@ void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool 
   Device::State& device = *memory_->device;
   const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
-  void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
-                                nullptr, nullptr, &code);
+  void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags,
+                                offset, bytes, 0, nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
   // As with a blocking read, all work queued before is done now.
   if (wait) device.compiling.reset();

@@ -62,12 +62,14 @@ class Mapped {
  public:
   /// Takes over `size` values at `data` that `buffer` has mapped.
   Mapped(const RawBuffer* buffer, T* data, std::size_t size) : buffer_(buffer), view_(data, size) {}
-  Mapped(Mapped&& other) noexcept : buffer_(std::exchange(other.buffer_, nullptr)), view_(other.view_) {}
+  Mapped(Mapped&& other) noexcept
+      : buffer_(std::exchange(other.buffer_, nullptr)), view_(other.view_) {}
   Mapped(const Mapped&) = delete;
   Mapped& operator=(const Mapped&) = delete;
   Mapped& operator=(Mapped&&) = delete;
   ~Mapped() {
-    if (buffer_ != nullptr && !view_.empty()) buffer_->unmap(const_cast<std::remove_const_t<T>*>(view_.data()));
+    if (buffer_ != nullptr && !view_.empty())
+      buffer_->unmap(const_cast<std::remove_const_t<T>*>(view_.data()));
   }
   /// Returns the values. The span is empty for an empty range, which is not mapped.
   std::span<T> span() const { return view_; }
@@ -100,8 +102,11 @@ class Buffer {
   Buffer(Device& device, std::size_t size) : raw_(device, size * sizeof(T)), size_(size) {}
   /// Copies host values and waits until they are on the device.
   /// @throws DeviceError if the memory does not suffice.
-  Buffer(Device& device, std::span<const T> values) : Buffer(device, values.size()) { write(values); }
-  Buffer(Device& device, const std::vector<T>& values) : Buffer(device, std::span<const T>(values)) {}
+  Buffer(Device& device, std::span<const T> values) : Buffer(device, values.size()) {
+    write(values);
+  }
+  Buffer(Device& device, const std::vector<T>& values)
+      : Buffer(device, std::span<const T>(values)) {}
 
   /// Returns the number of values, which may be less than the memory can hold.
   std::size_t size() const { return size_; }
@@ -174,13 +179,14 @@ class Buffer {
   /// @throws DeviceError if the range is outside. The comparison cannot overflow.
   void need(std::size_t at, std::size_t count) const {
     if (at > size_ || count > size_ - at) {
-      throw DeviceError("buffer of " + std::to_string(size_) + " values: range " + std::to_string(at) + " + " +
-                        std::to_string(count) + " is outside");
+      throw DeviceError("buffer of " + std::to_string(size_) + " values: range " +
+                        std::to_string(at) + " + " + std::to_string(count) + " is outside");
     }
   }
   // An empty range is not mapped, as OpenCL refuses it.
   template <class U>
-  Mapped<U> mapped(RawBuffer::Access access, std::size_t at, std::size_t count, bool wait = true) const {
+  Mapped<U> mapped(RawBuffer::Access access, std::size_t at, std::size_t count,
+                   bool wait = true) const {
     if (count == npos) count = at <= size_ ? size_ - at : 0;
     need(at, count);
     void* data = count == 0 ? nullptr : raw_.map(access, at * sizeof(T), count * sizeof(T), wait);

@@ -23,7 +23,8 @@ struct Found {
 };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return text;
 }
 
@@ -59,7 +60,9 @@ T device_value(cl_device_id device, cl_device_info what) {
 DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   DeviceInfo info;
   const auto type = device_value<cl_device_type>(device, CL_DEVICE_TYPE);
-  info.kind = (type & CL_DEVICE_TYPE_CPU) ? Kind::kCpu : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu : Kind::kOther;
+  info.kind = (type & CL_DEVICE_TYPE_CPU)   ? Kind::kCpu
+              : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu
+                                            : Kind::kOther;
   info.name = device_text(device, CL_DEVICE_NAME);
   info.vendor = device_text(device, CL_DEVICE_VENDOR);
   info.platform = platform_text(platform, CL_PLATFORM_NAME);
@@ -86,16 +89,20 @@ std::vector<Found> find_devices() {
   const std::lock_guard<std::mutex> alone(first);
   std::vector<Found> found;
   cl_uint platform_count = 0;
-  if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return found;
+  if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0)
+    return found;
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
     // OpenCL wants two calls, the first for the number. A platform without devices reports an
     // error, so errors do not end the search.
     cl_uint count = 0;
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) continue;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS ||
+        count == 0)
+      continue;
     std::vector<cl_device_id> devices(count);
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS) continue;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS)
+      continue;
     for (cl_device_id device : devices) {
       Found entry{platform, device, describe(platform, device)};
       // The index counts over all platforms in the loader's order; it is what a user types.
@@ -113,7 +120,9 @@ int match(const std::vector<Found>& found, const std::string& choice) {
     return it == found.end() ? -1 : static_cast<int>(it - found.begin());
   };
   const std::string wanted = lower(choice);
-  const auto of_kind = [&](Kind kind) { return first([=](const Found& f) { return f.info.kind == kind; }); };
+  const auto of_kind = [&](Kind kind) {
+    return first([=](const Found& f) { return f.info.kind == kind; });
+  };
   // A CPU comes first, as every machine can have that device.
   if (wanted.empty()) {
     if (const int cpu = of_kind(Kind::kCpu); cpu >= 0) return cpu;
@@ -122,7 +131,8 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   }
   if (wanted == "cpu") return of_kind(Kind::kCpu);
   if (wanted == "gpu") return of_kind(Kind::kGpu);
-  if (wanted.size() < 6 && std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
+  if (wanted.size() < 6 &&
+      std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
     const int index = std::stoi(wanted);
     return index < static_cast<int>(found.size()) ? index : -1;
   }
@@ -133,17 +143,20 @@ int match(const std::vector<Found>& found, const std::string& choice) {
 }
 
 /// Reports that no device matches, lists the devices and says what to do.
-[[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice, bool from_environment) {
+[[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice,
+                                bool from_environment) {
   const KernelCacheStatus& cache = prepare_kernel_cache();
   if (found.empty() && cache.folder.empty()) {
     // PoCL offers no device if it cannot store its kernels; installing it again would not help.
     throw DeviceError(
-        "no OpenCL device: PoCL needs a folder for compiled kernels, and no folder can be written: " + cache.trouble +
-        "; set POCL_CACHE_DIR to a folder that can be written");
+        "no OpenCL device: PoCL needs a folder for compiled kernels, and no folder can be "
+        "written: " +
+        cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
   }
   if (found.empty()) {
     throw DeviceError(
-        "no OpenCL device: no platform is installed or none offers a device; install one, for example the CPU device "
+        "no OpenCL device: no platform is installed or none offers a device; install one, for "
+        "example the CPU device "
         "with 'apt-get install pocl-opencl-icd' or your GPU vendor's OpenCL driver");
   }
   std::string text = "no OpenCL device matches '" + choice + "'";
@@ -154,7 +167,9 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   throw DeviceError(text);
 }
 
-const char* kind_name(Kind kind) { return kind == Kind::kCpu ? "cpu" : kind == Kind::kGpu ? "gpu" : "other"; }
+const char* kind_name(Kind kind) {
+  return kind == Kind::kCpu ? "cpu" : kind == Kind::kGpu ? "gpu" : "other";
+}
 
 }  // namespace
 
@@ -169,9 +184,10 @@ void check(cl_int code, const char* call, const Device::State& state, const std:
 
 std::string DeviceInfo::text() const {
   char memory_text[32];
-  std::snprintf(memory_text, sizeof memory_text, "%.1f GiB", static_cast<double>(memory) / (1 << 30));
-  return std::to_string(index) + ": " + kind_name(kind) + ", " + name + " (" + platform + ", " + version + "), " +
-         std::to_string(compute_units) + " compute units, " + memory_text;
+  std::snprintf(memory_text, sizeof memory_text, "%.1f GiB",
+                static_cast<double>(memory) / (1 << 30));
+  return std::to_string(index) + ": " + kind_name(kind) + ", " + name + " (" + platform + ", " +
+         version + "), " + std::to_string(compute_units) + " compute units, " + memory_text;
 }
 
 std::vector<DeviceInfo> list_devices() {
@@ -235,8 +251,10 @@ std::uint64_t allowed_memory(std::uint64_t memory) {
   const std::string_view text(variable);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
   // Refused rather than ignored: a typing mistake must not remove the limit.
-  if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 || mebibytes > (1ULL << 40))
-    throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) + "': it must be a whole number of MiB");
+  if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 ||
+      mebibytes > (1ULL << 40))
+    throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) +
+                      "': it must be a whole number of MiB");
   return std::min(memory, mebibytes << 20);
 }
 
@@ -255,8 +273,8 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   state_->info.memory = allowed_memory(pick.info.memory);
   state_->device = pick.device;
   // Without a named platform, the meaning of a context is up to the driver.
-  const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
-                                              reinterpret_cast<cl_context_properties>(pick.platform), 0};
+  const cl_context_properties properties[] = {
+      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
   state_->context = clCreateContext(properties, 1, &pick.device, nullptr, nullptr, &code);
   check(code, "clCreateContext", *state_);

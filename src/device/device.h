@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "device/error.h"
+#include "device/device_error.h"
 
 namespace navvy::device {
 

@@ -39,7 +39,7 @@ constexpr std::string_view kManifestHead = "navvy kernel cache 1";
 /// many old versions then.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 /// Free space on the disk below which the driver would leave half-written files.
-constexpr std::uintmax_t kLeastRoom = std::uintmax_t{16} << 20;
+constexpr std::uintmax_t kLeastCapacity = std::uintmax_t{16} << 20;
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
   throw FileError("kernel cache '" + folder.string() + "': " + cause);
@@ -57,11 +57,14 @@ std::string hash_of(const fs::path& file) {
 /// which it rewrites at every use and which would make every program look damaged.
 bool is_listed(const fs::path& relative) {
   const std::string name = relative.filename().string();
-  return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 && name != "last_accessed";
+  return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 &&
+         name != "last_accessed";
 }
 
 /// Returns true for files that the driver writes before it renames them.
-bool is_temporary(const fs::path& relative) { return relative.filename().string().rfind("tempfile_", 0) == 0; }
+bool is_temporary(const fs::path& relative) {
+  return relative.filename().string().rfind("tempfile_", 0) == 0;
+}
 
 /// Prevents other processes from writing the manifest between reading and writing it; waits for
 /// them, a few milliseconds. If the lock file cannot be created, there is no lock: an incomplete
@@ -88,7 +91,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   // If listing the folder fails, the files found so far are returned. check() then misses files and
   // removes their programs, which is safe.
   std::error_code error;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
     // Another process may rename its temporary file between listing and query.
     std::error_code gone;
     if (it->is_regular_file(gone) && !gone) files.push_back(it->path().lexically_relative(folder));
@@ -119,7 +123,8 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   // The driver does not report that it cannot write: it leaves truncated files, which this class
   // protects against.
   struct statvfs disk {};
-  if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastRoom)
+  if (statvfs(folder_.c_str(), &disk) == 0 &&
+      std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastCapacity)
     fail(folder_, "its disk is full (less than 16 MiB left)");
   lock();
   try {
@@ -175,14 +180,16 @@ KernelCache::Manifest KernelCache::read_manifest() const {
     std::istringstream words(line);
     Entry entry;
     std::string path;
-    if (words >> entry.size >> entry.hash && words.get() == ' ' && std::getline(words, path)) out[path] = entry;
+    if (words >> entry.size >> entry.hash && words.get() == ' ' && std::getline(words, path))
+      out[path] = entry;
   }
   return out;
 }
 
 void KernelCache::write_manifest(const Manifest& manifest) const {
   std::string text = std::string(kManifestHead) + "\n";
-  for (const auto& [name, entry] : manifest) text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
+  for (const auto& [name, entry] : manifest)
+    text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
   write_file_atomically((folder_ / kManifestName).string(), text);
 }
 
@@ -197,7 +204,8 @@ void KernelCache::remove_programs(const std::set<fs::path>& programs, Manifest m
   }
   // Removed from the list at once: otherwise another process would find the files missing and
   // remove what this process compiles in their place.
-  std::erase_if(manifest, [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
+  std::erase_if(manifest,
+                [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
   write_manifest(manifest);
 }
 
@@ -332,8 +340,10 @@ fs::path usual_folder() {
   std::error_code closed;
   if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName, closed)) return given;
   if (!given.empty()) return fs::path(given) / "navvy" / "kernels";
-  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return fs::path(xdg) / "navvy" / "kernels";
-  if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache/navvy/kernels";
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty())
+    return fs::path(xdg) / "navvy" / "kernels";
+  if (const std::string home = environment("HOME"); !home.empty())
+    return fs::path(home) / ".cache/navvy/kernels";
   return {};
 }
 
@@ -379,9 +389,11 @@ ProcessCache::ProcessCache() {
   }
   if (status.temporary) temporary_folder = status.folder.c_str();
   // A warning if every run pays for it, otherwise an information.
-  if (status.temporary) log_warning(status.trouble + ": kernels are compiled again for this run, in " + status.folder);
+  if (status.temporary)
+    log_warning(status.trouble + ": kernels are compiled again for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
-    status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " + status.folder +
+    status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " +
+                     status.folder +
                      " were damaged or left over from a killed run: they are compiled again";
     log_info(status.trouble);
   }

@@ -53,6 +53,7 @@ struct Device::State {
 /// Checks the result of an OpenCL call.
 /// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" unless `code`
 /// is CL_SUCCESS.
-void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel = "");
+void check(cl_int code, const char* call, const Device::State& state,
+           const std::string& kernel = "");
 
 }  // namespace navvy::device

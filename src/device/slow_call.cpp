@@ -13,7 +13,8 @@ SlowCall::SlowCall(std::string text, double seconds)
         // The mutex and the condition are declared before the thread, so they exist from its start
         // until it is joined.
         std::unique_lock lock(mutex_);
-        const bool ended = over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
+        const bool ended =
+            over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
         if (!ended) log_info(text);
       }) {}
 

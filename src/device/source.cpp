@@ -30,7 +30,8 @@ bool is_pragma_once(const std::string& line) { return line.compare(0, 12, "#prag
 
 /// Appends a file with its includes, depth first as a compiler reads it. Each file is included once
 /// per program, so headers need no guards.
-void expand(const std::string& path, const std::string& text, std::set<std::string>& seen, std::string& out) {
+void expand(const std::string& path, const std::string& text, std::set<std::string>& seen,
+            std::string& out) {
   seen.insert(path);
   out += "#line 1 \"" + path + "\"\n";
   std::istringstream lines(text);
@@ -74,7 +75,8 @@ std::string kernel_source(const std::string& path) {
   for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) {
     if (path == file->path) return file->text;
   }
-  throw DeviceError("no kernel file '" + path + "' was embedded by the build (it looks in kernels/)");
+  throw DeviceError("no kernel file '" + path +
+                    "' was embedded by the build (it looks in kernels/)");
 }
 
 std::string expand_includes(const std::string& path, const std::string& text) {

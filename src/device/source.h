@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "device/error.h"
+#include "device/device_error.h"
 
 namespace navvy::device {
 

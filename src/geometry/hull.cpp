@@ -74,19 +74,23 @@ class HullFaces {
   /// @throws InputError if they are collinear.
   bool build() {
     const int n = static_cast<int>(points_.size());
-    const auto is_zero = [](const std::array<__int128, 3>& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; };
+    const auto is_zero = [](const std::array<__int128, 3>& v) {
+      return v[0] == 0 && v[1] == 0 && v[2] == 0;
+    };
     // Four points that span space; sorted points make the choice repeatable.
     int second = 1, third = 2;
     while (second < n && points_[at(second)] == points_[0]) ++second;
     if (second < n) third = second + 1;
-    while (third < n && is_zero(cross(points_[0], points_[at(second)], points_[at(third)]))) ++third;
+    while (third < n && is_zero(cross(points_[0], points_[at(second)], points_[at(third)])))
+      ++third;
     if (third >= n) refuse("needs at least three points that are not collinear");
     int fourth = third + 1;
     while (fourth < n && side({0, second, third}, fourth) == 0) ++fourth;
     if (fourth >= n) return false;
     // The fourth point is behind the first triangle, so that all four face outwards.
     if (side({0, second, third}, fourth) > 0) std::swap(second, third);
-    triangles_ = {{0, second, third}, {second, 0, fourth}, {third, second, fourth}, {0, third, fourth}};
+    triangles_ = {
+        {0, second, third}, {second, 0, fourth}, {third, second, fourth}, {0, third, fourth}};
     for (int p = 1; p < n; ++p)
       if (p != second && p != third && p != fourth) insert(p);
     return true;
@@ -97,7 +101,8 @@ class HullFaces {
  private:
   /// Returns a positive number if `p` sees the front of the triangle.
   int side(const Index& t, int p) const {
-    const __int128 v = orient(points_[at(t[0])], points_[at(t[1])], points_[at(t[2])], points_[at(p)]);
+    const __int128 v =
+        orient(points_[at(t[0])], points_[at(t[1])], points_[at(t[2])], points_[at(p)]);
     return (v > 0) - (v < 0);
   }
 
@@ -133,7 +138,8 @@ struct Face {
 
 /// Returns the plane through three points, oriented so that all points are behind it, or nothing if
 /// points lie on both sides.
-std::optional<Plane> supporting_plane(const std::vector<Vec3>& points, const Index& t, double tiny) {
+std::optional<Plane> supporting_plane(const std::vector<Vec3>& points, const Index& t,
+                                      double tiny) {
   const Vec3& origin = points[at(t[0])];
   Vec3 n = (points[at(t[1])] - origin).cross(points[at(t[2])] - origin);
   // Collinear within rounding: the normal would be noise.
@@ -160,7 +166,8 @@ bool same_plane(const Plane& a, const Plane& b, double tiny) {
 /// Slivers between nearly collinear points may have none; the adjacent faces bound the hull there.
 std::optional<Face> face_of(const std::vector<Vec3>& points, const Index& triangle, double tiny) {
   const Vec3& origin = points[at(triangle[0])];
-  const Vec3 n = (points[at(triangle[1])] - origin).cross(points[at(triangle[2])] - origin).normalized();
+  const Vec3 n =
+      (points[at(triangle[1])] - origin).cross(points[at(triangle[2])] - origin).normalized();
   // Twice the tolerance, as the plane through other points of the face may deviate that much from
   // this triangle's.
   std::vector<int> near;
@@ -170,17 +177,21 @@ std::optional<Face> face_of(const std::vector<Vec3>& points, const Index& triang
     for (std::size_t j = i + 1; j < near.size(); ++j)
       for (std::size_t k = j + 1; k < near.size(); ++k) {
         const Index through = {near[i], near[j], near[k]};
-        if (const auto plane = supporting_plane(points, through, tiny)) return Face{through, *plane};
+        if (const auto plane = supporting_plane(points, through, tiny))
+          return Face{through, *plane};
       }
   return std::nullopt;
 }
 
 /// Returns the planes of all faces.
-std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<Index>& triangles, double tiny) {
+std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<Index>& triangles,
+                             double tiny) {
   std::vector<Face> faces;
   for (const Index& t : triangles) {
     // Most triangles of a large face belong to a face that is known already.
-    const Vec3 n = (points[at(t[1])] - points[at(t[0])]).cross(points[at(t[2])] - points[at(t[0])]).normalized();
+    const Vec3 n = (points[at(t[1])] - points[at(t[0])])
+                       .cross(points[at(t[2])] - points[at(t[0])])
+                       .normalized();
     const bool known = std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
       return same_plane(face.plane, {n, n.dot(points[at(t[0])])}, tiny);
     });
@@ -188,10 +199,12 @@ std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<
     if (auto face = face_of(points, t, tiny)) faces.push_back(*face);
   }
   // In the order of their points, since the cut of a flat face into triangles is arbitrary.
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.points < b.points; });
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.points < b.points; });
   std::vector<Plane> planes;
   for (const Face& face : faces)
-    if (std::none_of(planes.begin(), planes.end(), [&](const Plane& p) { return same_plane(p, face.plane, tiny); }))
+    if (std::none_of(planes.begin(), planes.end(),
+                     [&](const Plane& p) { return same_plane(p, face.plane, tiny); }))
       planes.push_back(face.plane);
   return planes;
 }

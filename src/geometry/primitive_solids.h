@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume and inertia of primitive bodies in closed form; geometry/solid.h computes those of meshes.
+// Volume and inertia of primitive bodies in closed form; geometry/solid_properties.h computes those
+// of meshes.
 #pragma once
 
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 
 namespace navvy::geometry {
 

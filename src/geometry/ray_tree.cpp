@@ -80,7 +80,8 @@ struct Slabs {
         if (origin[k] < box.low[k] - slack || origin[k] > box.high[k] + slack) return std::nullopt;
         continue;
       }
-      const double a = (box.low[k] - origin[k]) * inverse[k], b = (box.high[k] - origin[k]) * inverse[k];
+      const double a = (box.low[k] - origin[k]) * inverse[k],
+                   b = (box.high[k] - origin[k]) * inverse[k];
       // The direction of the ray decides which of the two planes is hit first.
       const double enters = std::min(a, b), leaves = std::max(a, b);
       near = std::max(near, enters - kMargin * std::abs(enters));
@@ -115,7 +116,8 @@ RayTree::RayTree(const TriangleMesh& mesh, const std::string& name) {
   split(0, 0, static_cast<std::uint32_t>(order_.size()), centres);
 }
 
-void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& centres) {
+void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last,
+                    const std::vector<Vec3>& centres) {
   Box box{triangles_[order_[first]][0], triangles_[order_[first]][0]};
   Vec3 low = centres[order_[first]], high = low;
   for (std::uint32_t i = first; i < last; ++i) {
@@ -147,7 +149,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, c
   split(child + 1, middle, last, centres);
 }
 
-std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction, double reach) const {
+std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction,
+                                         double reach) const {
   if (!origin.allFinite() || !direction.allFinite()) refuse("origin and direction must be finite");
   if (std::isnan(reach)) refuse("the reach must be a number");
   // Normalised in two steps, so that even a direction of 1e-200 has a length.
@@ -172,13 +175,15 @@ std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& directi
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const int triangle = static_cast<int>(order_[i]);
       const auto distance = meet(origin, shear, triangles_[order_[i]]);
-      if (!distance || *distance > best || (*distance == best && hit >= 0 && triangle > hit)) continue;
+      if (!distance || *distance > best || (*distance == best && hit >= 0 && triangle > hit))
+        continue;
       best = *distance;
       hit = triangle;
     }
     if (node.count > 0) continue;
     // The closer box is visited first and shortens the ray for the other.
-    auto left = slabs.enter(nodes_[node.first].box, best), right = slabs.enter(nodes_[node.first + 1].box, best);
+    auto left = slabs.enter(nodes_[node.first].box, best),
+         right = slabs.enter(nodes_[node.first + 1].box, best);
     const bool left_first = left && (!right || *left <= *right);
     if (left && !left_first) waiting[count++] = {*left, node.first};
     if (right) waiting[count++] = {*right, node.first + 1};

@@ -54,7 +54,8 @@ class RayTree {
     std::uint32_t count = 0;
   };
   /// Splits a node at the median of the triangles' centres, recursively.
-  void split(std::size_t node, std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& centres);
+  void split(std::size_t node, std::uint32_t first, std::uint32_t last,
+             const std::vector<Vec3>& centres);
 
   std::vector<std::array<Vec3, 3>> triangles_;
   std::vector<std::uint32_t> order_;

@@ -12,7 +12,9 @@ namespace {
 /// Connected pieces of vertices: a forest whose roots identify the pieces.
 class Pieces {
  public:
-  explicit Pieces(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Pieces(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t find(int vertex) {
     auto i = static_cast<std::size_t>(vertex);
     // Path halving keeps later look-ups short.
@@ -79,8 +81,10 @@ bool is_solid(const TriangleMesh& loose) {
   // a piece turned inwards is not hidden by a larger one.
   std::map<std::size_t, double> volume;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    volume[pieces.find(mesh.triangles[t][0])] += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2)));
-  return std::all_of(volume.begin(), volume.end(), [](const auto& piece) { return piece.second > 0; });
+    volume[pieces.find(mesh.triangles[t][0])] +=
+        mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2)));
+  return std::all_of(volume.begin(), volume.end(),
+                     [](const auto& piece) { return piece.second > 0; });
 }
 
 }  // namespace navvy::geometry

@@ -37,9 +37,13 @@ struct TriangleMesh {
   std::vector<int> material_of;
 
   /// Returns corner i (0, 1, 2) of triangle t [m]. Indices are not checked.
-  const Vec3& corner(std::size_t t, std::size_t i) const { return vertices[static_cast<std::size_t>(triangles[t][i])]; }
+  const Vec3& corner(std::size_t t, std::size_t i) const {
+    return vertices[static_cast<std::size_t>(triangles[t][i])];
+  }
   /// Returns the area vector of triangle t [m2]: along its normal, twice its area long.
-  Vec3 area_vector(std::size_t t) const { return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)); }
+  Vec3 area_vector(std::size_t t) const {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  }
 };
 
 /// Axis-aligned box [m]; `low` has the least coordinates.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kept inputs of the fuzz targets in the plain build: each goes through without a crash or a broken property.
+// The kept inputs of the fuzz targets in the plain build: each goes through without a crash or a
+// broken property.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -21,7 +22,8 @@ namespace navvy {
 namespace {
 
 void replay(const std::string& target, int (*run)(const std::uint8_t*, std::size_t)) {
-  const fuzz::Inputs inputs = fuzz::read_pack(source_dir() + "/tests/fuzz/corpus/" + target + ".pack");
+  const fuzz::Inputs inputs =
+      fuzz::read_pack(source_dir() + "/tests/fuzz/corpus/" + target + ".pack");
   EXPECT_GT(inputs.size(), 2u);
   for (const auto& [name, bytes] : inputs) {
     SCOPED_TRACE(name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings what the fuzz targets start from into folders, as libFuzzer reads it, and back. `./dev fuzz` calls it.
+// Brings what the fuzz targets start from into folders, as libFuzzer reads it, and back. `./dev
+// fuzz` calls it.
 #include <iostream>
 
 #include "fuzz/pack.h"
@@ -10,7 +11,8 @@ namespace {
 constexpr char kUsage[] =
     "usage: fuzz_inputs unpack PACK FOLDER    write the inputs of a pack into an emptied folder\n"
     "       fuzz_inputs pack FOLDER PACK      write the files of a folder into a pack\n"
-    "       fuzz_inputs scenes TABLE FOLDER   write the scenes of broken_scenes.txt into a folder\n";
+    "       fuzz_inputs scenes TABLE FOLDER   write the scenes of broken_scenes.txt into a "
+    "folder\n";
 
 void run(const std::string& command, const std::string& from, const std::string& to) {
   if (command == "unpack") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pack: the inputs that a fuzz target keeps, in one file (corpus/<target>.pack). For each input, ordered by name:
+// A pack: the inputs that a fuzz target keeps, in one file (corpus/<target>.pack). For each input,
+// ordered by name:
 //   NAME SIZE\n   a name without blanks, and the size of the input [bytes]
 //   BYTES\n       the input as it is
 #pragma once
@@ -25,17 +26,20 @@ inline Inputs read_pack(const std::filesystem::path& path) {
   for (std::size_t size = 0; in >> name >> size && in.get() == '\n';) {
     std::string bytes(size, '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (in.get() != '\n') throw std::runtime_error(path.string() + ": input '" + name + "' does not end at its size");
+    if (in.get() != '\n')
+      throw std::runtime_error(path.string() + ": input '" + name + "' does not end at its size");
     inputs[name] = std::move(bytes);
   }
-  if (!in.eof()) throw std::runtime_error(path.string() + ": no NAME SIZE after input '" + name + "'");
+  if (!in.eof())
+    throw std::runtime_error(path.string() + ": no NAME SIZE after input '" + name + "'");
   return inputs;
 }
 
 /// Writes a pack. @throws std::runtime_error if the file cannot be written.
 inline void write_pack(const std::filesystem::path& path, const Inputs& inputs) {
   std::ofstream out(path, std::ios::binary);
-  for (const auto& [name, bytes] : inputs) out << name << ' ' << bytes.size() << '\n' << bytes << '\n';
+  for (const auto& [name, bytes] : inputs)
+    out << name << ' ' << bytes.size() << '\n' << bytes << '\n';
   if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::heightfield::testing {
 

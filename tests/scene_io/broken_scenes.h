@@ -106,7 +106,8 @@ class BrokenSceneTable {
     if (is_base_) {
       bases_[name_] = text_;
     } else {
-      if (fragments_.empty() != is_part) fail("'" + name_ + "': a scene needs fragments, a part has none");
+      if (fragments_.empty() != is_part)
+        fail("'" + name_ + "': a scene needs fragments, a part has none");
       scenes_.push_back({is_part ? name_ : name_ + ".sdf", text_, fragments_});
     }
     name_.clear(), added_.clear(), has_added_ = false, edits_.clear(), fragments_.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loader refuses every scene of broken_scenes.txt with all the fragments that the table lists for it.
+// The loader refuses every scene of broken_scenes.txt with all the fragments that the table lists
+// for it.
 #include "scene_io/broken_scenes.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ namespace {
 /// Writes the table's scenes into a folder of the test.
 class BrokenScenes : public ::testing::Test {
  protected:
-  BrokenScenes() : table_(std::filesystem::path(source_dir()) / "tests/scene_io/broken_scenes.txt") {
+  BrokenScenes()
+      : table_(std::filesystem::path(source_dir()) / "tests/scene_io/broken_scenes.txt") {
     table_.write(folder_.path());
   }
 
@@ -48,9 +50,12 @@ TEST_F(BrokenScenes, EachIsRefusedWithFileLineElementValueAndRule) {
       messages += fault.text() + "\n";
     }
     EXPECT_TRUE(refused);
-    EXPECT_NE(messages.find(folder_.path().string()), std::string::npos) << "no file named in:\n" << messages;
+    EXPECT_NE(messages.find(folder_.path().string()), std::string::npos) << "no file named in:\n"
+                                                                         << messages;
     for (const std::string& fragment : scene.fragments)
-      EXPECT_NE(messages.find(fragment), std::string::npos) << "'" << fragment << "' not found in:\n" << messages;
+      EXPECT_NE(messages.find(fragment), std::string::npos)
+          << "'" << fragment << "' not found in:\n"
+          << messages;
   }
 }
 

@@ -15,7 +15,8 @@ void check_obj_lines(const std::string& path, std::string_view text);
 
 /// Refuses a file. Line 0 means that the fault is not in one line.
 /// @throws InputError with the rule and the remedy, always.
-[[noreturn]] void refuse_obj(const std::string& path, int line, std::string_view value, const std::string& rule,
+[[noreturn]] void refuse_obj(const std::string& path, int line, std::string_view value,
+                             const std::string& rule,
                              const std::string& remedy = "export the mesh again");
 
 }  // namespace navvy::geometry
