@@ -5,6 +5,18 @@
 // length of another list. Loading does not trust a length: it is compared with the remaining bytes,
 // and containers of classes grow element by element, so memory use follows the data that is really
 // there.
+//
+// Bytes written for each type:
+//   bool                        one byte, 0 or 1
+//   number, enum                its bytes as in memory (little-endian)
+//   Eigen matrix, quaternion    its numbers in storage order
+//   Pose                        12 doubles: the rotation column by column, then the translation
+//   string, vector, span        length (8 bytes), elements
+//   array, pair                 elements
+//   optional                    flag (one byte), value if there is one
+//   variant                     index of the alternative (4 bytes), its value
+//   map, set                    length (8 bytes), keys in ascending order, each with its value
+//   class with a visit          its fields
 #pragma once
 
 #include <map>

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // State hash: 64-bit FNV-1a over the bytes of plain values, in the order in which they are added.
+//
+//   StateHash hash;
+//   hash.value(step);
+//   hash.bytes(heights.data(), heights.size() * sizeof(float));
+//   log_info(hash.hex());
 #pragma once
 
 #include <cstddef>

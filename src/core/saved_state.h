@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hash, bytes and loading of any object with a `visit(Archive&)`. A class that is visited includes
 // core/archive.h only; this header is for those who call the functions.
+//
+//   const std::vector<char> state = saved(world);
+//   world.step();
+//   load_saved(state, world);  // back to the saved state
+//   hash_of(world).hex();      // equal for equal states
 #pragma once
 
 #include <cstddef>

@@ -25,6 +25,12 @@ class Stopwatch {
 /// Adds its lifetime [s] to a sum, also when an exception leaves the scope. The sum must outlive
 /// it. It measures host time: work queued on a device is not waited for. Laps of one sum must not
 /// nest, or time counts twice.
+///
+///   double rendering = 0;
+///   {
+///     const Lap lap(rendering);
+///     draw(frame);
+///   }
 class Lap {
  public:
   /// Starts the clock; the destructor adds the time to `sum` [s].

@@ -73,6 +73,7 @@ class Mapped {
   }
   /// Returns the values. The span is empty for an empty range, which is not mapped.
   std::span<T> span() const { return view_; }
+  /// Access like a span's; valid until this object is destroyed.
   T* data() const { return view_.data(); }
   std::size_t size() const { return view_.size(); }
   T& operator[](std::size_t i) const { return view_[i]; }
@@ -85,11 +86,7 @@ class Mapped {
   std::span<T> view_;
 };
 
-/// `size()` values of T on one device, without copies if the device shares the host's memory.
-///
-/// New memory is uninitialised. An empty buffer is allowed, also as a kernel's argument. Buffers
-/// are movable, not copyable. `write`, `read` and the maps wait for all work queued before; `fill`,
-/// `resize` and functions named `..._later` do not.
+// Values travel as bytes; headers that both compilers read fix their layout.
 template <class T>
 class Buffer {
   // Values travel as bytes; headers that both compilers read fix the meaning.

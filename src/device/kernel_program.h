@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels built from files of kernels/, and their launches.
+//
+//   Device device;
+//   Buffer<float> heights(device, 1000);
+//   const Program program(device, "example/scale.cl", {define("FACTOR", 2)});
+//   Kernel kernel(program, "scale");
+//   kernel.args(heights, 1000).enqueue(1000);
+//   const std::vector<float> result = heights.read();  // waits for the kernel
 #pragma once
 
 #include <cstddef>
