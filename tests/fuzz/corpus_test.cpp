@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kept inputs of the fuzz targets in the plain build: each goes through without a crash or a
-// broken property.
+// Replays the kept inputs of the fuzz targets in the plain build: none may crash or break a
+// property.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -31,13 +31,13 @@ void replay(const std::string& target, int (*run)(const std::uint8_t*, std::size
   }
 }
 
-TEST(FuzzCorpus, OfWorldGoesThrough) { replay("world", fuzz_world); }
-TEST(FuzzCorpus, OfMachineGoesThrough) { replay("machine", fuzz_machine); }
-TEST(FuzzCorpus, OfSetGoesThrough) { replay("set", fuzz_set); }
-TEST(FuzzCorpus, OfObjGoesThrough) { replay("obj", fuzz_obj); }
-TEST(FuzzCorpus, OfTerrainGoesThrough) { replay("terrain", fuzz_terrain); }
-TEST(FuzzCorpus, OfNpyGoesThrough) { replay("npy", fuzz_npy); }
-TEST(FuzzCorpus, OfLandXmlGoesThrough) { replay("landxml", fuzz_landxml); }
+TEST(FuzzCorpus, WorldReplaysWithoutFailure) { replay("world", fuzz_world); }
+TEST(FuzzCorpus, MachineReplaysWithoutFailure) { replay("machine", fuzz_machine); }
+TEST(FuzzCorpus, SetReplaysWithoutFailure) { replay("set", fuzz_set); }
+TEST(FuzzCorpus, ObjReplaysWithoutFailure) { replay("obj", fuzz_obj); }
+TEST(FuzzCorpus, TerrainReplaysWithoutFailure) { replay("terrain", fuzz_terrain); }
+TEST(FuzzCorpus, NpyReplaysWithoutFailure) { replay("npy", fuzz_npy); }
+TEST(FuzzCorpus, LandXmlReplaysWithoutFailure) { replay("landxml", fuzz_landxml); }
 
 TEST(FuzzPack, GivesBackWhatWasPacked) {
   const test::Folder folder;

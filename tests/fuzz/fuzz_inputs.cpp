@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings what the fuzz targets start from into folders, as libFuzzer reads it, and back. `./dev
-// fuzz` calls it.
+// Writes the inputs of packs and the broken scenes into folders, as libFuzzer reads them, and packs
+// folders again. Called by `./dev fuzz`.
 #include <iostream>
 
 #include "fuzz/pack.h"

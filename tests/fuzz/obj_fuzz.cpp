@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an OBJ file: refused with InputError, or a mesh that all of geometry can take.
+// Takes bytes as an OBJ file: the reader refuses it with InputError, or all of geometry can handle
+// the mesh.
 #include <sys/mman.h>
 #include <unistd.h>
 
