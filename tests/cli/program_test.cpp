@@ -153,8 +153,8 @@ TEST_F(Program, ReportsBadInputByStatusAndMessage) {
   EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
 }
 
-// Faults that scene_io's corpus (tests/scene_io/broken) cannot hold, as they show only with the
-// ground laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
+// Faults that scene_io's table (broken_scenes.txt) cannot hold, as they show only with the ground
+// laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
 // broken/NAME.txt.
 TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   int files = 0;

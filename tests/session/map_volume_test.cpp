@@ -127,7 +127,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     EXPECT_GE(lying_volume, 0.88 * lies / loam.bank_density);
     EXPECT_LE(lying_volume, 1.001 * loam.swell * lies / loam.bank_density);
 
-    const record::Earthwork earth = record::measure_earthwork(world);
+    const record::Earthwork earth = record::measure_earthwork(world, active.lying);
     EXPECT_GE(earth.loose_volume, 0);
     EXPECT_GE(earth.bank_volume, 0);
     // A twentieth of a cell a column is left out of the sums of earthwork: at most so much of what

@@ -7,7 +7,7 @@
 // up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to
 // the tile one offset after the other. Cells of one offset share no node, so nothing is atomic.
 // Particles are taken in stored order, cell by cell: sums repeat bit for bit. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// src/soil/particles/particle_to_grid.cpp. Reference: tests/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {

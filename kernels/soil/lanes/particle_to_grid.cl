@@ -8,7 +8,7 @@
 // [kg]) of the nodes
 //      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
 // One work-item per home block; particles in stored order, so sums repeat bit for bit. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// src/soil/particles/particle_to_grid.cpp. Reference: tests/soil/reference/reference_solver.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/lanes/opening.h"
 #include "soil/point.h"
