@@ -54,7 +54,7 @@ NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
     : soil_(soil),
       cell_(static_cast<float>(cell)),
       ground_(static_cast<float>(ground)),
-      transfer_length_(soil::kTransferLength * cell / soil::sound_speed(soil)),
+      transfer_length_(soil::kScheme.transfer_length * cell / soil::sound_speed(soil)),
       sums_(kCells),
       openings_(kCells) {}
 
@@ -186,7 +186,7 @@ bool NativeSoil::sum_openings(const Home& home) {
 void NativeSoil::scatter(const Home& home, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
-  const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
+  const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::kScheme.mixing_strain);
   const auto most = static_cast<float>(soil::most_mixing(static_cast<double>(dt)));
   const bool open = sum_openings(home);
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
@@ -242,7 +242,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   std::size_t n = 0;
   for (int z = 0; z < nodes_[2]; ++z) {
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
-    const bool held = above <= static_cast<float>(soil::kHeldMargin);
+    const bool held = above <= static_cast<float>(soil::kScheme.held_margin);
     const float room = 1 / room_above(above);
     for (std::size_t end = n + row_ * rows_; n < end; ++n) {
       Float4 node = grid_[n];
@@ -266,9 +266,9 @@ float NativeSoil::gather(const Home& home, float dt) {
   const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, cell));
   const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, cell));
-  const auto closing = static_cast<float>(soil::closing_share() * part);
-  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
-  const auto most = static_cast<float>(soil::farthest_apart() * part);
+  const auto closing = static_cast<float>(soil::kScheme.closing_share * part);
+  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::kScheme.crowding_strain);
+  const auto most = static_cast<float>(soil::kScheme.max_crowding_displacement * part);
   const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {

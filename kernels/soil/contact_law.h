@@ -5,6 +5,7 @@
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 #define NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 
+#include "soil/scheme_constants.h"
 #include "soil/tool.h"
 
 // See REACH_FIELDS of tool.h.
@@ -44,8 +45,8 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
 // tuned: `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node; under a plate one
 // that stands off by a quarter of a cell holds 0.8, and 0.9 counts as full.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
-  const scalar under = fmax(down, 0.0f), full = contact_unit(1.5f * fill), near = contact_near(clearance, r);
-  const scalar no_room = full * (1.0f - under) + contact_unit(4.0f * fill - 2.6f) * under;
+  const scalar under = fmax(down, 0.0f), full = contact_unit(SCHEME(contact_full) * fill), near = contact_near(clearance, r);
+  const scalar no_room = full * (1.0f - under) + contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
   const scalar holds = near + (1.0f - near) * no_room;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
@@ -69,7 +70,7 @@ INLINED scalar contact_area(scalar clearance, scalar inset, const Reach* r) {
 
 // Share of the area that soil touches: its mass over what a full node would hold in its room. Soil at its loose density
 // touches everywhere.  tuned: none; 0.75 = 1 / 1.33, a large swell.
-INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * (scalar)(1.0 / 0.75)); }
+INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * SCHEME(contact_touch)); }
 
 // What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push [N s]. It holds in shear only and
 // ends with the contact: soil on tools carries no tension, so there is nothing to pull at [docs/tools.md, adhesion].

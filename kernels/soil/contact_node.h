@@ -29,7 +29,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
+  const float room = fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);

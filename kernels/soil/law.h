@@ -47,10 +47,6 @@ typedef struct LawState {
 #undef STATE_REAL
 #undef STATE_REALS
 
-#define MOST_OPEN 100.0f      // J at most [docs/soil.md, opening]
-#define RESTING_TIME 10.0f    // 1 / shear rate at which the static share is gone [s] [docs/soil.md, static friction]
-#define VOLUME_DAMPING 10.0f  // viscosity of closed soil's volume / that of its shear [docs/soil.md, viscosity]
-
 // Radius of the yield surface / that in plane strain, of the deviator's determinant and q: r of a r^3 - r^2 + 1 = 0
 // [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first written out; 2 / sqrt(27) is the
 // invariant's bound.
@@ -88,14 +84,14 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // Pressure from the tracked volume; opened soil has none [Dunatunga 2015] [docs/soil.md, opening].
   // A floor far below any real state: p stays finite. A ceiling far above any load that is thrown: a crumb that hangs
   // at a plate opens without end, and its cell with it by mixing.
-  j = fmin(fmax(j * (1.0f + dt * trace), (scalar)(0.2)), MOST_OPEN);
+  j = fmin(fmax(j * (1.0f + dt * trace), SCHEME(min_volume_ratio)), SCHEME(max_volume_ratio));
 #ifdef LAW_EXTENDED
   // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again
   // [docs/soil.md, compaction].
   const real line = 1.0f + soil->cap_growth * (1.0f - j0);
   const real over = fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
   const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
-  j0 = fmax(j0 - over / slope, fmin(j0, (scalar)(DENSEST_STATE)));
+  j0 = fmax(j0 - over / slope, fmin(j0, SCHEME(min_density_state)));
 #endif
   const real open = j / j0 - 1.0f;
   const real p = soil->bulk * fmax(-open, 0.0f);
@@ -119,7 +115,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real q = sqrt(0.5f * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
   const real determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   real strength = lode_radius(determinant, q, sin_phi) *
-                  (1.0f + soil->static_share * fmax(1.0f - rate * RESTING_TIME, 0.0f));
+                  (1.0f + soil->static_share * fmax(1.0f - rate * SCHEME(static_friction_time), 0.0f));
 #ifdef LAW_EXTENDED
   strength = strength * (1.0f + soil->matched * dense);
 #endif
@@ -149,7 +145,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // Viscosity where the step was elastic, and on the volume of closed soil: only in the stress that the grid feels,
   // yield has asked the pressure without it [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
-  const real damped = fmax(pressure - VOLUME_DAMPING * soil->viscosity * trace, 0.0f);
+  const real damped = fmax(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);
   const real felt = pressure > 0.0f ? damped : pressure;
   sigma[0] = s[0] + eta2 * dxx - felt;
   sigma[1] = s[1] + eta2 * dyy - felt;

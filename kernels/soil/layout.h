@@ -10,6 +10,7 @@
 
 #include "soil/law_constants.h"
 #include "soil/particle_fields.h"
+#include "soil/scheme_constants.h"
 
 #define NAVVY_LANES 16
 
@@ -17,9 +18,6 @@
 
 #define TILE_NODES 516  // 512 and a pad row end: a float16 read of the last row stays inside; not a power of two
 #define BLOCK_NODES 64
-
-// Densest state that soil is pressed into, and that columns take from particles (a tighter clamp creates volume).
-#define DENSEST_STATE 0.88
 
 #ifdef __cplusplus
 #include <cstddef>

@@ -10,8 +10,6 @@
 
 #include "soil/layout.h"
 
-#define LEAST_ROOM 0.25f  // a sliver tells nothing
-
 // Share of the quadratic B-spline of a node that lies on its side of a plane t cells away (t < 0: node behind it).
 INLINED columns kernel_share(columns t) {
   const columns a = clamp(t, -0.5f, 0.5f);
@@ -21,9 +19,10 @@ INLINED columns kernel_share(columns t) {
 }
 
 // The same for a node whose four columns end `below` cells under it (or above, when negative), on its side of a plate
-// `beside` cells away. Never less than LEAST_ROOM.
+// `beside` cells away. Never less than
+// SCHEME(min_free_fraction).
 INLINED scalar room_between(columns below, scalar beside) {
-  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))), LEAST_ROOM);
+  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))), SCHEME(min_free_fraction));
 }
 
 INLINED scalar room_above(columns below) { return all(below >= 1.5f) ? 1.0f : room_between(below, 1.5f); }

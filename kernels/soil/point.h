@@ -86,15 +86,13 @@ INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar ful
   return fmin(j, j0) > packed ? fmin(spread * strain_rate(c), 1.0f) : 0.0f;
 }
 
-#define NOISE_OPENS 1.1f  // J / J0 up to which noise opens soil; what is thrown apart opens further
-
 // J of a particle that is open while its nodes hold a closed soil's mass: the flow's noise opens soil that lies closed,
 // and would take its cohesion. It closes by a share of the way to the density state, where soil bears no pressure yet,
 // so that it costs and gives no energy [docs/soil.md, opening]. filled: mass of a node that counts as closed at J = 1
 // [kg].
 INLINED real seen_opening(real j, real j0, real node_mass, scalar filled, scalar share) {
   const real closing = j + share * (j0 - j);
-  return j > j0 && j < NOISE_OPENS * j0 && node_mass * j0 >= filled ? closing : j;
+  return j > j0 && j < SCHEME(max_closing_ratio) * j0 && node_mass * j0 >= filled ? closing : j;
 }
 
 // Way apart along an axis [cells], away from where the nodes hold more. lean: their mass times their place along it,

@@ -40,10 +40,6 @@ typedef struct SideResult {
   int crossed;
 } SideResult;
 
-// How far behind a plate a particle can be that has not been counted as a crossing [cells]: a transfer's way of its own
-// and of the tool, 0.2 each, after a push that left as much; a tenth for rounding.
-#define FARTHEST_BEHIND 0.7f
-
 // The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
 // plate comes back to its surface. One that seems farther behind than it can be came to another plate of the tool,
 // which shows it its other face (plates that meet in a T), and lies where it lies.
@@ -63,7 +59,7 @@ static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature
   const bool behind_before = (old_side & 1) == 0;
   const bool same_tool = old_side > 0 && (old_side - 1) / 2 == tool;
   if (!rim && fabs(phi) < band) {
-    const bool other_plate = (phi < 0.0f) != behind_before && fabs(phi) > FARTHEST_BEHIND;
+    const bool other_plate = (phi < 0.0f) != behind_before && fabs(phi) > SCHEME(contact_max_depth);
     out.side = same_tool && !other_plate ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
     const float s = (out.side & 1) == 0 ? -1.0f : 1.0f;
     const float depth = tools[tool].half_thickness - s * phi;

@@ -26,6 +26,7 @@
 #include "lab/sweep.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
+#include "soil/scheme.h"
 
 namespace navvy::cli {
 namespace {
@@ -108,6 +109,7 @@ int list_rigs() {
   std::puts(
       "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` draws it in words.\n");
   for (const lab::Rig& rig : lab::rigs()) std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+  std::puts("\n`navvy lab constants` lists the constants of the particle scheme, which --set scheme.NAME=VALUE changes.");
   return kOk;
 }
 
@@ -134,6 +136,39 @@ scene::Soil shipped_soil(const std::string& name) {
                 names.empty() ? "set NAVVY_DATA_DIR" : did_you_mean(names, name));
 }
 
+const std::string kSchemePrefix = "scheme.";
+
+bool is_scheme_setting(const std::string& setting) {
+  return setting.rfind(kSchemePrefix, 0) == 0;
+}
+
+/// The number that a setting gives. All of the text must be the number: 0.02m is a mistake.
+double number_of(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data(), end, number);
+  if (failed != std::errc() || stop != end)
+    throw refused("--set " + name, text, "must be a number", "");
+  return number;
+}
+
+/// Sets a constant of the particle scheme: "scheme.NAME=VALUE".
+void set_constant(soil::SchemeConstants& scheme, const std::string& setting) {
+  const auto [name, text] = scene_io::parse_setting(setting);
+  soil::set_scheme_constant(scheme, name.substr(kSchemePrefix.size()), number_of(name, text));
+}
+
+/// Prints the constants of the particle scheme: name, default, unit, range, description.
+int list_constants() {
+  std::puts("Constants of the particle scheme; `navvy lab RIG --set scheme.NAME=VALUE` changes one.\n");
+  for (const soil::SchemeConstant& row : soil::scheme_constants()) {
+    std::printf("  %-28s %-10s %-18s %s .. %s\n", row.name, lab::short_text(row.standard()).c_str(), row.unit,
+                lab::short_text(row.low).c_str(), lab::short_text(row.high).c_str());
+    std::printf("      %s\n", row.help);
+  }
+  return kOk;
+}
+
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& setting) {
   const auto [name, text] = scene_io::parse_setting(setting);
@@ -141,15 +176,11 @@ void set_value(scene::Soil& soil, const std::string& setting) {
   for (const scene::SoilValue& value : scene::soil_values()) {
     names.emplace_back(value.name);
     if (name != value.name) continue;
-    double number = 0;
-    const char* end = text.data() + text.size();
-    // All of the text must be the number: 0.02m is a mistake.
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || stop != end) throw refused("--set " + name, text, "must be a number", "");
-    soil.*value.value = number * value.factor;
+    soil.*value.value = number_of(name, text) * value.factor;
     return;
   }
-  throw refused("--set", name, "a number of a soil, by its name in scene files", did_you_mean(names, name));
+  throw refused("--set", name, "a number of a soil, by its name in scene files, or scheme.NAME",
+                did_you_mean(names, name));
 }
 
 /// The value given for an option in SI units; kNone when it was not given.
@@ -174,7 +205,8 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   }
   for (const SoilOption& option : options.soil_values)
     if (option.value != nullptr && !option.given.empty()) soil.*option.value = option.given.front() * option.factor;
-  for (const std::string& setting : options.settings) set_value(soil, setting);
+  for (const std::string& setting : options.settings)
+    if (!is_scheme_setting(setting)) set_value(soil, setting);
   const auto is_set = [&](const std::string& name) {
     return std::any_of(options.settings.begin(), options.settings.end(),
                        [&](const std::string& setting) { return setting.rfind(name, 0) == 0; });
@@ -231,6 +263,8 @@ Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
 lab::Setup setup_of(const LabOptions& options, const lab::Rig& rig, device::Device& device) {
   lab::Setup setup = lab::default_setup(rig, device);
   setup.soil = chosen_soil(options, setup.soil);
+  for (const std::string& setting : options.settings)
+    if (is_scheme_setting(setting)) set_constant(setup.scheme, setting);
   if (!options.cell.empty()) setup.cell = options.cell.front();
   lab::set_written(setup, options.geometry);
   setup.energy = options.energy;
@@ -345,8 +379,9 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->group("Soil");
   command
       ->add_option("--set", options->settings,
-                   described("NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02; "
-                             "repeatable"))
+                   described("NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02, or a "
+                             "constant of the particle scheme, as scheme.mixing_strain=0.05 (`navvy lab constants` "
+                             "lists them); repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
       ->delimiter(',')
@@ -381,6 +416,9 @@ void add_lab(CLI::App& app, Action& action) {
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
+  command->add_subcommand("constants", "list the constants of the particle scheme")->callback([&action] {
+    action = [] { return list_constants(); };
+  });
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();

@@ -12,6 +12,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "scene/soil_values.h"
+#include "soil/scheme.h"
 
 namespace navvy::cli {
 namespace {
@@ -57,6 +58,9 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
   inputs["cell_m"] = setup.cell;
+  // Only what the experiment changed: the defaults follow from the version.
+  for (const soil::SchemeConstant& row : soil::scheme_constants())
+    if (setup.scheme.*row.value != row.standard()) inputs["scheme"][row.name] = setup.scheme.*row.value;
   for (const lab::Parameter& p : rig.parameters) inputs["geometry"][key(p.name, p.unit)] = setup[p.name];
   for (const lab::Quantity& q : report.results) {
     const std::string name = key(q.name, q.unit);

@@ -10,6 +10,7 @@
 #include "lab/parameter.h"
 #include "lab/report.h"
 #include "scene/soil.h"
+#include "soil/scheme_constants.h"
 
 namespace navvy::device {
 class Device;
@@ -26,6 +27,7 @@ struct Setup {
   scene::Soil soil;
   double cell = 0.1;                           ///< [m]
   std::map<std::string, double> geometry;      ///< by Parameter::name
+  soil::SchemeConstants scheme;                ///< of the particle method; defaults unless an experiment changes one
   bool energy = false;                         ///< the report shall tell the soil's energy, which takes time
   std::function<void(double share)> progress;  ///< called now and then with 0 .. 1; may be empty
 

@@ -26,8 +26,9 @@ scene::Scene make_world(std::vector<scene::Soil> soils, double cell, const SiteO
   return world;
 }
 
-SiteOptions with_step(SiteOptions options, double courant) {
-  options.courant = courant;
+SiteOptions with_setup(SiteOptions options, const Setup& setup) {
+  options.courant = setup["courant"];
+  options.scheme = setup.scheme;
   return options;
 }
 
@@ -79,7 +80,8 @@ Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, 
       world_(make_world(std::move(soils), cell, options)),
       ground_(make_ground(world_, options)),
       crowding_(options.crowding),
-      energy_(options.energy) {
+      energy_(options.energy),
+      scheme_(options.scheme) {
   make_solver();
 }
 
@@ -87,7 +89,7 @@ Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell, 
 Site::Site(const Setup& setup, const SiteOptions& options) : Site(setup, {setup.soil}, options) {}
 
 Site::Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions& options)
-    : Site(*setup.device, std::move(soils), setup.cell, with_step(options, setup["courant"])) {
+    : Site(*setup.device, std::move(soils), setup.cell, with_setup(options, setup)) {
   progress_ = setup.progress;
   energy_ = energy_ || setup.energy;
   solver_->keep_energy(energy_);
@@ -95,7 +97,7 @@ Site::Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions
 
 void Site::make_solver() {
   // Tools first exist in the solver: their numbers are the order in which they are added, here as before.
-  solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_);
+  solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_, scheme_);
   for (const scene::Shell& shell : shells_) solver_->add_tool(shell);
   solver_->set_crowding(crowding_);
   solver_->keep_energy(energy_);

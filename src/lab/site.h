@@ -36,6 +36,7 @@ struct SiteOptions {
   bool crowding = true;                               ///< crowded particles are moved apart [docs/soil.md, crowding]
   double courant = 0.5;                               ///< share of cell / sound speed
   bool energy = false;                                ///< keeps an account of it, for the report
+  soil::SchemeConstants scheme;                       ///< of the particle method
 };
 
 /// The least whole number of cells that holds `length`, as a length [m]; a billionth of a cell is rounding.
@@ -129,6 +130,7 @@ class Site {
   scene::Scene world_;
   heightfield::Ground ground_;
   bool crowding_, energy_;
+  soil::SchemeConstants scheme_;
   soil::EnergyAccount energy_before_;  ///< of solvers that were replaced
   std::unique_ptr<soil::Solver> solver_;
   std::vector<scene::Shell> shells_;

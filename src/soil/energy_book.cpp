@@ -63,8 +63,9 @@ int EnergyBook::Words::bits(int field, std::size_t slot) const {
   return std::bit_cast<int>(values[static_cast<std::size_t>(field) * capacity + slot]);
 }
 
-EnergyBook::EnergyBook(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity)
-    : soils_(soil_table(soils, cell)), cell_(cell), gravity_(gravity) {}
+EnergyBook::EnergyBook(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,
+                       const SchemeConstants& scheme)
+    : soils_(soil_table(soils, cell, scheme)), scheme_(scheme), cell_(cell), gravity_(gravity) {}
 
 EnergyBook::Words EnergyBook::words_of(const ParticleStore& store) {
   Words out;
@@ -135,7 +136,7 @@ void EnergyBook::book_law(const ParticleStore& store, const Words& now, double d
     const auto viscosity = static_cast<double>(soil.viscosity);
     if (!(slip > 0)) account_.viscous += dt * volume * 2 * viscosity * dot_of(d, d);
     const double p = static_cast<double>(soil.bulk) * std::max(0.0, 1 - j / j00);
-    const double felt = std::max(p - static_cast<double>(VOLUME_DAMPING) * viscosity * trace, 0.0);
+    const double felt = std::max(p - scheme_.volume_damping * viscosity * trace, 0.0);
     if (p > 0) account_.viscous += dt * volume * (p - felt) * trace;
     // A way that no velocity went.
     for (int a = 0; a < 3; ++a) {

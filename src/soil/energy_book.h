@@ -19,7 +19,8 @@ namespace navvy::soil {
 
 class EnergyBook {
  public:
-  EnergyBook(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity);
+  EnergyBook(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,
+             const SchemeConstants& scheme = kScheme);
 
   /// Before a step's kernels are queued, with at least one particle. `hold`: not the first step of a transfer.
   void begin_step(const ParticleStore& store, bool hold);
@@ -57,6 +58,7 @@ class EnergyBook {
                   std::span<const ToolImpulse> impulses);
 
   std::vector<SoilRow> soils_;
+  SchemeConstants scheme_;
   double cell_;
   Vec3 gravity_;
   EnergyAccount account_;

@@ -56,10 +56,10 @@ Particle at_rest(const Vec3& grid, int soil, double swell) {
 void Solver::fill(int tool, const Pose& X_WT, int soil, double mass) {
   State& s = *state_;
   const scene::Soil& kind = s.world.soils.at(static_cast<std::size_t>(soil));
-  const double each = kind.bank_density / kind.swell * std::pow(kSpacing * s.cell, 3);
+  const double each = kind.bank_density / kind.swell * std::pow(kSpacing * s.frame.cell, 3);
   auto wanted = static_cast<std::size_t>(std::max(1.0, std::round(mass / each)));
   std::vector<Particle> load;
-  for (const std::vector<Vec3>& level : levels_inside(s.contact.geometry(tool), X_WT, s.origin, s.cell)) {
+  for (const std::vector<Vec3>& level : levels_inside(s.contact.geometry(tool), X_WT, s.frame.origin, s.frame.cell)) {
     // The last level is spread evenly.
     const std::size_t n = std::min(level.size(), wanted - load.size());
     for (std::size_t i = 0; i < n; ++i) load.push_back(at_rest(level[i * level.size() / n], soil, kind.swell));

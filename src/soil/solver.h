@@ -16,6 +16,7 @@
 #include "soil/exchange/footing.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
+#include "soil/scheme_constants.h"
 #include "soil/tools/tool_motion.h"
 
 namespace navvy {
@@ -53,7 +54,8 @@ struct SolverStats {
 class Solver {
  public:
   /// @throws InputError for absurd soil, device::DeviceError with the build log.
-  Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground);
+  Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground,
+         const SchemeConstants& scheme = kScheme);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

@@ -40,7 +40,7 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
   for (const Vec3& v : shell.vertices) {
     const Vec3 p = motion.X_WT * v;
     const double depth = ground.datum() - p.z();
-    if (depth <= kDeepestInRock * cell) continue;
+    if (depth <= kDeepestInRock * frame.cell) continue;
     const Vec2i column = ground.column_at(p.x(), p.y());
     if (!ground.contains(column.x(), column.y())) continue;
     if ((motion.v_WT + motion.w_WT.cross(motion.X_WT.linear() * v)).norm() < kMoving) continue;
@@ -50,9 +50,9 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
 }
 
 void Solver::State::fail(double speed) const {
-  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / cell) +
+  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / frame.cell) +
                       " cells in one step (" + std::to_string(speed) + " m/s)";
-  for (const Particle& p : store.records()) {
+  for (const Particle& p : particles.store().records()) {
     double sum = 0, fastest = 0;
     for (const float v : p.v) fastest = std::max(fastest, static_cast<double>(std::abs(v)));
     for (const float v : p.x) sum += v;

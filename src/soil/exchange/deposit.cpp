@@ -197,7 +197,7 @@ double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& pla
 // At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared out.
 void Depositor::book_column(int ix, int iy) {
   for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
-    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
+    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell, densest_);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
@@ -223,7 +223,7 @@ void Depositor::book(const Plan& plan, int block) {
   const std::vector<SoilShare> found = soil_shares(index_, pooled);
   const double rise = crowding(found, plan);
   for (const SoilShare& share : found)
-    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, rise), share.mass, columns);
+    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_, rise), share.mass, columns);
 }
 
 }  // namespace navvy::soil

@@ -40,9 +40,11 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, st
 /// that makes a wall with its neighbours, not a spike of loose soil.
 class Depositor {
  public:
-  /// Both must outlive it. The index is of the particles as they are before anything is deposited; the ground changes
-  /// under it, which its piles do not follow.
-  Depositor(heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
+  /// Ground and index must outlive it. The index is of the particles as they are before anything is
+  /// deposited; the ground changes under it, which its piles do not follow. `densest`: lowest density
+  /// state that columns take.
+  Depositor(heightfield::Ground& ground, const ColumnIndex& index, double densest)
+      : ground_(ground), index_(index), densest_(densest) {}
 
   /// Deposits those of `blocks`, entries of the index, that are not hollow, and returns them. A hollow one waits until
   /// it has stood for 5 s; then its overhang or void, which columns cannot show, is booked as fallen in. All shapes are
@@ -69,6 +71,7 @@ class Depositor {
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;
+  double densest_;
 };
 
 }  // namespace navvy::soil

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "soil/layout.h"
-
 namespace navvy::soil {
 namespace {
 
@@ -39,12 +37,12 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std
   return out;
 }
 
-heightfield::Layer layer_of(const SoilShare& share, double swell, double rise) {
+heightfield::Layer layer_of(const SoilShare& share, double swell, double densest, double rise) {
   const double mass = static_cast<double>(share.mass);
   heightfield::Layer layer;
   layer.soil = share.soil;
   // The clamp is wide on purpose: a tighter one turns noise into volume [docs/exchange.md, decisions].
-  double state = std::clamp(share.volume / mass, DENSEST_STATE, swell);
+  double state = std::clamp(share.volume / mass, densest, swell);
   if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
   layer.specific_volume = static_cast<float>(state);
   layer.plastic_shear = static_cast<float>(share.shear / mass);

@@ -20,9 +20,10 @@ struct SoilShare {
 /// One entry a soil of `grains`, entries of the index, in the order of mean height from below.
 std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std::uint32_t> grains);
 
-/// The soil's layer, still without mass: density state and plastic shear are the mass means, the state within
-/// 0.88 .. swell. `rise`: how much its state stands over the room that it has, 1 where nothing is crowded.
-heightfield::Layer layer_of(const SoilShare& share, double swell, double rise = 1);
+/// Returns the soil's layer, still without mass. Density state and plastic shear are the mass means,
+/// the state limited to `densest` .. swell. `rise`: volume in the density state / volume that the
+/// soil has, 1 where nothing is crowded.
+heightfield::Layer layer_of(const SoilShare& share, double swell, double densest, double rise = 1);
 
 /// A column and its share of what is booked, in whole numbers.
 struct SharedColumn {

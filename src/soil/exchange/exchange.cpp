@@ -42,7 +42,7 @@ PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan:
 // Everything that lasts, and the parts that work on it. The order of the members is that of construction: the waker and
 // the table need the grid and the ground.
 struct Exchange::State {
-  State(const scene::Scene& world, heightfield::Ground& ground_in)
+  State(const scene::Scene& world, heightfield::Ground& ground_in, const SchemeConstants& scheme)
       : ground(ground_in),
         grid(plan_grid(world, ground_in)),
         waker(ground_in, grid, -world.gravity.z()),
@@ -52,6 +52,7 @@ struct Exchange::State {
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
         awake_zone(world.solver.awake_zone),
+        densest(scheme.min_density_state),
         seen(ground_in.sequence()) {}
 
   // Whether the motion rule must leave a column alone, because its block was booked back within the last second. Where
@@ -82,6 +83,7 @@ struct Exchange::State {
   Slump slump;
   std::size_t max_particles;
   double awake_zone;
+  double densest;  // lowest density state of a layer
 
   // What lasts from check to check. It is saved and hashed, together with `standing` and `slump`; the rest follows from
   // the scene.
@@ -93,8 +95,8 @@ struct Exchange::State {
   bool over_budget = false;
 };
 
-Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground)
-    : state_(std::make_unique<State>(world, ground)) {}
+Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground, const SchemeConstants& scheme)
+    : state_(std::make_unique<State>(world, ground, scheme)) {}
 Exchange::~Exchange() = default;
 
 bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const {
@@ -245,7 +247,7 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
   std::set<PlanKey> done;
-  for (const int b : Depositor(ground, index).deposit(ready, rest)) {
+  for (const int b : Depositor(ground, index, densest).deposit(ready, rest)) {
     const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
     // Flagged, not erased: the solver compacts its arrays itself.
     for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
@@ -278,7 +280,7 @@ bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const To
                                     std::span<const FootingPlace> footings, double time, Result& result) {
   if (footings.empty() || index.particles().empty()) return false;
   std::set<PlanKey> blocks;
-  result.footing_columns = FootingDeposit(ground, index, zones).deposit(footings, result.removed, blocks);
+  result.footing_columns = FootingDeposit(ground, index, zones, densest).deposit(footings, result.removed, blocks);
   // What moves beside a wheel does not wake at once what was booked under it.
   for (const PlanKey& block : blocks) deposited[block] = time;
   return result.footing_columns > 0;

@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "soil/exchange/footing.h"
 #include "soil/particles/particle.h"
+#include "soil/scheme_constants.h"
 #include "soil/tools/tool_motion.h"
 
 namespace navvy {
@@ -30,7 +31,8 @@ class Exchange {
   /// The ground must outlive it. Neither the world nor the ground's columns are changed by it. `max_particles` and the
   /// way steep ground is treated are taken from the world. @throws InputError when particles of these soils would be
   /// too heavy.
-  Exchange(const scene::Scene& world, heightfield::Ground& ground);
+  Exchange(const scene::Scene& world, heightfield::Ground& ground,
+           const SchemeConstants& scheme = kScheme);
   ~Exchange();
 
   /// What one check did. The counts are for progress and telemetry; the mass moved is in the ground and in these lists.

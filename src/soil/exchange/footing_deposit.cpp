@@ -118,7 +118,7 @@ int FootingDeposit::deposit(std::span<const FootingPlace> footings, std::vector<
   int count = 0;
   for (const Booking& booking : bookings) {
     for (const SoilShare& share : soil_shares(index_, booking.grains))
-      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell), share.mass, booking.columns);
+      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_), share.mass, booking.columns);
     for (const std::uint32_t i : booking.grains) removed[i] = 1;
     for (const SharedColumn& column : booking.columns) blocks.insert(index_.grid().block_of(column.ix, column.iy));
     count += static_cast<int>(booking.columns.size());

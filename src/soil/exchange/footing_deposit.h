@@ -30,9 +30,11 @@ bool bears_footing(const heightfield::Ground& ground, const ColumnIndex& index, 
 /// the soil under footings, and the columns of their rectangles where any is near.
 class FootingDeposit {
  public:
-  /// All must outlive it. The index is of the particles before anything is deposited.
-  FootingDeposit(heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones)
-      : ground_(ground), index_(index), zones_(zones) {}
+  /// Ground, index and zones must outlive it. The index is of the particles before anything is
+  /// deposited. `densest`: lowest density state that columns take.
+  FootingDeposit(heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
+                 double densest)
+      : ground_(ground), index_(index), zones_(zones), densest_(densest) {}
 
   /// Deposits, footing by footing in their order; a column is the first one's that meets it. What is taken is marked in
   /// `removed`, its blocks are added to `blocks`.
@@ -59,6 +61,7 @@ class FootingDeposit {
   heightfield::Ground& ground_;
   const ColumnIndex& index_;
   std::span<const ToolZone> zones_;
+  double densest_;
   std::map<PlanKey, Stack> stacks_;
 };
 

@@ -21,7 +21,7 @@ BlockFloor Floor::make_patch(int bx, int by) const {
     for (int x = 0; x < 4; ++x) {
       const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)};
       const int node = x + 4 * y;
-      patch.held[node] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
+      patch.held[node] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + held_margin_);
       for (int i = 0; i < 4; ++i) patch.around[node][i] = static_cast<float>(around[i]);
     }
   return patch;

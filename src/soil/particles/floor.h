@@ -13,13 +13,13 @@
 
 namespace navvy::soil {
 
-/// Nodes up to this far above the columns are held too [cells] [docs/soil.md, resting ground].
-inline constexpr double kHeldMargin = 0.25;
-
 /// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
 class Floor {
  public:
-  Floor(const heightfield::Ground& ground, PlanGrid grid) : ground_(&ground), grid_(grid) {}
+  /// `held_margin` [cells]: nodes up to this far above the columns are held, too
+  /// [docs/soil.md, resting ground].
+  Floor(const heightfield::Ground& ground, PlanGrid grid, double held_margin = kScheme.held_margin)
+      : ground_(&ground), grid_(grid), held_margin_(held_margin) {}
 
   /// Brings the list up to date for these active blocks; true when it changed since the last call.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
@@ -32,6 +32,7 @@ class Floor {
 
   const heightfield::Ground* ground_;
   PlanGrid grid_;
+  double held_margin_;
   std::map<std::pair<int, int>, BlockFloor> patches_;  ///< by (bx, by)
   std::uint64_t sequence_ = 0;
   bool first_ = true;

@@ -14,7 +14,7 @@ namespace navvy::soil {
 /// The kernel of kernels/soil/*/grid_to_particle.cl.
 class GridToParticle {
  public:
-  explicit GridToParticle(device::Device& device);
+  explicit GridToParticle(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Takes over which active blocks lie around each home.
   void set_blocks(const BlockTable& table);
@@ -27,6 +27,7 @@ class GridToParticle {
 
  private:
   device::Device& device_;
+  SchemeConstants scheme_;
   device::Program program_;
   device::Kernel kernel_, end_kernel_;
   device::Buffer<std::int32_t> neighbours_;  ///< 27 active indices per home

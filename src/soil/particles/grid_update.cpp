@@ -3,12 +3,13 @@
 
 #include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 
-GridUpdate::GridUpdate(device::Device& device)
+GridUpdate::GridUpdate(device::Device& device, const SchemeConstants& scheme)
     : device_(device),
-      program_(device, kernel_path(device, "grid_update")),
+      program_(device, kernel_path(device, "grid_update"), scheme_options(scheme)),
       far_kernel_(program_, "grid_update"),
       near_kernel_(program_, "grid_update_near") {}
 

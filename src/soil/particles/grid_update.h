@@ -18,7 +18,7 @@ namespace navvy::soil {
 /// The kernels of kernels/soil/*/grid_update.cl and what they write.
 class GridUpdate {
  public:
-  explicit GridUpdate(device::Device& device);
+  explicit GridUpdate(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Takes over the active blocks. `near_slot`: index into the near arrays or -1, one entry per active block.
   void set_blocks(const BlockTable& table, const std::vector<int>& near_slot);

@@ -5,15 +5,9 @@
 #include <cmath>
 
 #include "core/archive.h"
+#include "soil/scheme_constants.h"
 
 namespace navvy::soil {
-
-/// Cells that the fastest particle, or a tool, may go while a transfer holds; weights and near nodes are those of its
-/// start. tuned: `navvy lab throw`. Without it eight steps a transfer spoil thrown soil (volume 0.76 of its state).
-inline constexpr double kMostHeld = 0.2;
-/// Length of a transfer in units of cell / sound speed: four steps at a Courant number of 0.5. A transfer damps short
-/// waves; at a fixed length the damping is one per time, whatever the step.
-inline constexpr double kTransferLength = 2;
 
 /// The transfer that is under way. Solver and double twin ask the same questions of it.
 struct TransferInterval {
@@ -23,13 +17,15 @@ struct TransferInterval {
   double travel = 0;  ///< the same of a tool [cells]
   double speed = 0;   ///< fastest component of a particle's velocity after the last step [m/s]
 
-  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in m/s2.
-  bool holds(double dt, double length, double cell, double tool_speed, double gravity) const {
+  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in m/s2,
+  /// `most_motion` in cells: how far a particle or a tool may go in a transfer.
+  bool holds(double dt, double length, double cell, double tool_speed, double gravity,
+             double most_motion = kScheme.max_transfer_motion) const {
     // Rounded to whole steps: half a step more would be nearer to the length than none.
     if (!open || time + 0.5 * dt >= length) return false;
     // Free fall is the least change of speed that has to be expected.
-    if (motion + dt * (speed + dt * gravity) / cell > kMostHeld) return false;
-    return travel + dt * tool_speed / cell <= kMostHeld;
+    if (motion + dt * (speed + dt * gravity) / cell > most_motion) return false;
+    return travel + dt * tool_speed / cell <= most_motion;
   }
   /// Books a step of dt [s] after which the fastest particle has this speed [m/s].
   void book(double dt, double cell, double fastest, double tool_speed) {

@@ -14,7 +14,7 @@ namespace navvy::soil {
 class ParticleToGrid {
  public:
   /// `extended_law`: see needs_extended_law.
-  ParticleToGrid(device::Device& device, bool extended_law);
+  ParticleToGrid(device::Device& device, bool extended_law, const SchemeConstants& scheme = kScheme);
 
   /// Makes room for this many homes and tiles.
   void set_blocks(std::size_t homes, int tiles);
@@ -27,6 +27,7 @@ class ParticleToGrid {
 
  private:
   device::Device& device_;
+  SchemeConstants scheme_;
   device::Program program_;
   device::Kernel kernel_;
   device::Buffer<float> tiles_;        ///< TILE_NODES float4s a tile: p [kg m/s], m [kg]

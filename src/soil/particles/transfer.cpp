@@ -8,8 +8,11 @@
 
 namespace navvy::soil {
 
-Transfer::Transfer(device::Device& device, bool extended_law)
-    : device_(device), particle_to_grid_(device, extended_law), grid_(device), grid_to_particle_(device) {}
+Transfer::Transfer(device::Device& device, bool extended_law, const SchemeConstants& scheme)
+    : device_(device),
+      particle_to_grid_(device, extended_law, scheme),
+      grid_(device, scheme),
+      grid_to_particle_(device, scheme) {}
 
 void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles) {
   const BlockTable& table = store.table();

@@ -20,7 +20,7 @@ namespace navvy::soil {
 class Transfer {
  public:
   /// `extended_law`: see needs_extended_law.
-  Transfer(device::Device& device, bool extended_law);
+  Transfer(device::Device& device, bool extended_law, const SchemeConstants& scheme = kScheme);
 
   /// Takes over the block lists after a re-bin or a change of the near blocks. `near_slot` has one entry per active
   /// block; `tiles` is what ParticleStore::set_near returned.

@@ -36,7 +36,7 @@ Point from_particle(const Particle& particle);
 /// in the kernels [docs/soil.md, transfer]. No tools of its own. Slow: a map from node to momentum.
 class ReferenceSolver {
  public:
-  /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to soil::kHeldMargin
+  /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to held_margin of the scheme
   /// above it are fixed.
   ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
                   std::function<double(int, int)> ground);

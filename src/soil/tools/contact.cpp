@@ -6,22 +6,28 @@
 #include <iterator>
 
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 namespace {
+
+/// Newton iterations of the two-way solve; contact is piecewise linear, so few are enough.
+constexpr int kSweeps = 3;
 
 /// Scripted tools do not: they have no mobility, and nothing to solve for.
 bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().maxCoeff() > 0; }
 
 }  // namespace
 
-Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity)
+Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
+                 const SchemeConstants& scheme)
     : device_(device),
       cell_(cell),
       origin_(origin_W),
       down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero())),
-      shells_(device),
-      contact_program_(device, kernel_path(device, "contact")),
+      scheme_(scheme),
+      shells_(device, scheme),
+      contact_program_(device, kernel_path(device, "contact"), scheme_options(scheme)),
       sums_kernel_(contact_program_, "contact_sums"),
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
@@ -32,7 +38,7 @@ int Contact::add_tool(const scene::Shell& shell) {
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
   if (!tools_.empty())
     tool.first_triangle = tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
-  tool.area_factor = plate_area_factor(*tool.geometry, settings_, cell_);
+  tool.area_factor = plate_area_factor(*tool.geometry, cell_, scheme_);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
 }
@@ -47,21 +53,21 @@ void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const
 
 void Contact::solve(Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
-  reach_ = {static_cast<float>(settings_.reach),
-            static_cast<float>(settings_.ramp),
-            static_cast<float>(settings_.edge),
-            static_cast<float>(settings_.edge_ramp),
+  reach_ = {static_cast<float>(scheme_.contact_reach),
+            static_cast<float>(scheme_.contact_ramp),
+            static_cast<float>(scheme_.contact_edge),
+            static_cast<float>(scheme_.contact_edge_ramp),
             static_cast<float>(dt * cell_ * cell_),
-            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_)),
-            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_)),
-            static_cast<float>(settings_.falling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_opening * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_settling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_falling * std::sqrt(kGravity * cell_)),
             static_cast<float>(down_.x()),
             static_cast<float>(down_.y()),
             static_cast<float>(down_.z())};
-  // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
+  // Newton on the twist of each tool that yields.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;
-    for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
       twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }

@@ -23,31 +23,17 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Lengths in cells [docs/tools.md, contact shares].
-struct ContactSettings {
-  double band = 2.5;          ///< how far from a shell particles keep a side
-  double reach = 1.0;         ///< h: the share of nodes this far from the plate's face is a half,
-  double ramp = 1.0;          ///< and falls from 1 to 0 over this length about it
-  double edge = 0.6;          ///< the same along the plate, by the way to its free edge: squared,
-  double edge_ramp = 1.0;     ///< from 1 inside to 0 over this length about `edge`
-  double margin = 0.35;       ///< by how much near lists reach farther, so that they last a while
-  double longest_push = 0.2;  ///< position correction per step
-  int sweeps = 3;             ///< of the two-way solve
-  double opening = 0.1;       ///< speed at which soil has let go, in units of sqrt(g cell); only matters to adhesion
-  double settling = 0.05;     ///< speed at which soil comes nearer to a plate that does not advance, in the same units
-  double falling = 0.5;       ///< speed at which a plate falls onto soil through nodes that bear nothing, likewise
-};
-
 /// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
 /// plates with corners, at most 2.
-double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell);
+double plate_area_factor(const ShellGeometry& geometry, double cell, const SchemeConstants& scheme = kScheme);
 
 /// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with its share of the
 /// plate's speed [docs/tools.md, contact shares]. Any number of tools.
 class Contact {
  public:
   /// `gravity` [m/s2] tells which plates lie on soil.
-  Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity);
+  Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
+          const SchemeConstants& scheme = kScheme);
 
   int add_tool(const scene::Shell& shell);
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
@@ -131,7 +117,7 @@ class Contact {
   double cell_;
   Vec3 origin_;
   Vec3 down_;  ///< of length 1, or 0 without gravity
-  ContactSettings settings_;
+  SchemeConstants scheme_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
   ShellQuery shells_;

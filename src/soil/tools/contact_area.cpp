@@ -35,8 +35,8 @@ constexpr double kMostAreaFactor = 2;
 
 }  // namespace
 
-double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell) {
-  const reference::Reach r{settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0, 0, 0, 0, 0};
+double plate_area_factor(const ShellGeometry& geometry, double cell, const SchemeConstants& scheme) {
+  const reference::Reach r{scheme.contact_reach, scheme.contact_ramp, scheme.contact_edge, scheme.contact_edge_ramp, 0, 0, 0, 0, 0, 0, 0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())
     sample_triangle(triangle.corner, 0.25 * cell, [&](const Vec3& p, double area) {

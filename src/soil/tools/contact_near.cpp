@@ -62,7 +62,7 @@ bool Contact::moved_far() const {
     if (tool.present != tool.listed) return true;
     if (!tool.present) continue;
     for (const Vec3& v : tool.geometry->shell().vertices)
-      if ((tool.X * v - tool.X_listed * v).norm() > settings_.margin * cell_) return true;
+      if ((tool.X * v - tool.X_listed * v).norm() > scheme_.contact_margin * cell_) return true;
   }
   return false;
 }
@@ -96,7 +96,7 @@ void Contact::go_on(Transfer& transfer) {
   }
   if (nodes_.count == 0) return;
   upload_tools();
-  shells_.enqueue_nodes(transfer, nodes_, settings_.band);
+  shells_.enqueue_nodes(transfer, nodes_, scheme_.contact_band);
   device_.finish();  // what was uploaded may be replaced by the next step
 }
 
@@ -124,7 +124,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
   // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
-  const double far = settings_.band + settings_.margin;
+  const double far = scheme_.contact_band + scheme_.contact_margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;
     for (const ShellGeometry::Piece& piece : tool.geometry->pieces()) {
@@ -258,7 +258,7 @@ void Contact::upload_tools() {
 
 void Contact::classify(ParticleStore& store, Transfer& transfer) {
   if (nodes_.count == 0) return;
-  shells_.enqueue(store, transfer, nodes_, settings_.band, settings_.longest_push);
+  shells_.enqueue(store, transfer, nodes_, scheme_.contact_band, scheme_.contact_max_push);
 }
 
 // A pose that is none would make boxes of candidates larger than any memory.

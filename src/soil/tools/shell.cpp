@@ -5,12 +5,13 @@
 
 #include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 
-ShellQuery::ShellQuery(device::Device& device)
+ShellQuery::ShellQuery(device::Device& device, const SchemeConstants& scheme)
     : device_(device),
-      program_(device, kernel_path(device, "shell")),
+      program_(device, kernel_path(device, "shell"), scheme_options(scheme)),
       nodes_kernel_(program_, "shell_nodes"),
       particles_kernel_(program_, "shell_particles") {}
 

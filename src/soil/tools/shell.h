@@ -29,7 +29,7 @@ struct CandidateRows {
 /// The kernels of kernels/soil/*/shell.cl, what they read of tools and what they write of near nodes.
 class ShellQuery {
  public:
-  explicit ShellQuery(device::Device& device);
+  explicit ShellQuery(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Which triangles may be near the near active blocks and the near homes, whose indices among homes are `near_homes`.
   void set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
@@ -41,7 +41,8 @@ class ShellQuery {
   /// Queues split, tool and place of near nodes.
   void enqueue_nodes(Transfer& transfer, NearNodes& near, double band);
   /// Queues both kernels: split, tool and place of near nodes, then side and position of particles, with Report.push
-  /// and Report.crossed of near homes. `band`, `longest_push` in cells, see ContactSettings.
+  /// and Report.crossed of near homes. `band`, `longest_push` in cells: contact_band and
+  /// contact_max_push of the scheme.
   void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push);
 
   device::Buffer<Tool>& tools() { return tools_; }

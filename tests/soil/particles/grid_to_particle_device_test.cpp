@@ -77,8 +77,8 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
       const double x = kBlockCells * before[i].block[0] + static_cast<double>(before[i].x[0]) - 40;
       const double y = kBlockCells * before[i].block[1] + static_cast<double>(before[i].x[1]) - 40;
       // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter of a cell.
-      const double mass = 1.2 * full + slope * x, share = std::min(1.0, kStageStep * gradient / crowding_shear());
-      double apart = std::max(-share * 0.25 * slope / mass, -0.25 * farthest_apart());
+      const double mass = 1.2 * full + slope * x, share = std::min(1.0, kStageStep * gradient / kScheme.crowding_strain);
+      double apart = std::max(-share * 0.25 * slope / mass, -0.25 * kScheme.max_crowding_displacement);
       if (static_cast<double>(before[i].j) * mass <= full) apart = 0;
       crowded += apart < 0;
       const double way = kStageStep * gradient * y + apart;
@@ -114,7 +114,7 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
       const bool closes = filled >= 1 && before[i].j == opened[1];
       closed += closes;
       // Stages pass a quarter of a transfer.
-      const double way = closes ? 0.25 * closing_share() * static_cast<double>(opened[1] - state) : 0;
+      const double way = closes ? 0.25 * kScheme.closing_share * static_cast<double>(opened[1] - state) : 0;
       EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), way, 1e-6);
       EXPECT_EQ(after[i].j0, before[i].j0);
     }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Masses that entered and left the particles of a solver, for its ledger.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "heightfield/ground.h"
+#include "soil/particles/particle.h"
+
+namespace navvy {
+class Archive;
+}
+
+namespace navvy::soil {
+
+struct Ledger;
+
+/// What the ledger knows of particles without counting them, in kMassQuantum per soil, and the ids
+/// that they got.
+class MassRecord {
+ public:
+  /// The ground must outlive it. `soils`: how many there are.
+  MassRecord(const heightfield::Ground& ground, std::size_t soils);
+
+  /// Returns an id that no particle had before.
+  std::uint32_t new_id() { return next_id_++; }
+  /// Adds particles that came from outside. @throws std::out_of_range for a soil that is none.
+  void record_inserted(std::span<const Particle> particles);
+  /// Takes away particles that went over the site's edge.
+  void record_left_site(std::span<const Particle> particles);
+  /// Replaces the masses that all particles together must have.
+  void set_particles(std::span<const Particle> all);
+  void set_particles(std::vector<std::int64_t> masses) { in_particles_ = std::move(masses); }
+  /// Masses that every count of the particles must give, one per soil.
+  const std::vector<std::int64_t>& in_particles() const { return in_particles_; }
+
+  /// Returns the ledger with these masses of particles.
+  Ledger ledger(std::vector<std::int64_t> particles) const;
+
+  /// Visits ids, masses that left and masses that came; those in particles follow from the particles.
+  void visit(Archive& a);
+
+ private:
+  const heightfield::Ground& ground_;
+  std::uint32_t next_id_ = 1;
+  std::vector<std::int64_t> left_site_, inserted_, in_particles_;
+};
+
+}  // namespace navvy::soil

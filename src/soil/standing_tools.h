@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tools that stand on the ground: when their contact begins and ends [docs/tools.md, seat].
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "soil/grid_frame.h"
+#include "soil/tools/contact.h"
+#include "soil/tools/seat.h"
+
+namespace navvy {
+class Archive;
+}
+
+namespace navvy::soil {
+
+/// The resting contacts of all tools of a solver.
+class StandingTools {
+ public:
+  /// All must outlive it.
+  StandingTools(const scene::Scene& world, const heightfield::Ground& ground, const GridFrame& frame,
+                const Contact& contact)
+      : world_(world), ground_(ground), frame_(frame), contact_(contact) {}
+
+  /// Makes room for one more tool, in the order of Contact::add_tool.
+  void add_tool() { seats_.emplace_back(); }
+  /// Begins the contact of tools that have come to rest, and ends it where soil lies on the tool.
+  /// `elapsed`: since the last call [s]; `regions` parallel to the motions; `all`: every particle,
+  /// by cell.
+  void update(double elapsed, std::span<const ToolMotion> motions,
+              std::span<const ToolRegion> regions, std::span<const Particle> all);
+  /// Returns true while the ground supports the tool.
+  bool supports(int tool) const { return seats_[static_cast<std::size_t>(tool)].taken; }
+  /// Ends the contact of tools under which ground became particles, `born`.
+  void release(std::span<const ToolRegion> regions, std::span<const Particle> born);
+  /// Adds the impulses of the contacts to `impulses`, after all else has acted in a step of dt [s].
+  /// Returns true when a contact ended, so that the exchange must be checked at once.
+  bool apply(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
+
+  void visit(Archive& a);
+
+ private:
+  Vec3 ground_normal(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
+                     std::span<const Particle> all) const;
+  Vec2 ground_gradient(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
+  bool soil_on_tool(const scene::Shell& shell, const ToolMotion& motion, const Vec3& up,
+                    std::span<const Particle> all) const;
+
+  const scene::Scene& world_;
+  const heightfield::Ground& ground_;
+  const GridFrame& frame_;
+  const Contact& contact_;
+  std::vector<Seat> seats_;  ///< by tool
+};
+
+}  // namespace navvy::soil
