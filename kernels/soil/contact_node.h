@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one node with a tool, and the two-way solve's small system; the same source in both schedules.
+// Contact of one node with a tool, and the small linear system of the two-way solve. One source for
+// both schedules.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 #define NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 
@@ -7,11 +8,12 @@
 #include "soil/contact_law.h"
 #include "soil/node.h"
 
-// Node n of near block `near`: its number in the arrays of near nodes, and its place from its block's corner [cells].
+// Returns the index of node n of near block `near` in the arrays of near nodes, and its offset from
+// the corner of its block [cells].
 static inline int near_node(int near, int n) { return near * BLOCK_NODES + n; }
 static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4); }
 
-// Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
+// Loads field s (0 front, 1 back) of one near node. Returns false when the node has no contact.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
                              global const float4* field, global const int* split, global const int* node_tool,
                              global const NodeShell* shell, global const ContactSoil* surface, global const Tool* tools,
@@ -53,12 +55,13 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, \
             surface, tools, only)
 
-// Sums before anything was added.
+// Initial value of the sums.
 #define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
 
-// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the tool's origin, linear)
-// and G^T m P G, where P is what of the plate's velocity the contact hands to the node: its share along the normal, all
-// of the slip when it sticks [docs/tools.md, two-way solve].
+// Adds field s of node n of near block `near` to the sums: the wrench of its impulse J (moment
+// about the tool's origin, force) and the matrix G^T m P G. P is the part of the plate's velocity
+// that the contact passes on to the node: its share along the normal, and all of the slip when the
+// contact sticks [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);
   ContactNode node;
@@ -75,8 +78,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   sums->wrench[3] += j.x;
   sums->wrench[4] += j.y;
   sums->wrench[5] += j.z;
-  // Directions: three axes when it sticks, which hold the normal too and are corrected there. Each adds
-  // m p g g^T with g = (r x d, d) and the part p that is held.
+  // Three axes when the contact sticks, which also cover the normal, and a correction along the
+  // normal. Each adds m p g g^T with g = (r x d, d) and the part p that is passed on.
   const float along_normal = (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
     if (a == 3 && along_normal == 0.0f) continue;
@@ -90,7 +93,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   }
 }
 
-// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the inverse mass.
+// Solves one Newton iteration of F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K. W is the
+// inverse mass of the tool.
 static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   float a[6][7], stiff[6][6];
   for (int i = 0, k = 0; i < 6; ++i)
@@ -103,7 +107,7 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
       for (int k = 0; k < 6; ++k) a[i][j] += tool->inverse_mass[6 * i + k] * stiff[k][j];
     }
   }
-  // Gauss with row pivots.
+  // Gauss elimination with row pivots.
   for (int c = 0; c < 6; ++c) {
     int p = c;
     for (int r = c + 1; r < 6; ++r)
@@ -121,9 +125,10 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   for (int i = 0; i < 6; ++i) tool->twist[i] -= a[i][6] / a[i][i];
 }
 
-// What contact, resting ground and room make of one near node: see contact_apply.
+// Result of contact and resting ground for one near node, see contact_apply.
 typedef struct NodeResult {
-  float4 felt[2];  // per field, what particles will feel
+  // Velocity and mass per free volume that particles see, by field.
+  float4 felt[2];
   ContactRecord records[2];
   int changed;
 } NodeResult;
@@ -137,7 +142,8 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
   out.changed = 0;
   for (int s = 0; s < 2; ++s) {
     const float4 v = s == 0 ? before0[i] : before1[i];
-    float4 after = (float4)(v.xyz, 0.0f);  // velocity and normal impulse
+    // Velocity and normal impulse.
+    float4 after = (float4)(v.xyz, 0.0f);
     ContactNode node;
     if (LOAD_NODE(&node)) {
       global const Tool* tool = tools + node_tool[i];
@@ -151,7 +157,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     }
     const ContactRecord record = {{v.x, v.y, v.z}, v.w, {after.x, after.y, after.z}, after.w};
     out.records[s] = record;
-    // Mass per room, as far as ground and plate leave room on this side.
+    // Mass per free volume beside ground and plate.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
     const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);

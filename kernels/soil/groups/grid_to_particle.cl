@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way: schedule of work-groups.
+// Gathers node velocities to particles and records their displacement: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then
-// each work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is
-// found by an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
+// In, Out: as in soil/lanes/grid_to_particle.cl.
+//
+// Parallel: one work-group per block. It loads the nodes of its tile, then each work-item processes
+// one particle after the other. Repeatable: every particle belongs to one work-item; the fastest of
+// a block is an integer maximum, which does not depend on order. Host:
+// src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
 #define MEMBERS 128
 
-// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind the shell.
+// Returns a node of the particle's own field: split nodes (1 in front, 2 behind) have another
+// velocity behind the shell.
 static inline float4 felt(local const float4* front, local const float4* back, local const uchar* split, int node,
                           int side) {
   const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
   return behind ? back[node] : front[node];
 }
 
-// v and its first moments about the base node: over x, y, z.
+// Computes v and its first moments about the base node over x, y, z.
 static inline float4 gather(local const float4* front, local const float4* back, local const uchar* split, int base,
                             int side, const float* wx, const float* wy, const float* wz, float4* mx, float4* my,
                             float4* mz) {
@@ -51,7 +55,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
   const Home home = homes[block];
-  (void)used;  // tells the lanes' schedule which tiles to copy; here split nodes choose their field when they are read
+  // The other schedule copies tiles by it; here split nodes choose their field when they are read.
+  (void)used;
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
     // Tile node -1..6 lies in the block before, this one or the one after.
@@ -82,7 +87,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     const int tile = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
     const float4 sum = gather(front, back, split, base, tile, w[0], w[1], w[2], &moments[0], &moments[1], &moments[2]);
     const float v[3] = {sum.x, sum.y, sum.z};
-    // v, C, and the way: dt v, and apart where soil is crowded.
+    // v, C, and the displacement: dt v, plus a separation where soil is crowded.
     float c[9], speed[3];
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
@@ -109,7 +114,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   if (me == 0) report[block].speed = as_float(fastest);
 }
 
-// See soil/lanes/grid_to_particle.cl.
+// Ends a transfer, see soil/lanes/grid_to_particle.cl.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
     global float* restrict state, const int capacity, global const Home* restrict homes) {
   const Home home = homes[get_group_id(0)];

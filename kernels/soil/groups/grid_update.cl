@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
+// Adds up the tiles around each active block and turns momentum into velocity: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added
-// in the order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host:
+// In, Out: as in soil/lanes/grid_update.cl.
+//
+// Parallel: one work-group per active block, one node per work-item. Repeatable: tiles are added in
+// the order of soil/lanes/grid_update.cl, so that the sum of a node has the same bits. Host:
 // src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
 #include "soil/node.h"
 #include "soil/place.h"
 
-// Node of the tile of neighbour n that lies on this work-item's node, -1: none.
+// Returns the node of the tile of neighbour n that lies on this work-item's node, -1: none.
 static inline int tile_node(int n) {
   const int me = get_local_id(0);
   const int3 node = (int3)(me & 3, (me >> 2) & 3, me >> 4) - 4 * neighbour_offset(n) + 1;
@@ -16,7 +19,8 @@ static inline int tile_node(int n) {
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
-// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum are empty.
+// Returns v = p / m + dv, added to the velocity before in a held step. Nodes lighter than a mass
+// quantum are empty.
 static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 before) {
   if (!(momentum.w > MASS_QUANTUM)) return (float4)(momentum.xyz * 0.0f, momentum.w);
   float3 v = momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz;
@@ -36,7 +40,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     for (int t = 0; used[home] >> t; ++t)
       if (used[home] >> t & 1) sum += tiles[(size_t)(homes[home].tile + t) * TILE_NODES + node];
   }
-  // Nodes at or below the floor lose their velocity; masses become mass per room above the ground.
+  // Nodes at or below the floor have no velocity; masses become mass per free volume above the
+  // ground.
   float4 v = 0.0f;
   if (any(sum != 0.0f)) {
     global const BlockFloor* ground = floors + block;
@@ -48,7 +53,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }
 
-// Blocks near shells, see soil/lanes/grid_update.cl.
+// Updates blocks near shells, see soil/lanes/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
@@ -58,7 +63,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = list[near];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
-  // Where all homes around have one surface, as nearly everywhere, the node has it to the last bit.
+  // Where all blocks around have the same surface, as almost everywhere, the node has exactly that.
   float4 surface = 0.0f, first = 0.0f;
   bool mixed = false, found = false;
   for (int n = 0; n < 27; ++n) {
@@ -79,7 +84,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     mixed = mixed || any(here != first);
     surface += here * mass;
   }
-  // Neutral soil joins the side its node lies on; an unsplit node joins everything.
+  // Neutral soil joins the side of its node; an unsplit node joins all.
   const int near_node = near * BLOCK_NODES + me, split = node_split[near_node];
   const float4 sum = neutral + front + back, none = 0.0f;
   field0[near_node] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv, hold,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the mass of every home block again, exactly, after each step: schedule of work-groups.
+// Counts the mass of every block exactly, once per transfer: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/mass_count.cl. One work-group per home; integer sums, so any order gives the same. Host:
+// In, Out: as in soil/lanes/mass_count.cl.
+//
+// Parallel: one work-group per block. Repeatable: integer sums do not depend on order. Host:
 // src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
 #include "soil/groups/group.h"
 

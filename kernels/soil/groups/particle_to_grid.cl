@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of each particle, then scatter of mass and momentum to its block's tile: schedule of work-groups.
+// Updates the stress of each particle, then scatters mass and momentum to the tile of its block:
+// schedule of work-groups.
 //
-// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without their pad.
-// One work-group per home block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it
-// adds up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to the tile one
-// offset after the other. Cells of one offset share no node, so nothing is atomic. Particles are taken in stored order,
-// cell by cell: sums repeat bit for bit. Host: src/soil/particles/particle_to_grid.cpp. Reference:
-// src/soil/reference/reference_solver.cpp.
+// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without padding.
+//
+// Parallel: one work-group per block. A work-item is first one particle of a chunk (law), then one
+// cell of base nodes. It adds up the particles of the cell for three layers of nodes in turn, and
+// adds the nine nodes of a layer to the tile one offset after the other. Cells of one offset share
+// no node, so nothing is atomic. Repeatable: particles in stored order, cell by cell. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference: ReferenceSolver.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {
@@ -16,7 +18,8 @@ static inline LawSoil load_soil(constant SoilRow* row) {
   return soil;
 }
 
-// Law and momentum of the particle in `slot`; false when a value is not finite. out: STAGED words.
+// Computes law and momentum of the particle in `slot`. Returns false when a value is not finite.
+// out: STAGED words.
 static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
                            float dt, float dx, float mixing, float most_mixing, float carried, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
@@ -51,8 +54,8 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   return isfinite(sum);
 }
 
-// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in soil/point.h). A
-// work-item is a cell.
+// Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
+// soil/point.h). A work-item is a cell.
 static inline float cell_opening(global const float* state, int capacity, Home home, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
@@ -79,7 +82,8 @@ static inline float cell_opening(global const float* state, int capacity, Home h
   return mean_opening(volume, bank, open ? 1.0f : 0.0f);
 }
 
-// What a home needs: bit 0 always, 1 and 2 for the tiles of a shell's sides, 3 when any particle is open.
+// Returns what a block needs: bit 0 always, bits 1 and 2 for the tiles of a shell's sides, bit 3
+// when any particle is open.
 static inline int needs(global float* state, int capacity, Home home) {
   int out = 1;
   for (int i = get_local_id(0); i < home.count; i += CELLS) {
@@ -88,7 +92,8 @@ static inline int needs(global float* state, int capacity, Home home) {
     if (home.near)
       out |= 1 << tile_of(tag >> 16);
     else
-      STORE(FIELD_TAG, as_float(tag & 0xffff));  // far from every shell nobody has a side
+      // Far from every shell no particle has a side.
+      STORE(FIELD_TAG, as_float(tag & 0xffff));
   }
   return out;
 }
@@ -159,7 +164,8 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
   if (me > 0) return;
   used[block] = mask;
   report[block].broken = broken;
-  if (!home.near) {  // else soil/groups/shell.cl said so
+  // Otherwise soil/groups/shell.cl has written them.
+  if (!home.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of work-groups.
+// Sorts particles into their new blocks, within a block by cell, in stable order: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses integer atomics,
-// whose order does not matter; the order inside a cell is found by one work-item per cell. Host:
-// src/soil/particles/rebin.cpp.
+// In, Out: as in soil/lanes/rebin.cl, in the same order.
+//
+// Parallel: one work-group per block. Repeatable: counts use integer atomics, whose order does not
+// matter; one work-item per cell finds the order within it. Host: src/soil/particles/rebin.cpp.
 #include "soil/groups/group.h"
 #include "soil/place.h"
 
 #define MEMBERS 64
 
-// site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity, global const Home* restrict homes,
     global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
@@ -29,7 +31,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
   if (me < CODES) counts[CODES * home + me] = count[me];
 }
 
-// A work-item is a cell of the new home: it counts, then lists its particles, taking the sources in order.
+// Lists the old slots of each new block. A work-item is a cell of the new block. It counts, then
+// lists its particles, taking the sources in order.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     global const Home* restrict old_homes, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const Home* restrict homes, global const int* restrict sources,
@@ -65,7 +68,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean surface of each home (soil/lanes/rebin.cl), and the lanes past its count, which get mass 0.
+// Copies every field. Also computes the mean surface of each block (soil/lanes/rebin.cl), and sets
+// the mass of lanes beyond its count to 0.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const Home* restrict homes, global float* restrict state,
@@ -74,7 +78,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
   const int home = get_group_id(0), me = get_local_id(0);
   const int start = homes[home].start, end = start + homes[home].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
-  // Differences from the first particle's: a home of one soil has its values to the last bit.
+  // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = 0.0f, sum = 0.0f;
   if (end > start)
     first = surface_of(soils + (as_int(old_state[(size_t)FIELD_TAG * old_capacity + from[start]]) & 0xffff));

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: schedule of work-groups.
+// Finds signed distance, normal and side of nodes and particles near shells: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per work-item; what a block
-// reports is found by integer atomics, which have no order. Host: src/soil/tools/shell.cpp.
+// In, Out: as in soil/lanes/shell.cl.
+//
+// Parallel: one work-group per near block, one node or particle per work-item. Repeatable: the
+// values of a block are found by integer atomics, which do not depend on order. Host:
+// src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
 #define MEMBERS 64
 
-// Out per near node: split (0 none, 1 in front, 2 behind), tool, and where it lies.
+// Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes(
     global const int* restrict near_list, global const int4* restrict keys,
     global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims, const int rim_count,
@@ -36,7 +40,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes
   node_shell[node] = node_shell_of(normal, phi, sqrt(inset2));
 }
 
-// Out: side and position of the particles; Report.push and Report.crossed of the near homes.
+// Updates side and position of the particles. Out: Report.push and Report.crossed of the near
+// blocks.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const Home* restrict homes, global const int4* restrict keys,
@@ -53,7 +58,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
     const int tag = as_int(LOAD(FIELD_TAG));
     Closest best;
     query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
-    // Out of the band and never inside it: nothing to keep.
+    // Outside the band, and not inside it before: the particle has no side.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
     const SideResult kept = keep_side(x, tag >> 16, key, best.feature, best.distance2,
                                       (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);

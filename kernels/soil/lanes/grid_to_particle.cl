@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way; particles take it at the transfer's end.
+// Gathers node velocities to particles and records their displacement, which the end of the
+// transfer applies.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
-//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
-//      spread [s] and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
-//      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
-//      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
-// One work-item per home block, no shared writes. Host: src/soil/particles/grid_to_particle.cpp.
+// In: velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per free volume
+// [kg], node.h), BLOCK_NODES per active block; full, filled = masses of a node that mean packed,
+// and closed [kg]; closing, spread [s] and most [cells]: parameters of the closing and crowding
+// functions of point.h; neighbours = 27 active-block indices per block; near_slot = index into the
+// near arrays or -1 per active block; node_split = per near node 0 (one field) or 1 + own, own = 0
+// front, 1 back.
+//
+// Out: v, C, moved and J of the particles; Report.speed, which includes separating displacements.
+//
+// Parallel: one work-item per block, no shared writes. Repeatable: fixed order of sums. Host:
+// src/soil/particles/grid_to_particle.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 #include "soil/point.h"
 
-// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block lies.
+// Copies the part of an active block that the tile of a block needs. d = -1, 0, 1: offset of the
+// active block.
 static inline void copy_part(global const float* block, float* tile, int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -28,8 +34,8 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side.
-// Without a tile for the back (0) only neutral ones.
+// Overwrites split nodes of the tile: the front takes field 0, the back field 1, the neutral tile
+// the field of the node's own side. Without a tile for the back (0), only the neutral tile.
 static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back,
                               int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
@@ -55,7 +61,8 @@ INLINED void load_rows(const float* tile, int node, Rows* rows) {
     for (int j = 0; j < 3; ++j) rows->row[3 * k + j] = vload16(0, tile + 4 * (node + 8 * j + 64 * k));
 }
 
-// v and its first moments about the base node of one particle: (v | dx | dy | dz) as float4s.
+// Computes v and its first moments about the base node of one particle: (v | dx | dy | dz) as
+// float4s.
 INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
                     float4* my, float4* mz) {
   float16 sum = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
@@ -147,9 +154,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
       vstore4(my, t, parts[2]);
       vstore4(mz, t, parts[3]);
     }
-    for (int l = count; l < 16; ++l)  // lanes without a particle stay where they are
+    // Lanes without a particle keep their values.
+    for (int l = count; l < 16; ++l)
       for (int part = 0; part < 4; ++part) vstore4((float4)(0.0f), turned(l), parts[part]);
-    // v, C, and the way: dt v, and apart where soil is crowded.
+    // v, C, and the displacement: dt v, plus a separation where soil is crowded.
     real v[3], m[3], c[9], lean[3], node_mass;
     UNTURN(parts[0], v[0], v[1], v[2], node_mass);
     for (int axis = 0; axis < 3; ++axis) {
@@ -176,7 +184,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   report[block].speed = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
 }
 
-// Ends a transfer: particles go the way they were booked, which begins anew.
+// Ends a transfer: adds the displacement of each particle to its position and clears it.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
                                                                                 const int capacity,
                                                                                 global const Home* restrict homes) {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
-//      particles there); homes.
-//      floors = resting ground per active block.
-//      hold = 1 in a held step: nodes add the step's impulse to the velocity they have.
-// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
-//      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
+// In: tiles of the blocks, used = bits of those written; around = 27 block indices per active block
+// (-1: no particles there); floors = resting ground per active block; hold = 1 in a held step:
+// nodes add the impulse of the step to their velocity.
+//
+// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells,
+// m is divided by the fraction of the node's kernel that lies above the ground (soil/node.h).
+//
+// Parallel: one work-item per active block. Repeatable: neighbours in fixed order. Host:
+// src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
 
-// Adds the part of a neighbour's tile that lies on this block; d: where the neighbour lies.
+// Adds the part of a neighbour's tile that lies on this block; d: offset of the neighbour.
 static inline void add_part(global const float* tile, float16* rows, int3 d) {
   const int z0 = d.z > 0 ? 3 : 0, z1 = d.z < 0 ? 3 : 4, y0 = d.y > 0 ? 3 : 0, y1 = d.y < 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -29,8 +31,8 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
     }
 }
 
-// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter than a mass quantum are
-// empty.
+// Returns v = p / m + g dt of four nodes, added to the velocity before in a held step. Nodes
+// lighter than a mass quantum are empty.
 static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
@@ -41,8 +43,9 @@ static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global 
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground]; masses become mass per
-// room above the ground [docs/soil.md, room].
+// Sets the velocity of nodes at or below the floor to 0, for a row of four
+// [docs/soil.md, resting ground], and divides masses by the free volume above the ground
+// [docs/soil.md, room].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
@@ -53,7 +56,7 @@ static inline float16 held(float16 v, global const BlockFloor* ground, int row) 
                        on.www, 1.0f / room_above(below.hi.hi));
 }
 
-// Whether no node of the block is held or has less than its full room.
+// Returns true when no node of the block is held or has ground in its kernel.
 static inline bool far_above(global const BlockFloor* ground) {
   float16 highest = vload16(0, ground->around[0]) + 1.5f;
   for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, ground->around[0]) + 1.5f);
@@ -87,11 +90,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
-// yet [docs/tools.md, two nodal fields].
+// Updates blocks near shells. Split nodes keep a front (field 0) and a back (field 1) velocity
+// [Bardenhagen 2000], neither of them held yet [docs/tools.md, two nodal fields].
+//
 // node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
-// ContactSoil per home block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
-// contact made of both fields in the step before.
+// ContactSoil per block; node_surface = its mean by mass at the node. last0 (per active block) and
+// last1 = both fields after contact in the previous step.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
     global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
@@ -103,7 +107,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   float16 rows[3][16], total[16];
   float4 weight[64];
   for (int i = 0; i < 16; ++i) rows[0][i] = rows[1][i] = rows[2][i] = total[i] = 0.0f;
-  // Where all homes around have one surface, as nearly everywhere, there is nothing to weigh.
+  // Where all blocks around have the same surface, as almost everywhere, no mean is needed.
   float4 first = (float4)(0.0f);
   bool mixed = false, any_home = false;
   for (int n = 0; n < 27; ++n) {
@@ -140,7 +144,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   global float* out0 = field0 + (size_t)near * (4 * BLOCK_NODES);
   global float* out1 = field1 + (size_t)near * (4 * BLOCK_NODES);
   for (int i = 0; i < 16; ++i) {
-    // Neutral soil joins the side its node lies on; an unsplit node joins everything.
+    // Neutral soil joins the side of its node; an unsplit node joins all.
     const int4 split = vload4(i, node_split + near * BLOCK_NODES);
     const int16 s = (int16)(split.xxxx, split.yyyy, split.zzzz, split.wwww);
     const float16 none = 0.0f;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the mass of every home block again, exactly, after each step.
+// Counts the mass of every block exactly, once per transfer.
 //
-// In: state, homes (layout.h), number of soils. Out: masses[soils * home + soil], 64-bit, in mass quanta (2^-24 kg).
-// One work-item per home; integer sums, so any order gives the same. Lanes past a block's count have mass 0.
-// Host: src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
+// In: state, homes (layout.h), number of soils. Out: masses[soils * block + soil], 64-bit, in mass
+// quanta (2^-24 kg). Lanes beyond a block's count have mass 0.
+//
+// Parallel: one work-item per block. Repeatable: integer sums do not depend on order. Host:
+// src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
 #include "soil/lanes/lanes.h"
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global const int* restrict state,

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of each particle, then scatter of mass and momentum to its block's tile.
+// Updates the stress of each particle, then scatters mass and momentum to the tile of its block.
 //
-// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing [s], most_mixing [-]: of
-//      advance_state() in point.h; carried = 0 in a held step, whose nodes have kept their momentum.
-// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
-//      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
-// One work-item per home block; particles in stored order, so sums repeat bit for bit.
-// Host: src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// In: state (field after field, particle_fields.h), soils (one row each), blocks; mixing [s] and
+// most_mixing [-]: parameters of advance_state() in point.h; carried = 0 in a held step, whose
+// nodes still have their momentum.
+//
+// Out: tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; used =
+// bits of the tiles written, one int per block; stress, J, J0 and plastic shear of the particles;
+// Report.broken.
+//
+// Parallel: one work-item per block. Repeatable: particles in stored order. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference: ReferenceSolver.
 #include "soil/lanes/lanes.h"
 #include "soil/lanes/opening.h"
 #include "soil/point.h"
 
-// Constants of the soils of 16 particles, of which the first `count` are.
+// Loads the constants of the soils of 16 particles, of which the first `count` exist.
 static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
   const int first = tag.s0 & 0xffff;
   int kinds[16];
@@ -43,8 +47,8 @@ INLINED void flush(global float* tile, int node, const Rows* sums) {
     }
 }
 
-// Adds one particle's shares; its turned components are momentum at the base node and mass, then the change of momentum
-// per node in x, y, z.
+// Adds the shares of one particle. Its transposed components are momentum at the base node and
+// mass, then the change of momentum per node in x, y, z.
 INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wyz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
@@ -62,9 +66,11 @@ INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, 
   }
 }
 
-// Which of a home's tiles its particles need: bit 0 always, bits 1 and 2 where particles have a side.
+// Returns the tiles of a block that its particles need: bit 0 always, bits 1 and 2 where particles
+// have a side.
 static inline int tiles_used(global const float* state, int capacity, int start, int end) {
-  int16 tiles = 0;  // 1 or 2 each, or neither
+  // 1 or 2 each, or neither.
+  int16 tiles = 0;
   for (int slot = start; slot < end; slot += 16) tiles |= tile_of(as_int16(LOAD(FIELD_TAG)) >> 16);
   return 1 | (some(tiles & 1) ? 2 : 0) | (some(tiles & 2) ? 4 : 0);
 }
@@ -95,7 +101,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     UNROLL
     for (int f = 0; f < FIELD_ID; ++f) SOON(f);
     int16 tag = as_int16(LOAD(FIELD_TAG));
-    if (!home.near) {  // far from every shell nobody has a side
+    // Far from every shell no particle has a side.
+    if (!home.near) {
       tag &= 0xffff;
       STORE(FIELD_TAG, as_float16(tag));
     }
@@ -122,7 +129,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     real p[3], a[9];
     affine_momentum(c, sigma, v, f, mass, mass * inv_density, soil_state.j, carried, dt, dx, p, a);
 
-    // A sum is finite only if each term is; lanes past the count hold zeros.
+    // A sum is finite only if each term is. Lanes beyond the count hold zeros.
     const real sum = (x + y + z) + (p[0] + p[1] + p[2]) + (a[0] + a[4] + a[8]) +
                      (soil_state.j + soil_state.j0 + soil_state.shear) +
                      (soil_state.s[3] + soil_state.s[4] + soil_state.s[5]);
@@ -155,7 +162,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   }
   if (cell >= 0) flush(tile, cell, &sums);
   report[block].broken = broken ? 1 : 0;
-  if (!home.near) {  // else soil/lanes/shell.cl said so
+  // Otherwise soil/lanes/shell.cl has written them.
+  if (!home.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks without atomics, inside a block by cell, in stable order.
+// Sorts particles into their new blocks without atomics, within a block by cell, in stable order.
 //
-// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site) and how many, and
-// the   cell of its base node there (0..63, x fastest).
-// 2 (host) builds the new homes from the counts, and for each the 27 old homes it takes from.
-// 3 rebin_gather: per new home, the old slot of each new slot.
-// 4 rebin_move: per new home, copies every field.
-// One work-item per home. Host: src/soil/particles/rebin.cpp.
+// 1 rebin_count, per old block: where each particle goes (code 0..26, x fastest; 27 = left the
+// site), how many go there, and the cell of the base node there (0..63, x fastest).
+//
+// 2 (host): builds the new blocks from the counts, and for each the 27 old blocks that it takes
+// particles from.
+//
+// 3 rebin_gather, per new block: the old slot of each new slot.
+//
+// 4 rebin_move, per new block: copies every field.
+//
+// Parallel: one work-item per block. Repeatable: stable order. Host: src/soil/particles/rebin.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 
-// site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity, global const Home* restrict homes,
     global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
@@ -30,8 +35,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
   for (int i = 0; i < CODES; ++i) counts[CODES * home + i] = count[i];
 }
 
-// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand together, in the
-// order of their arrival: scatter and gather then work on the same nodes for a while.
+// Lists the old slots of each new block. sources[27 * new + n] = old block from which code n leads
+// here, or -1. Particles of one cell are stored together, in the order of their arrival: scatter
+// and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const Home* restrict old_homes, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const Home* restrict homes, global const int* restrict sources,
@@ -57,8 +63,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
   }
 }
 
-// Also the mean surface of each home (ContactSoil), and
-// the lanes past its count, which get mass 0.
+// Copies every field. Also computes the mean surface of each block (ContactSoil), and sets the mass
+// of lanes beyond its count to 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const Home* restrict homes, global float* restrict state,
@@ -73,7 +79,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     const float rest = rest_of(f);
     for (int slot = end; slot < padded; ++slot) out[slot] = rest;
   }
-  // Differences from the first: a home of one soil has its values to the last bit.
+  // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = (float4)(0.0f), more = (float4)(0.0f);
   for (int slot = start; slot < end; ++slot) {
     const int3 d = neighbour_offset(codes[from[slot]]);

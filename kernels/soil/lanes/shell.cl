@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
+// Finds signed distance, normal and side of nodes and particles near shells, and keeps particles on
+// their side.
 //
-// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed rows). Band
-// [cells]:      how far a side reaches.
-// One work-item per near block, nothing shared. Host: src/soil/tools/shell.cpp.
+// In: triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed
+// rows); band: distance within which particles have a side [cells].
+//
+// Parallel: one work-item per near block, nothing shared. Repeatable: fixed order. Host:
+// src/soil/tools/shell.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/shell_side.h"
 
-// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked out once for all.
+// Finds the closest point for `packs` packs of a block's particles from `slot` on. What a triangle
+// needs is computed once for all of them.
 #define PACKS 8
 static inline void query_packs(global const float* state, int capacity, int slot, int packs, int3 key,
                                global const ShellTriangle* triangles, global const Tool* tools, global const int* list,
@@ -26,7 +30,7 @@ static inline void query_packs(global const float* state, int capacity, int slot
   }
 }
 
-// Out per near node: split (0 none, 1 in front, 2 behind), tool, and where it lies.
+// Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     global const int* restrict near_list, global const int4* restrict keys,
     global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims, const int rim_count,
@@ -70,8 +74,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   }
 }
 
-// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface (position only).
-// Out: Report.push and Report.crossed of the near homes.
+// Updates the side of particles and moves those that sank into a plate back to its surface
+// (position only). Out: Report.push and Report.crossed of the near blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const Home* restrict homes, global const int4* restrict keys,
@@ -94,7 +98,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     }
     const Closest best = found[pack];
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    // Out of the band and never inside it: nothing to keep.
+    // Outside the band, and not inside it before: the particle has no side.
     const int16 tags = as_int16(LOAD(FIELD_TAG));
     const int16 near_shell = best.distance2 < band * band | tags >> 16 != 0;
     if (!some(near_shell)) continue;
