@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transfer that a solver is in: how long it lasts, and the node velocities that it keeps.
+// The transfer that a solver is in: its length, and the node velocities that it keeps.
 #pragma once
 
 #include <vector>
@@ -55,7 +55,8 @@ class CurrentTransfer {
   Contact& contact_;
   double length_, max_motion_;
   TransferInterval interval_;
-  std::vector<float> loaded_[2];  ///< while loading: velocities of the front and the back fields
+  /// While loading: velocities of the front and the back fields.
+  std::vector<float> loaded_[2];
 };
 
 }  // namespace navvy::soil

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a solver's energy account on the host, from what stands in the device's arrays before and after each step.
+// Energy account of a solver, computed on the host from the device's arrays before and after each
+// step.
 //
-// Kernels know nothing of it: a run with an account is the run without, to the bit. In return the host goes through all
-// particles and nodes in every step, in doubles and one thread, which takes longer than the step itself.
+// Kernels are not involved: a run with an account is bit-identical to the run without. In return
+// the host visits all particles and nodes in every step, in doubles and in one thread, which takes
+// longer than the step itself.
 #pragma once
 
 #include <span>
@@ -22,9 +24,10 @@ class EnergyBook {
   EnergyBook(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,
              const SchemeConstants& scheme = kScheme);
 
-  /// Before a step's kernels are queued, with at least one particle. `hold`: not the first step of a transfer.
+  /// Reads the state before a step's kernels are queued; there must be at least one particle.
+  /// `hold`: not the first step of a transfer.
   void begin_step(const ParticleStore& store, bool hold);
-  /// After its impulses were booked.
+  /// Adds the energies of the step, after its impulses are known.
   void end_step(const ParticleStore& store, Transfer& transfer, Contact& contact, double dt, bool hold,
                 std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses);
 
@@ -33,9 +36,10 @@ class EnergyBook {
  private:
   struct Node {
     double mass = 0;
-    Vec3 v = Vec3::Zero();  ///< momentum while it is summed [m/s]
+    /// Momentum while it is summed, then velocity [m/s].
+    Vec3 v = Vec3::Zero();
   };
-  /// Particles' words of one moment, field after field.
+  /// Words of all particles at one moment, field after field.
   struct Words {
     std::vector<float> values;
     std::size_t capacity = 0;
@@ -52,7 +56,7 @@ class EnergyBook {
   void book_law(const ParticleStore& store, const Words& now, double dt);
   void scatter(const ParticleStore& store, const Words& now, Contact& contact);
   double nodes_energy() const;
-  /// Velocities of the nodes after the step; takes the place of those before.
+  /// Returns the velocities of the nodes after the step, and keeps them for the next one.
   std::vector<Vec3> velocities(Transfer& transfer, Contact& contact) const;
   void book_tools(Contact& contact, const std::vector<Vec3>& after, std::span<const ToolMotion> motions,
                   std::span<const ToolImpulse> impulses);
@@ -63,8 +67,10 @@ class EnergyBook {
   Vec3 gravity_;
   EnergyAccount account_;
   Words before_;
-  std::vector<Node> nodes_;  ///< front field of every active node, then the back field
-  double moving_ = 0;        ///< kinetic energy of the particles after the last step
+  /// Front field of every active node, then the back field.
+  std::vector<Node> nodes_;
+  /// Kinetic energy of the particles after the last step [J].
+  double moving_ = 0;
 };
 
 }  // namespace navvy::soil

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the exchange between columns and particles is checked next.
+// Decides when the exchange between columns and particles is checked next.
 #pragma once
 
 #include <cmath>
@@ -15,14 +15,14 @@ namespace navvy::soil {
 /// tool moves. Checks wait for the end of a transfer.
 class ExchangeClock {
  public:
-  /// Most steps between two checks.
+  /// Largest number of steps between two checks.
   static constexpr std::uint32_t kSteps = 25;
 
   /// Returns true when the next chance, `ahead` [m] of tool travel later, would be too late.
   bool due(double ahead, double cell) const {
     return first_ || steps_ >= kSteps || travel_ + ahead > kTravel * cell;
   }
-  /// Seconds since the last check.
+  /// Returns the time since the last check [s].
   double elapsed() const { return elapsed_; }
   /// Counts a step of dt [s] in which the fastest tool moves at `tool_speed` [m/s].
   void advance(double dt, double tool_speed) {
@@ -52,8 +52,10 @@ class ExchangeClock {
   /// Tool travel between two checks [cells].
   static constexpr double kTravel = 0.3;
 
-  double elapsed_ = 0;  ///< [s]
-  double travel_ = 0;   ///< of the fastest tool [m]
+  /// Time [s].
+  double elapsed_ = 0;
+  /// Distance of the fastest tool [m].
+  double travel_ = 0;
   std::uint32_t steps_ = 0;
   bool first_ = true;
 };

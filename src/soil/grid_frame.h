@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the grid of a solver lies in W.
+// Position of a solver's grid in W.
 #pragma once
 
 #include "core/math.h"
@@ -25,9 +25,12 @@ struct GridFrame {
     return origin + cell * out;
   }
 
-  double cell;    ///< edge of a cell [m]
-  PlanGrid grid;  ///< where blocks begin among the columns
-  Vec3 origin;    ///< W of the origin of G [m]
+  /// Edge of a cell [m].
+  double cell;
+  /// Position of blocks among the columns.
+  PlanGrid grid;
+  /// Origin of G in W [m].
+  Vec3 origin;
 };
 
 }  // namespace navvy::soil

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of the particle scheme at run time: their names, units and ranges, and how kernels get
-// them.
+// Constants of the particle scheme at run time: names, units, ranges, and build options of kernels.
 #pragma once
 
 #include <string>
@@ -14,11 +13,14 @@ namespace navvy::soil {
 struct SchemeConstant {
   const char* name;
   double SchemeConstants::*value;
-  const char* unit;  ///< "" for a pure number
-  double low, high;  ///< both allowed
-  const char* help;  ///< a noun phrase, without a full stop
+  /// "" for a pure number.
+  const char* unit;
+  /// Both allowed.
+  double low, high;
+  /// Noun phrase without a full stop.
+  const char* help;
 
-  /// The default value.
+  /// Returns the default value.
   double standard() const { return kScheme.*value; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particles of a solver: the store on the device, and what is counted since its last re-bin.
+// The particles of a solver: the store on the device, and the drift since its last re-bin.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,20 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Drift that calls for a re-bin before the next transfer [cells]: one cell is the tile's margin,
-/// less one push.
+/// Drift that calls for a re-bin before the next transfer [cells]. The margin of a tile is one
+/// cell, minus one push.
 inline constexpr double kMaxDrift = 0.75;
 
-/// Returns the particle with the block that its cell lies in, instead of the one it is stored by.
+/// Returns the particle with the block that contains its cell, instead of the block it is stored
+/// in.
 Particle in_cell_block(Particle p);
 
-/// Particles on the device. Once the device could not take them the run is over, and they stay on
-/// the host so that ledger and snapshot remain whole.
+/// Particles on the device. If the device runs out of memory the run is over; the particles then
+/// stay on the host, so that ledger and snapshot remain complete.
 class SoilParticles {
  public:
-  /// `site`, `soils`: see ParticleStore. `budget`: particles above which a warning is logged.
+  /// Creates an empty set. `site`, `soils`: see ParticleStore. `budget`: number of particles above
+  /// which a warning is logged.
   SoilParticles(device::Device& device, const std::array<std::int32_t, 4>& site,
                 const std::vector<SoilRow>& soils, int budget);
 
@@ -41,9 +43,10 @@ class SoilParticles {
   /// Counts the mass of each soil [kMassQuantum].
   std::vector<std::int64_t> masses() const;
 
-  /// Replaces all particles. @throws device::DeviceError when the device has no memory for them.
+  /// Replaces all particles.
+  /// @throws device::DeviceError when the device has no memory for them.
   void assign(const std::vector<Particle>& particles);
-  /// Sorts the particles into new blocks if they drifted far; returns those that left the site.
+  /// Sorts the particles into new blocks; returns those that left the site.
   std::vector<Particle> rebin();
   bool rebin_due() const { return drift_ > kMaxDrift; }
   /// Adds a displacement [cells] that particles may have made.
@@ -59,10 +62,13 @@ class SoilParticles {
   ParticleStore store_;
   std::size_t soils_;
   int budget_;
-  std::vector<Particle> unplaced_;  ///< all of them, once the device could not take them
-  bool over_budget_ = false;        ///< the warning has been logged
+  /// All particles, once the device has no memory for them.
+  std::vector<Particle> unplaced_;
+  /// The warning has been logged.
+  bool over_budget_ = false;
   bool blocks_changed_ = true;
-  double drift_ = 0;  ///< cells that particles may have moved since the last re-bin
+  /// Cells that particles may have moved since the last re-bin.
+  double drift_ = 0;
 };
 
 }  // namespace navvy::soil

@@ -68,7 +68,8 @@ struct Solver::State {
   heightfield::Ground& ground;
   SchemeConstants scheme;
   GridFrame frame;
-  double fastest_sound;  ///< speed of the fastest compression wave of all soils [m/s]
+  /// Speed of the fastest compression wave of all soils [m/s].
+  double fastest_sound;
 
   // On the device.
   SoilParticles particles;
@@ -83,16 +84,21 @@ struct Solver::State {
   ExchangeClock exchange_clock;
   StandingTools standing;
   MassRecord masses;
-  std::optional<EnergyBook> energy;  ///< only when asked for
-  bool crowding = true;              ///< crowded particles are moved apart
+  /// Only on request.
+  std::optional<EnergyBook> energy;
+  /// Crowded particles are separated.
+  bool crowding = true;
 
-  double time = 0;                    ///< simulated, the sum over steps [s]
-  std::span<const Footing> footings;  ///< of the step under way
+  /// Simulated time, the sum over steps [s].
+  double time = 0;
+  /// Support areas of the current step.
+  std::span<const Footing> footings;
   SolverStats stats;
-  std::map<std::string, double> times;  ///< wall time by stage [s]
+  /// Wall time by stage [s].
+  std::map<std::string, double> times;
 };
 
-/// Adds the wall time of its life to a stage.
+/// Adds the wall time of its own lifetime to a stage.
 class StageClock {
  public:
   StageClock(std::map<std::string, double>& times, const char* stage)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools that stand on the ground: when their contact begins and ends [docs/tools.md, seat].
+// Tools that stand on the ground: start and end of their contact [docs/tools.md, seat].
 #pragma once
 
 #include <span>
@@ -19,12 +19,12 @@ namespace navvy::soil {
 /// The resting contacts of all tools of a solver.
 class StandingTools {
  public:
-  /// All must outlive it.
+  /// Observes the ground; all arguments must outlive it.
   StandingTools(const scene::Scene& world, const heightfield::Ground& ground, const GridFrame& frame,
                 const Contact& contact)
       : world_(world), ground_(ground), frame_(frame), contact_(contact) {}
 
-  /// Makes room for one more tool, in the order of Contact::add_tool.
+  /// Adds one more tool, in the order of Contact::add_tool.
   void add_tool() { seats_.emplace_back(); }
   /// Begins the contact of tools that have come to rest, and ends it where soil lies on the tool.
   /// `elapsed`: since the last call [s]; `regions` parallel to the motions; `all`: every particle,
@@ -33,7 +33,7 @@ class StandingTools {
               std::span<const ToolRegion> regions, std::span<const Particle> all);
   /// Returns true while the ground supports the tool.
   bool supports(int tool) const { return seats_[static_cast<std::size_t>(tool)].taken; }
-  /// Ends the contact of tools under which ground became particles, `born`.
+  /// Ends the contact of tools under which ground became particles (`born`).
   void release(std::span<const ToolRegion> regions, std::span<const Particle> born);
   /// Adds the impulses of the contacts to `impulses`, after all else has acted in a step of dt [s].
   /// Returns true when a contact ended, so that the exchange must be checked at once.
@@ -52,7 +52,8 @@ class StandingTools {
   const heightfield::Ground& ground_;
   const GridFrame& frame_;
   const Contact& contact_;
-  std::vector<Seat> seats_;  ///< by tool
+  /// By tool.
+  std::vector<Seat> seats_;
 };
 
 }  // namespace navvy::soil

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a transfer lasts: its weights, masses, lists and sides are held over several steps [docs/soil.md, transfer].
+// Length of a transfer, over which weights, masses, lists and sides are held
+// [docs/soil.md, transfer].
 #pragma once
 
 #include <cmath>
@@ -9,25 +10,30 @@
 
 namespace navvy::soil {
 
-/// The transfer that is under way. Solver and double twin ask the same questions of it.
+/// The current transfer. Solver and double twin share its rules.
 struct TransferInterval {
-  bool open = false;  ///< a step was done since the last transfer ended
-  double time = 0;    ///< since its start [s]
-  double motion = 0;  ///< most that a particle can have gone since then [cells]
-  double travel = 0;  ///< the same of a tool [cells]
-  double speed = 0;   ///< fastest component of a particle's velocity after the last step [m/s]
+  /// A step was done since the last transfer ended.
+  bool open = false;
+  /// Time since its start [s].
+  double time = 0;
+  /// Upper bound of a particle's displacement since then [cells].
+  double motion = 0;
+  /// Upper bound of a tool's displacement since then [cells].
+  double travel = 0;
+  /// Largest velocity component of any particle after the last step [m/s].
+  double speed = 0;
 
-  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in m/s2,
-  /// `most_motion` in cells: how far a particle or a tool may go in a transfer.
+  /// Returns true if one more step of dt [s] fits. `length` in s, `tool_speed` in m/s, `gravity` in
+  /// m/s2, `most_motion`: longest displacement of a particle or a tool in a transfer [cells].
   bool holds(double dt, double length, double cell, double tool_speed, double gravity,
              double most_motion = kScheme.max_transfer_motion) const {
-    // Rounded to whole steps: half a step more would be nearer to the length than none.
+    // Rounded to whole steps: half a step more would be closer to the length than none.
     if (!open || time + 0.5 * dt >= length) return false;
-    // Free fall is the least change of speed that has to be expected.
+    // Free fall is the smallest change of speed to expect.
     if (motion + dt * (speed + dt * gravity) / cell > most_motion) return false;
     return travel + dt * tool_speed / cell <= most_motion;
   }
-  /// Books a step of dt [s] after which the fastest particle has this speed [m/s].
+  /// Counts a step of dt [s] after which the fastest particle moves at `fastest` [m/s].
   void book(double dt, double cell, double fastest, double tool_speed) {
     open = true;
     time += dt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The soils of a world as the kernels read them.
+// Soils of a world as the kernels read them.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace navvy::soil {
 
-/// Speed of compression waves [m/s].
+/// Returns the speed of compression waves [m/s].
 double sound_speed(const scene::Soil& soil);
 
 /// Returns the largest share by which a particle's J / J0 moves to its cell's mean in a step of
@@ -25,16 +25,17 @@ double packed_mass(double densest, double cell, const SchemeConstants& scheme = 
 /// [docs/soil.md, opening].
 double filled_mass(double densest, double cell, const SchemeConstants& scheme = kScheme);
 
-/// Whether the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has dilatancy, mu(I) or compaction.
+/// Returns true if the law must be built with LAW_EXTENDED (kernels/soil/law.h): a soil has
+/// dilatancy, mu(I) or compaction.
 bool needs_extended_law(const std::vector<scene::Soil>& soils);
 
-/// What the kernels read of each soil, in the order of the world. `cell` in m.
-/// @throws InputError for soils the law cannot compute: every fault is listed.
+/// Returns the constants of each soil for the kernels, in the order of the world. `cell` in m.
+/// @throws InputError with every fault of soils that the law cannot compute.
 std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell,
                                 const SchemeConstants& scheme = kScheme);
 
-/// The constants of the law (kernels/soil/law_constants.h says what each is), derived from a soil; what the table and
-/// the double twin are made of.
+/// Constants of the law (described in kernels/soil/law_constants.h), derived from a soil. The table
+/// and the double twin are made of them.
 #define LAW_DOUBLE(name) double name = 0;
 struct LawConstants {
   ALL_LAW_CONSTANTS(LAW_DOUBLE)

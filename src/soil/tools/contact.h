@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools in the soil: who is near, the side of particles, and the nodal contact solved together with the tool.
+// Tools in the soil: near lists, sides of particles, and the nodal contact solved together with the
+// tool.
 #pragma once
 
 #include <memory>
@@ -23,62 +24,67 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Area of a shell / the area that nodes along it stand for (contact_inner of kernels/soil/contact_law.h): above 1 for
-/// plates with corners, at most 2.
+/// Returns the area of a shell / the area that nodes along it stand for (contact_inner of
+/// kernels/soil/contact_law.h): above 1 for plates with corners, at most 2.
 double plate_area_factor(const ShellGeometry& geometry, double cell, const SchemeConstants& scheme = kScheme);
 
-/// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with its share of the
-/// plate's speed [docs/tools.md, contact shares]. Any number of tools.
+/// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with
+/// its share of the plate's speed [docs/tools.md, contact shares]. Any number of tools.
 class Contact {
  public:
-  /// `gravity` [m/s2] tells which plates lie on soil.
+  /// Builds the kernels. `gravity` [m/s2] decides which plates lie on soil.
   Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
           const SchemeConstants& scheme = kScheme);
 
   int add_tool(const scene::Shell& shell);
   const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
 
-  /// Takes the tools' poses for the step and brings near lists up to date. True when the lists changed: the caller then
-  /// lays out tiles again (near_homes, near_slot).
+  /// Sets the tools' poses for the step and updates the near lists. Returns true when the lists
+  /// changed: the caller then assigns tiles anew (near_homes, near_slot).
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
-  /// Takes the tools' twists and places for a step that the transfer under way holds: lists, sides of nodes and plates
-  /// stay those of its start, and levers are those of now.
+  /// Sets the tools' twists and poses for a held step. Lists, sides of nodes and plates remain
+  /// those of the transfer's start; lever arms are current.
   void set_twists(std::span<const ToolMotion> motions);
-  /// Whether these are motions of the tools that the last `set_motions` had.
+  /// Returns true if these are motions of the tools of the last `set_motions`.
   bool moves_same(std::span<const ToolMotion> motions) const;
-  /// Queues what a transfer under way knows of the shells, after `visit` has loaded and the lists are built.
+  /// Queues what an open transfer knows of the shells, after `visit` has loaded and the lists are
+  /// built.
   void go_on(Transfer& transfer);
-  /// Builds the near lists for the poses they were last built for (after `visit` has loaded).
+  /// Builds the near lists for the poses of their last build (after `visit` has loaded).
   void list_near(const BlockTable& table);
   const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
   const std::vector<int>& near_slot() const { return near_slot_; }
   NearNodes& nodes() { return nodes_; }
-  /// What the last step did to near nodes, two entries a node; of blocks that are marked as touched.
+  /// Returns the change of near nodes in the last step, two entries per node, valid in touched
+  /// blocks.
   const device::Buffer<ContactRecord>& records() const { return records_; }
   const device::Buffer<std::int32_t>& touched() const { return touched_; }
 
-  /// Queues: signed distances of nodes, sides of particles, particles pushed out of plates (the push and the crossings
-  /// go into the transfer's report).
+  /// Queues signed distances of nodes, sides of particles, and pushes of particles out of plates
+  /// (push and crossings go into the transfer's report).
   void classify(ParticleStore& store, Transfer& transfer);
-  /// Queues the two-way solve and the impulses on the nodes. What the books say of it is an identity up to rounding:
-  /// the tool's impulse is minus the nodes' change. That the machine got it, Momentum.* measures.
+  /// Queues the two-way solve and the impulses on the nodes. The recorded impulse of the tool is
+  /// minus the change of the nodes, exact up to rounding; tests Momentum.* measure that the machine
+  /// receives it.
   void solve(Transfer& transfer, double dt);
-  /// Queues reading what the tools felt.
+  /// Queues reading the results.
   void read_later();
-  /// Sums what the tools felt, once a wait came after read_later; `impulses` parallel to the motions.
+  /// Sums the impulses on the tools, after a wait that follows read_later; `impulses` parallel to
+  /// the motions.
   void book(std::span<ToolImpulse> impulses);
 
-  /// Adds what the tools felt in a step of dt [s] to the transfer under way, and tells their mean force.
+  /// Adds the impulses of a step of dt [s] to the current transfer and sets the mean force in
+  /// `impulses`.
   void feel(double dt, std::span<ToolImpulse> impulses);
-  /// Mean force [N] and moment about its origin [N m] that a tool was last told.
+  /// Return the mean force [N] and the moment about its origin [N m] that a tool last reported.
   const Vec3& force(int tool) const { return tools_[static_cast<std::size_t>(tool)].force_W; }
   const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
-  /// A transfer has ended: what was felt over it is the force that is told from now on.
+  /// Ends a transfer: its mean force becomes the reported one.
   void end_transfer();
 
-  /// Near lists hang on where tools were when they were made, sides of nodes on where they were when the transfer under
-  /// way began: that is state, the rest follows from it (`list_near`, `go_on`).
-  /// @throws InputError for another number of tools than are registered, or a pose that is none.
+  /// Visits the tools. Near lists depend on the poses when they were made, sides of nodes on those
+  /// at the start of the transfer: both are state, and the rest follows (`list_near`, `go_on`).
+  /// @throws InputError for another number of tools than registered, or an impossible pose.
   void visit(Archive& a);
 
  private:
@@ -90,17 +96,27 @@ class Contact {
   struct Registered {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
-    double area_factor = 1;            ///< plate area / what nodes stand for
-    bool present = false;              ///< has a motion in this transfer
-    bool listed = false;               ///< near lists hold it
-    Pose X_listed = Pose::Identity();  ///< where it was then
-    Pose X = Pose::Identity();         ///< at the start of the transfer
-    Pose X_now = Pose::Identity();     ///< at the start of the step
-    BlockKey window;                   ///< block its float coordinates count from
-    // Sums over the transfer under way, and the means over the one before; without one, over the steps so far.
+    /// Area of the plates / area that nodes stand for.
+    double area_factor = 1;
+    /// Has a motion in this transfer.
+    bool present = false;
+    /// The near lists contain it.
+    bool listed = false;
+    /// Pose when the lists were made.
+    Pose X_listed = Pose::Identity();
+    /// Pose at the start of the transfer.
+    Pose X = Pose::Identity();
+    /// Pose at the start of the step.
+    Pose X_now = Pose::Identity();
+    /// Block whose corner is the origin of its float coordinates.
+    BlockKey window;
+    // Sums over the current transfer, and means over the previous one; before there is one, over
+    // the steps so far.
     Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
-    double felt_for = 0;  ///< [s]
-    bool told = false;    ///< there is a transfer before
+    /// Duration of the sums [s].
+    double felt_for = 0;
+    /// There is a previous transfer.
+    bool told = false;
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
     void visit(Archive& a);
   };
@@ -116,7 +132,8 @@ class Contact {
   device::Device& device_;
   double cell_;
   Vec3 origin_;
-  Vec3 down_;  ///< of length 1, or 0 without gravity
+  /// Unit vector of gravity, or 0 without.
+  Vec3 down_;
   SchemeConstants scheme_;
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
@@ -128,10 +145,13 @@ class Contact {
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;
   ContactReach reach_{};
-  // What the kernels of contact.cl write.
-  device::Buffer<ContactRecord> records_;  ///< two per near node, one per field (contact_apply)
-  device::Buffer<ContactSums> sums_;       ///< one per near block (contact_sums)
-  device::Buffer<std::int32_t> touched_;   ///< one per near block: whether contact changed a node (contact_apply)
+  // Results of the kernels of contact.cl.
+  /// Two per near node, one per field (contact_apply).
+  device::Buffer<ContactRecord> records_;
+  /// One per near block (contact_sums).
+  device::Buffer<ContactSums> sums_;
+  /// One per near block: contact changed a node (contact_apply).
+  device::Buffer<std::int32_t> touched_;
   std::optional<Results> results_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table of bits: which columns are marked in which rows, read back in order.
+// Table of bits: which columns are marked in which rows.
 #pragma once
 
 #include <bit>
@@ -9,8 +9,8 @@
 
 namespace navvy::soil {
 
-/// Pairs (row, column) that arrive in any order and more than once, and leave sorted and once: cheaper than sorting
-/// them where columns are few.
+/// Set of pairs (row, column). They arrive in any order and more than once, and are read sorted and
+/// once. Cheaper than sorting them where columns are few.
 class Marks {
  public:
   Marks(std::size_t rows, std::size_t columns) : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
