@@ -13,9 +13,11 @@
 namespace navvy::bench {
 namespace {
 
-constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their drift and the kernel's reach
+/// Nodes around the sorted particles, for their drift and the kernel's reach.
+constexpr int kMargin = 2;
 constexpr std::size_t kCells = 216;
-constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
+/// As kMaxDrift of src/soil/soil_particles.h.
+constexpr double kMostDrift = 0.75;
 
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
@@ -26,7 +28,7 @@ LawSoil law_of(const scene::Soil& soil, double cell) {
   return out;
 }
 
-/// Home block, cell of the base node floor(x - 0.5) in it, then the order of ids.
+/// Block, cell of the base node floor(x - 0.5) in it, then the order of ids.
 struct SortKey {
   std::array<int, 3> home{};
   int cell = 0;
@@ -129,7 +131,8 @@ void NativeSoil::append(const soil::Particle& p) {
   Home& home = homes_.back();
   const std::size_t l = home.count++ % kLanes;
   if (l == 0) {
-    packs_.emplace_back();  // lanes without a particle: no mass, inside the home
+    // Lanes without a particle: no mass, inside the block.
+    packs_.emplace_back();
 #define REST_ONE(NAME, member, rest) std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
 #define REST_MANY(NAME, member, count, rest) \
   for (auto& lanes : packs_.back().member) std::fill(std::begin(lanes), std::end(lanes), rest);
@@ -167,7 +170,7 @@ bool NativeSoil::sum_openings(const Home& home) {
     sum[1] += pack.mass[l] * pack.j0[l];
     if (pack.j[l] > pack.j0[l]) sum[2] = 1;
   }
-  // Sixteen cells at a time; sums in mass quanta, as the kernels have them.
+  // Sixteen cells at a time; sums in mass quanta, as in the kernels.
   constexpr float kQuanta = 1 / MASS_QUANTUM;
   for (std::size_t first = 0; first < kCells; first += kLanes) {
     const std::size_t cells = std::min(kLanes, kCells - first);
@@ -297,7 +300,7 @@ float NativeSoil::gather(const Home& home, float dt) {
       }
       v[l] = sum, mx[l] = sum_x, my[l] = sum_y, mz[l] = sum_z;
     }
-    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and apart where soil is crowded.
+    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and a separation where soil is crowded.
     Lanes u[4], m[4], c[9], lean[3];
     unturn(v, u);
     const Four* moments[3] = {mx, my, mz};

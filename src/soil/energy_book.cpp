@@ -12,11 +12,13 @@
 namespace navvy::soil {
 namespace {
 
-/// Rounding of a volume ratio kept as a float, two units of its last place; a larger jump between two steps is mixing.
+/// Rounding of a volume ratio stored as a float, two units in its last place. A larger jump between
+/// two steps is mixing.
 constexpr double kRoundingOfJ = 2.5e-7;
-constexpr double kRounding = 1e-6;  ///< of a place within a block [cells]
+/// Rounding of a position within a block [cells].
+constexpr double kRounding = 1e-6;
 
-/// Elastic energy of volume / bank volume [Pa], the integral of p over what J has shrunk.
+/// Returns elastic energy of volume / bank volume [Pa]: the integral of p over the compression.
 double volume_energy(const SoilRow& soil, double j, double j0) {
   const double closed = std::max(0.0, 1 - j / j0);
   return 0.5 * static_cast<double>(soil.bulk) * j0 * closed * closed;
@@ -26,7 +28,8 @@ double dot_of(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Where the 8 x 8 x 8 nodes of a home's tile stand among the nodes of the active blocks.
+/// Returns the index, among the nodes of the active blocks, of each of the 8 x 8 x 8 nodes of a
+/// block's tile.
 std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t home) {
   std::array<std::size_t, 512> out{};
   for (int i = 0; i < 512; ++i) {
@@ -44,7 +47,8 @@ std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t hom
   return out;
 }
 
-/// By node of the active blocks 0: one field, else 1 + own, own = 0 front, 1 back; as kernels/soil's node_split.
+/// Returns 0 for nodes with one field, else 1 + own, own = 0 front, 1 back, by node of the active
+/// blocks; as node_split of the kernels.
 std::vector<std::int32_t> splits(std::size_t nodes, NearNodes& near) {
   std::vector<std::int32_t> out(nodes, 0);
   if (near.count == 0) return out;
@@ -75,7 +79,7 @@ EnergyBook::Words EnergyBook::words_of(const ParticleStore& store) {
   return out;
 }
 
-/// Calls visit(home, slot) for every particle, in stored order.
+/// Calls visit(block, slot) for every particle, in stored order.
 template <class Visit>
 void EnergyBook::for_particles(const ParticleStore& store, const Visit& visit) {
   const std::vector<Home>& homes = store.homes();
@@ -83,7 +87,7 @@ void EnergyBook::for_particles(const ParticleStore& store, const Visit& visit) {
     for (int i = 0; i < homes[h].count; ++i) visit(h, static_cast<std::size_t>(homes[h].start + i));
 }
 
-// The affine part holds a quarter of a cell squared: sum of w (x_i - x_p)^2 along an axis.
+// The affine part holds a quarter of a cell squared: the sum of w (x_i - x_p)^2 along an axis.
 double EnergyBook::moving_energy(const ParticleStore& store, const Words& now) const {
   double sum = 0;
   for_particles(store, [&](std::size_t, std::size_t slot) {
@@ -109,8 +113,9 @@ double EnergyBook::elastic_energy(const ParticleStore& store, const Words& now) 
   return sum;
 }
 
-// Mean stress over the step times its plastic strain; the law keeps the stress after the return only, along which the
-// strain went. Stress that is gone altogether went along the one before.
+// Mean stress over the step times its plastic strain. The law keeps only the stress after the
+// return, which has the direction of the strain. Stress that vanished had the direction of the
+// stress before.
 void EnergyBook::book_law(const ParticleStore& store, const Words& now, double dt) {
   for_particles(store, [&](std::size_t, std::size_t slot) {
     const SoilRow& soil = soils_[static_cast<std::size_t>(now.bits(FIELD_TAG, slot) & 0xffff)];
@@ -138,7 +143,7 @@ void EnergyBook::book_law(const ParticleStore& store, const Words& now, double d
     const double p = static_cast<double>(soil.bulk) * std::max(0.0, 1 - j / j00);
     const double felt = std::max(p - scheme_.volume_damping * viscosity * trace, 0.0);
     if (p > 0) account_.viscous += dt * volume * (p - felt) * trace;
-    // A way that no velocity went.
+    // A displacement without a velocity: the separation of crowded particles.
     for (int a = 0; a < 3; ++a) {
       const double apart =
           now.at(FIELD_MOVED + a, slot) - before_.at(FIELD_MOVED + a, slot) - dt / cell_ * now.at(FIELD_V + a, slot);
@@ -148,8 +153,8 @@ void EnergyBook::book_law(const ParticleStore& store, const Words& now, double d
   });
 }
 
-// Masses and velocities of the nodes at the start of a transfer, as the scatter makes them: places and sides of now,
-// velocities and gradients of before.
+// Masses and velocities of the nodes at the start of a transfer, as the scatter computes them:
+// current positions and sides, previous velocities and gradients.
 void EnergyBook::scatter(const ParticleStore& store, const Words& now, Contact& contact) {
   const BlockTable& table = store.table();
   const std::size_t count = table.active.size() * BLOCK_NODES;
@@ -178,7 +183,7 @@ void EnergyBook::scatter(const ParticleStore& store, const Words& now, Contact& 
       const auto place =
           static_cast<std::size_t>(base[0] + i[0] + 1 + 8 * (base[1] + i[1] + 1) + 64 * (base[2] + i[2] + 1));
       const std::size_t at = tile[place];
-      // Neutral soil joins the side its node lies on; an unsplit node joins everything.
+      // Neutral soil joins the side of its node; an unsplit node joins all.
       const bool back = split[at] != 0 && (side == 0 ? split[at] == 2 : side == 2);
       Node& node = nodes_[at + (back ? count : 0)];
       const double share = w[0][i[0]] * w[1][i[1]] * w[2][i[2]] * mass;
@@ -213,7 +218,8 @@ std::vector<Vec3> EnergyBook::velocities(Transfer& transfer, Contact& contact) c
   return out;
 }
 
-// Tools work with the twist that the contact was solved for; what the nodes did not get of it slid or struck.
+// Tools do work with the twist that the contact was solved for. What the nodes did not get of it is
+// sliding and impact.
 void EnergyBook::book_tools(Contact& contact, const std::vector<Vec3>& after, std::span<const ToolMotion> motions,
                             std::span<const ToolImpulse> impulses) {
   double work = 0, got = 0;
@@ -247,7 +253,8 @@ void EnergyBook::book_tools(Contact& contact, const std::vector<Vec3>& after, st
 void EnergyBook::begin_step(const ParticleStore& store, bool hold) {
   before_ = words_of(store);
   if (hold) return;
-  // The transfer before has ended: what nodes had and particles did not take up is lost; then soil came and went.
+  // The previous transfer has ended. What nodes had and particles did not take up is lost; then
+  // soil came and went.
   const double moving = moving_energy(store, before_), elastic = elastic_energy(store, before_);
   account_.transfer += account_.kinetic - moving_;
   account_.exchanged += moving - moving_ + elastic - account_.elastic;
@@ -256,7 +263,8 @@ void EnergyBook::begin_step(const ParticleStore& store, bool hold) {
 
 void EnergyBook::end_step(const ParticleStore& store, Transfer& transfer, Contact& contact, double dt, bool hold,
                           std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses) {
-  if (hold && nodes_.empty()) return;  // a transfer that was under way when the account was opened
+  // A transfer that was open when the account was opened.
+  if (hold && nodes_.empty()) return;
   const Words now = words_of(store);
   book_law(store, now, dt);
   if (!hold) {

@@ -33,7 +33,7 @@ ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
 }
 
 void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
-  // Moments are about each part's own origin; bring them to the first one's.
+  // Moments are about each part's own origin; shift them to that of the first part.
   sum.L_W += part.L_W + (part.p_W - sum.p_W).cross(part.J_W);
   sum.J_W += part.J_W;
   sum.normal += part.normal;
@@ -42,7 +42,7 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   sum.residual_moment += part.residual_moment;
   sum.scale += part.scale;
   sum.scale_moment += part.scale_moment;
-  // Means of a transfer: those of the last part are the newest.
+  // Means over a transfer: those of the last part are the newest.
   sum.force_W = part.force_W;
   sum.moment_W = part.moment_W;
 }
@@ -112,7 +112,7 @@ void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<Tool
     state_->check_motion(motion);
     fastest = std::max(fastest, state_->tool_speed(motion));
   }
-  // A step well beyond the limit is split; the tools move and yield in between.
+  // A step well above the limit is split; the tools move and yield in between.
   const int parts = std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
@@ -197,7 +197,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
   if (!(report.speed * dt / frame.cell < 1 - kMaxDrift / 4)) fail(report.speed);
   current.record_step(dt, frame.cell, report.speed, tool_speed);
   stats.max_speed = report.speed;
-  // Sides are classified once in a transfer.
+  // Sides are classified once per transfer.
   if (!hold) {
     particles.add_drift(report.push);
     stats.shell_crossings += report.crossed;
@@ -324,7 +324,7 @@ void Solver::State::update_lists(std::span<const ToolMotion> motions) {
   particles.clear_blocks_changed();
 }
 
-// In held steps, too: a state that was loaded knows only the ground of its moment.
+// Also in held steps: a loaded state knows only the ground of its own time.
 void Solver::State::update_floor() {
   if (floor.update(particles.store().table().active, particles.blocks_changed()))
     transfer.set_floor(floor.blocks());

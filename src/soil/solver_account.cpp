@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a solver tells about itself: particles, payload, ledger, hash, snapshot.
+// Queries of a solver: particles, payload, ledger, hash, snapshot.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +25,7 @@ Ledger Solver::ledger() const { return state_->masses.ledger(state_->particles.m
 
 std::vector<Particle> Solver::particles() const {
   std::vector<Particle> out = state_->particles.records();
-  // Where they are now, not where the transfer under way found them.
+  // Present positions, not those at the start of the transfer.
   for (Particle& p : out) {
     for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
     p = in_cell_block(p);
@@ -37,7 +37,8 @@ std::vector<Particle> Solver::particles() const {
 double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except) const {
   const ShellGeometry& geometry = state_->contact.geometry(tool);
   const Pose X_TW = X_WT.inverse();
-  Vec3 low = Vec3::Constant(1e300), high = -low;  // of what it can hold, in the grid [cells]
+  // Bounding box of what it can hold, in the grid [cells].
+  Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const Vec3& corner : geometry.hull_points()) {
     const Vec3 grid = (X_WT * corner - state_->frame.origin) / state_->frame.cell;
     low = low.cwiseMin(grid);
@@ -47,7 +48,8 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
   for (const PlacedTool& other : except)
     others.emplace_back(&state_->contact.geometry(other.tool), other.X_WT.inverse());
   std::int64_t sum = 0;
-  int closest = 0;  // triangle of the particle before: neighbours in memory are neighbours in space
+  // Triangle of the previous particle: neighbours in memory are neighbours in space.
+  int closest = 0;
   for (const PointMass& p : state_->particles.masses_near(low, high)) {
     const Vec3 p_W = state_->frame.origin + p.grid * state_->frame.cell;
     const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
@@ -61,7 +63,7 @@ std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles, std:
   for (const PlacedTool& tool : tools) {
     const ShellGeometry& geometry = state_->contact.geometry(tool.tool);
     const Pose X_TW = tool.X_WT.inverse();
-    // Most particles are far from any tool: a box in W answers for them.
+    // Most particles are far from any tool: test a bounding box in W first.
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (const Vec3& corner : geometry.hull_points()) {
       low = low.cwiseMin(tool.X_WT * corner);
@@ -113,7 +115,7 @@ void Solver::State::visit(Archive& a) {
   a("transfer", current);
 }
 
-// Lists and layout follow from the blocks, and from the poses that the lists were made for.
+// Lists and layout follow from the blocks, and from the poses for which the lists were made.
 void Solver::State::rebuild(Archive& a) {
   ParticleStore& store = particles.store();
   masses.set_particles(store.masses(world.soils.size()));

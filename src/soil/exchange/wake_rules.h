@@ -20,9 +20,8 @@ struct ToolZone {
   heightfield::CellRect box;
   /// Columns within kToolGuard of it.
   heightfield::CellRect near;
-  heightfield::CellRect
-      /// Columns to activate: two dig depths ahead and one to the sides, times the scene's factor.
-      zone;
+  /// Columns to activate: two dig depths ahead and one to the sides, times the scene's factor.
+  heightfield::CellRect zone;
   /// Heights of the box [cells above datum].
   double low = 0, high = 0;
   /// Factor of the scene on the size of zones.

@@ -22,7 +22,7 @@ void GridToParticle::set_blocks(const BlockTable& table) { upload(device_, neigh
 void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
                              device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double part,
                              double cell) {
-  // The farthest way apart is one of a transfer: its steps share it.
+  // The largest separation is that of a transfer; its steps share it.
   kernel_
       .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
             near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),

@@ -15,7 +15,7 @@ MassCount::MassCount(device::Device& device, std::size_t soils)
       kernel_(program_, "mass_count") {}
 
 void MassCount::make_room(std::size_t homes) {
-  // Unmapped before the kernel writes again, and before the buffer is replaced.
+  // Unmap before the kernel writes again, and before the buffer is replaced.
   sums_.reset();
   ensure(device_, masses_, homes * soils_);
 }

@@ -15,10 +15,10 @@
 namespace navvy::soil {
 namespace {
 
-/// Runs of homes begin at full packs, so that sixteen lanes never belong to two homes.
+/// Runs of blocks begin at full packs, so that sixteen lanes never belong to two blocks.
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
-/// Moves a particle's block to that of its base node floor(x - 0.5).
+/// Sets a particle's block to that of its base node floor(x - 0.5).
 void find_home(Particle& p) {
   for (int a = 0; a < 3; ++a) {
     const int base = static_cast<int>(std::floor(p.x[a] - 0.5f));
@@ -30,14 +30,14 @@ void find_home(Particle& p) {
 
 BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}; }
 
-/// Cell of the base node inside its home, x fastest.
+/// Returns the cell of the base node inside its block, x fastest.
 int cell_of(const Particle& p) {
   int cell = 0;
   for (int a = 2; a >= 0; --a) cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
   return cell;
 }
 
-// Particle and store have the fields of one list: a field that one lacks does not compile.
+// Particle and store have the fields of one list: if one lacks a field, this does not compile.
 void put_record(const Particle& p, float* state, std::size_t capacity, std::size_t slot) {
   float* words = state + slot;
 #define PUT_ONE(NAME, member, rest) words[FIELD_##NAME * capacity] = p.member;
@@ -73,7 +73,7 @@ int slots_of(const std::vector<int>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
 }
 
-/// What a lane without a particle holds: the values at rest of particle_fields.h.
+/// Returns the values of a lane without a particle, from particle_fields.h.
 Particle empty_lane() {
   Particle p;
 #define REST_ONE(NAME, member, rest) p.member = rest;
@@ -84,11 +84,11 @@ Particle empty_lane() {
   return p;
 }
 
-/// No site has blocks beyond: it has at most 2^30 columns a side.
+/// No site has blocks beyond this: a side has at most 2^30 columns.
 constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
 
-/// The particles of one home as they are hashed and saved: words as on the device, field after field, which are not
-/// copied: that alone would take a quarter of the time that hashing them takes.
+/// Particles of one block as they are hashed and saved: words as on the device, field after field.
+/// They are not copied, which alone would take a quarter of the hashing time.
 class HomeWords {
  public:
   void visit(Archive& a) {
@@ -97,13 +97,14 @@ class HomeWords {
       a.item(f, [&] { a.loading() ? a("words", loaded_[f]) : a("words", fields_[f]); });
   }
   BlockKey key() const { return {block[0], block[1], block[2]}; }
-  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive the visit.
+  /// Refers to `count` particles whose fields lie `capacity` words apart from `first` on, which
+  /// must outlive the visit.
   void take(const float* first, std::size_t capacity, std::size_t count) {
     for (std::size_t f = 0; f < FIELD_COUNT; ++f) fields_[f] = {first + f * capacity, count};
   }
-  /// Particles of one home on the host.
+  /// Refers to particles of one block on the host.
   void take(std::span<const Particle> particles);
-  /// Appends the particles that were loaded, checked.
+  /// Appends the particles that were loaded, after checks.
   void give(Archive& a, std::vector<Particle>& particles, std::size_t soils);
 
   std::array<std::int32_t, 3> block{};
@@ -111,7 +112,8 @@ class HomeWords {
  private:
   std::array<std::span<const float>, FIELD_COUNT> fields_;
   std::array<std::vector<float>, FIELD_COUNT> loaded_;
-  std::vector<float> words_;  // of particles on the host
+  // Words of particles on the host.
+  std::vector<float> words_;
 };
 
 void HomeWords::take(std::span<const Particle> particles) {
@@ -121,7 +123,7 @@ void HomeWords::take(std::span<const Particle> particles) {
   take(words_.data(), particles.size(), particles.size());
 }
 
-// Numbers that are not finite are let in: the snapshot of a run that broke shows where it did.
+// Values that are not finite are accepted: the snapshot of a run that failed shows where it did.
 void HomeWords::give(Archive& a, std::vector<Particle>& particles, std::size_t soils) {
   const auto near = [](std::int32_t b) { return b >= -kFarthestBlock && b <= kFarthestBlock; };
   a.require(std::all_of(block.begin(), block.end(), near), "block", "lies off any site");
@@ -146,7 +148,8 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
   assign({});
 }
 
-// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
+// Block h begins where the previous one ends, padded. Without tools every block has one tile, of
+// its own index.
 void ParticleStore::lay_out(const std::vector<int>& counts) {
   homes_.assign(table_.homes.size(), Home{});
   int slot = 0;
@@ -166,7 +169,7 @@ void ParticleStore::upload_homes() {
   home_keys_.write(keys);
 }
 
-// Tiles are numbered anew: a home near a shell has three in a row.
+// Tiles are numbered anew: a block near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
   for (std::size_t h = 0; h < homes_.size(); ++h) {
@@ -180,8 +183,8 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
 
 std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   for (Particle& p : particles) find_home(p);
-  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about takes three times as
-  // long.
+  // By cell inside a block, as a re-bin does. Small keys are sorted: moving whole particles takes
+  // three times as long.
   struct Place {
     BlockKey home;
     int cell;
@@ -200,7 +203,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   return out;
 }
 
-// Room is made with some to spare: soil wakes in small portions.
+// Some spare memory is allocated: soil becomes active in small portions.
 void ParticleStore::make_room(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
@@ -218,17 +221,17 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
     }
     ++counts.back();
   }
-  // Room first, as in `rebin`: a store whose device is full holds what it held.
+  // Memory first, as in `rebin`: when the device is full, the store keeps its contents.
   const int slots = slots_of(counts);
   fit(device_, homes_buffer_, keys.size());
   fit(device_, home_keys_, keys.size());
   fit(device_, home_surface_, keys.size());
   make_room(now_, slots, slots + slots / 2);
-  // Sorted particles of one home stand together, so the keys are sorted and unique, too.
+  // Sorted particles of one block are contiguous, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
   lay_out(counts);
   {
-    // Every slot of the runs is written, padding as well: kernels read whole packs.
+    // Every slot of the runs is written, padding included: kernels read whole packs.
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
@@ -281,8 +284,8 @@ std::vector<Particle> ParticleStore::records() const {
 }
 
 std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
-  // From half a cell above its key on a home holds what re-bins found there; between them it drifts by less than a
-  // cell.
+  // A block holds what re-bins found from half a cell above its key on; in between, particles drift
+  // by less than a cell.
   constexpr double kFrom = -1, kTo = kBlockCells + 2;
   std::vector<PointMass> out;
   if (count_ == 0) return out;
@@ -320,7 +323,8 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   for (const Home& home : homes_) {
     const auto n = static_cast<std::size_t>(home.count);
     const float* first = view.data() + home.start;
-    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the run is lost anyway.
+    // Finite numbers have a finite sum here: none is near the end of the range unless the run has
+    // failed.
     sums.assign(n, 0.0f);
     for (std::size_t f = 0; f < FIELD_MASS; ++f)
       for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
@@ -334,7 +338,7 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
 }
 
 std::vector<Particle> ParticleStore::drop_outside() {
-  // Rare: a few particles roll over the edge. The host sorts who stays.
+  // Rare: a few particles leave the site. The host selects those that stay.
   const std::vector<Particle> all = records();
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
@@ -357,7 +361,7 @@ std::vector<Particle> ParticleStore::rebin() {
     if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
   RebinPlan plan = plan_rebin(table_, counts);
-  // Room first: without it the old order still stands.
+  // Memory first: on failure the old order is still valid.
   const int other = 1 - now_;
   const int slots = slots_of(plan.counts);
   make_room(other, slots, std::max(slots + slots / 4, capacity_[now_]));
@@ -365,7 +369,7 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, home_keys_, plan.keys.size());
   fit(device_, home_surface_, plan.keys.size());
   rebin_.make_room(plan.keys.size(), static_cast<std::size_t>(slots));
-  // From here on nothing can fail but the device itself.
+  // After this point only the device itself can fail.
   std::swap(homes_buffer_, old_homes_buffer_);
   if (!(plan.keys == table_.homes)) table_.build(plan.keys);
   lay_out(plan.counts);
@@ -376,7 +380,7 @@ std::vector<Particle> ParticleStore::rebin() {
   return {};
 }
 
-// Read where they lie: particle by particle it would take twice as long.
+// Reads the words in place: particle by particle would take twice as long.
 void ParticleStore::visit(Archive& a) {
   if (a.loading()) {
     std::vector<Particle> records;

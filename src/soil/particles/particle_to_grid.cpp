@@ -27,7 +27,7 @@ ParticleToGrid::ParticleToGrid(device::Device& device, bool extended_law, const 
       program_(device, kernel_path(device, "particle_to_grid"), law_options(extended_law, scheme)),
       kernel_(program_, "particle_to_grid") {}
 
-// Contents are rewritten by every scatter, so room is all they need.
+// Every scatter rewrites the contents, so only the size matters.
 void ParticleToGrid::set_blocks(std::size_t homes, int tiles) {
   ensure(device_, tiles_, static_cast<std::size_t>(tiles) * 4 * TILE_NODES);
   ensure(device_, used_, homes);

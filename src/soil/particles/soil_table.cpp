@@ -11,11 +11,14 @@
 namespace navvy::soil {
 namespace {
 
-constexpr double kNeverCompacts = 1e30;  ///< [Pa]
-constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
+/// Pressure that no soil reaches [Pa].
+constexpr double kNeverCompacts = 1e30;
+/// Density of quartz, for the inertial number [kg/m3].
+constexpr double kGrainDensity = 2650;
 
-/// Radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates by b: there s_zz = -2/3 b q,
-/// and the cone of law.h would be narrower by this [docs/soil.md, dilatancy].
+/// Returns the radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates
+/// by b. There s_zz = -2/3 b q, and the yield surface of law.h would be narrower by this factor
+/// [docs/soil.md, dilatancy].
 double radius_of_dilating(double sin_phi, double b) {
   const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * -(2 * b / 3) * (1 - 4 * b * b / 9);
   double r = 1;

@@ -33,7 +33,7 @@ void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double p
 }
 
 Transfer::Largest Transfer::read_report(std::size_t homes) const {
-  // One small read a step; it waits for everything that was queued before.
+  // One small read per step; it waits for everything queued before.
   Largest out;
   for (const Report& home : report_.map_read(0, homes)) {
     out.speed = std::max(out.speed, static_cast<double>(home.speed));

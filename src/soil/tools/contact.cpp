@@ -14,7 +14,7 @@ namespace {
 /// Newton iterations of the two-way solve; contact is piecewise linear, so few are enough.
 constexpr int kSweeps = 3;
 
-/// Scripted tools do not: they have no mobility, and nothing to solve for.
+/// Returns false for scripted tools: they have no mobility, and nothing is to be solved for.
 bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().maxCoeff() > 0; }
 
 }  // namespace
@@ -32,7 +32,7 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, cons
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
 
-// Triangles of all tools count on from one another, so that one number names triangle and tool.
+// Triangles are numbered over all tools, so that one number gives triangle and tool.
 int Contact::add_tool(const scene::Shell& shell) {
   Registered tool;
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
@@ -72,7 +72,7 @@ void Contact::solve(Transfer& transfer, double dt) {
       twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
-  // Then all tools at once, with their final twists.
+  // Apply all tools at once, with their final twists.
   launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(), nodes_.velocity1);
 }
 
@@ -83,7 +83,7 @@ struct Momentum {
   Vec3 before = Vec3::Zero(), after = Vec3::Zero(), before_moment = Vec3::Zero(), after_moment = Vec3::Zero();
 };
 
-/// Adds what one field of a node says; r = arm from the tool's origin [m].
+/// Adds one field of a node; r = lever arm from the tool's origin [m].
 void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Momentum& sum) {
   const Vec3 before(record.before[0], record.before[1], record.before[2]);
   const Vec3 after(record.after[0], record.after[1], record.after[2]);
@@ -114,7 +114,7 @@ void Contact::read_later() {
 
 void Contact::book(std::span<ToolImpulse> impulses) {
   if (!results_) return;
-  // The maps go with this copy: the next step may write the buffers.
+  // The maps end with this copy: the next step may write the buffers.
   const Results read = std::move(*results_);
   results_.reset();
   const auto blocks = static_cast<std::size_t>(nodes_.count);
@@ -135,7 +135,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
         const ContactRecord& record = records[2 * i + s];
         if (std::equal(std::begin(record.before), std::end(record.before), std::begin(record.after))) continue;
         const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
-        // Where the node lies, in doubles: arms of moments are as exact as the impulses.
+        // Position of the node in doubles: lever arms are as exact as the impulses.
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
                         kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
                         kBlockCells * key.z + static_cast<int>(n >> 4));
@@ -143,7 +143,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
       }
     }
   }
-  // What went into the tools against what the nodes lost: rounding only.
+  // Impulse on the tools plus momentum change of the nodes: only rounding remains.
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     impulses[m].residual = impulses[m].J_W + (momentum[m].after - momentum[m].before);
     impulses[m].residual_moment = impulses[m].L_W + (momentum[m].after_moment - momentum[m].before_moment);

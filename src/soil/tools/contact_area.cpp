@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The area that the nodes around a plate stand for, against the plate's own.
+// Area that the nodes around a plate stand for, compared with the plate's own.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,8 @@ double segment_distance(const Vec3& p, const std::array<Vec3, 2>& s) {
   return (p - s[0] - t * d).norm();
 }
 
-/// Calls visit(point, area) for the middles of equal parts of a triangle, sides at most `longest` (or 1/64 of it).
+/// Calls visit(point, area) for the centres of equal parts of a triangle, with sides of at most
+/// `longest` (or 1/64 of its own).
 template <class Visit>
 void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Visit& visit) {
   const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0];
@@ -30,7 +31,7 @@ void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Vi
     }
 }
 
-/// Plates a cell or two wide hardly touch soil at all: their area is not blown up for it.
+/// Plates a cell or two wide hardly touch soil at all; their area is not scaled up further.
 constexpr double kMostAreaFactor = 2;
 
 }  // namespace

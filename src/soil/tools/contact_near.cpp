@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which blocks lie near which triangles, and the triangles in the kernels' frame.
+// Near lists: blocks near each triangle, and the triangles in the frame of the kernels.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Cells a particle may have drifted from its home's base range [0.5, 4.5) before a re-bin.
+/// Cells that a particle may have drifted from the range [0.5, 4.5) of its block before a re-bin.
 constexpr double kDrift = 1.0;
 
 void put(float (&out)[3], const Vec3& v) {
@@ -26,21 +26,23 @@ ShellFeature feature(const Vec3& normal, bool free) {
   return out;
 }
 
-/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of
-/// a tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same
-/// dig.
+/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m). That is finer
+/// than a float at the far end of a tool and coarser than the rounding of a double a kilometre from
+/// the origin, so that the same dig elsewhere is the same dig.
 constexpr double kSteps = 1 << 18;
 Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix() / kSteps; }
 
-/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks. Where no ground
-/// reaches all coordinates share a block.
+/// Returns the block that holds the coordinate. It is snapped first: round numbers lie on the edges
+/// of blocks. All coordinates beyond any ground share a block.
 int floor_div(double cells) {
-  constexpr double kFarthestBlock = 1e8;  // its cells are an int, too
+  // Its cells are an int, too.
+  constexpr double kFarthestBlock = 1e8;
   return static_cast<int>(
       std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthestBlock));
 }
 
-/// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
+/// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets
+/// the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,
            Marks& marks) {
   const BlockKey from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1,
@@ -56,7 +58,7 @@ void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, i
 
 }  // namespace
 
-// Lists reach farther than the contact by a margin; within it they hold.
+// Lists reach farther than the contact by a margin, within which they remain valid.
 bool Contact::moved_far() const {
   for (const Registered& tool : tools_) {
     if (tool.present != tool.listed) return true;
@@ -97,7 +99,8 @@ void Contact::go_on(Transfer& transfer) {
   if (nodes_.count == 0) return;
   upload_tools();
   shells_.enqueue_nodes(transfer, nodes_, scheme_.contact_band);
-  device_.finish();  // what was uploaded may be replaced by the next step
+  // The next step may replace the uploaded data.
+  device_.finish();
 }
 
 bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed) {
@@ -109,7 +112,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     tool.X = tool.X_now = motion.X_WT;
     set_window(tool);
   }
-  // New blocks have no lists yet; far tools have outrun theirs.
+  // New blocks have no lists yet, and tools that moved far have left theirs.
   const bool again = blocks_changed || moved_far();
   if (again) {
     for (Registered& tool : tools_) {
@@ -123,7 +126,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 }
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
-  // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
+  // Boxes of the pieces, extended by the band. Pieces are short, so boxes waste little.
   const double far = scheme_.contact_band + scheme_.contact_margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;
@@ -137,7 +140,7 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
       low.array() -= far;
       high.array() += far;
       const int triangle = tool.first_triangle + piece.triangle;
-      // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
+      // Nodes of a block lie in 0..3, its particles in [0.5, 4.5) plus drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
     }
@@ -145,7 +148,8 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
 }
 
 void Contact::list_near(const BlockTable& table) {
-  std::size_t triangles = 0;  // of all tools, which count on from one another
+  // Over all tools.
+  std::size_t triangles = 0;
   for (const Registered& tool : tools_) triangles += tool.geometry->triangles().size();
   Marks node_marks(table.active.size(), triangles), home_marks(table.homes.size(), triangles);
   find_candidates(table, node_marks, home_marks);
@@ -165,11 +169,12 @@ void Contact::list_near(const BlockTable& table) {
                     [&](std::size_t triangle) { of_blocks.triangles.push_back(static_cast<std::int32_t>(triangle)); });
   }
   of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
-  // Without near blocks no kernel of contact runs, and no buffer needs room.
+  // Without near blocks no contact kernel runs, and no buffer is needed.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
   for (std::size_t h = 0; h < table.homes.size(); ++h) {
-    // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
+    // A block is also near when its tile reaches into a near block: split nodes need its three
+    // tiles.
     bool near = home_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
@@ -196,7 +201,8 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, touched_, near_list.size());
 }
 
-// Floats count from the window's corner, a block's, so that they are as exact far from the site's origin.
+// Floats are relative to the window's corner, a block's, so that they are as exact far from the
+// site's origin.
 Tool Contact::tool_now(std::size_t index) const {
   const Registered& tool = tools_[index];
   const scene::Shell& shell = tool.geometry->shell();
@@ -222,7 +228,7 @@ Tool Contact::tool_now(std::size_t index) const {
   return out;
 }
 
-// Directions turn with the tool; the kernels know W only.
+// Directions turn with the tool; the kernels use the axes of W only.
 void Contact::upload_tools() {
   ToolShells shells;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
@@ -261,7 +267,7 @@ void Contact::classify(ParticleStore& store, Transfer& transfer) {
   shells_.enqueue(store, transfer, nodes_, scheme_.contact_band, scheme_.contact_max_push);
 }
 
-// A pose that is none would make boxes of candidates larger than any memory.
+// An invalid pose would make candidate boxes larger than any memory.
 void Contact::Registered::visit(Archive& a) {
   a("listed", listed);
   a("X_listed", X_listed);

@@ -15,7 +15,8 @@ ShellQuery::ShellQuery(device::Device& device, const SchemeConstants& scheme)
       nodes_kernel_(program_, "shell_nodes"),
       particles_kernel_(program_, "shell_particles") {}
 
-// Rows are as many as near blocks and homes, and one more entry ends the last.
+// There are as many rows as near blocks and near particle blocks, and one more entry that ends the
+// last.
 void ShellQuery::set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
                           const std::vector<std::int32_t>& near_homes) {
   near_homes_ = near_homes.size();
@@ -30,7 +31,7 @@ void ShellQuery::set_near(const CandidateRows& of_blocks, const CandidateRows& o
 }
 
 void ShellQuery::set_tools(ToolShells shells) {
-  // The step before has been waited for: nobody reads the old values any more.
+  // The previous step has been waited for: the old values are no longer read.
   now_ = std::move(shells);
   const auto send = [&](auto& buffer, const auto& values) {
     ensure(device_, buffer, values.size());
@@ -55,7 +56,7 @@ void ShellQuery::enqueue_nodes(Transfer& transfer, NearNodes& near, double band)
 }
 
 void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
-  // Neither kernel reads what the other writes; both see the poses of this step.
+  // Neither kernel reads what the other writes; both use the poses of this step.
   enqueue_nodes(transfer, near, band);
   // Particles may be near a shell although no node of their own block is.
   particles_kernel_
