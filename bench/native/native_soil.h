@@ -44,7 +44,7 @@ class NativeSoil {
     std::uint32_t id[kLanes];
   };
   /// One 4^3 block of cells: its packs and the number of lanes with particles.
-  struct Home {
+  struct ParticleBlock {
     std::size_t first = 0, count = 0;
     /// [cells of the window].
     int corner[3] = {0, 0, 0};
@@ -54,13 +54,13 @@ class NativeSoil {
   void sort(const std::vector<soil::Particle>& particles);
   /// Appends to the last block.
   void append(const soil::Particle& p);
-  bool sum_openings(const Home& home);
-  void scatter(const Home& home, float dt, bool hold);
+  bool sum_openings(const ParticleBlock& home);
+  void scatter(const ParticleBlock& home, float dt, bool hold);
   void update_grid(float dt, bool hold);
   /// Moves particles by their recorded displacement.
   void end_transfer();
   /// Returns the fastest velocity component.
-  float gather(const Home& home, float dt);
+  float gather(const ParticleBlock& home, float dt);
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
            row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));
@@ -76,7 +76,7 @@ class NativeSoil {
   int sorts_ = 0;
   std::size_t count_ = 0;
   std::vector<Pack> packs_;
-  std::vector<Home> homes_;
+  std::vector<ParticleBlock> particle_blocks_;
   /// Cell of the grid frame where the window begins.
   std::array<int, 3> window_{};
   /// Its nodes along x, y, z.

@@ -53,8 +53,8 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
 // that carry hardly any load and settle onto those that carry almost all of it.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
   const scalar under = fmax(down, 0.0f), full = contact_unit(SCHEME(contact_full) * fill), near = contact_near(clearance, r);
-  const scalar no_room = full * (1.0f - under) + contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
-  const scalar holds = near + (1.0f - near) * no_room;
+  const scalar no_clearance = full * (1.0f - under) + contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
+  const scalar holds = near + (1.0f - near) * no_clearance;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
 }

@@ -160,7 +160,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     // Mass per free volume beside ground and plate.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);
+    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
     out.felt[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
   }
   return out;

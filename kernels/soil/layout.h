@@ -30,7 +30,7 @@ namespace navvy::soil {
 #endif
 
 // One block that holds particles.
-typedef struct Home {
+typedef struct ParticleBlock {
   // First slot, a multiple of NAVVY_LANES.
   int start;
   // Number of particles.
@@ -39,7 +39,7 @@ typedef struct Home {
   int tile;
   // 1: near a shell, with three tiles (0 neutral, 1 front, 2 back); 0: one tile.
   int near;
-} Home;
+} ParticleBlock;
 
 // Resting ground under the node columns of one active block, x fastest [cells from its corner].
 typedef struct BlockFloor {
@@ -74,7 +74,7 @@ typedef struct Report {
 } Report;
 
 #ifdef __cplusplus
-static_assert(sizeof(Home) == 16 && offsetof(Home, tile) == 8 && offsetof(Home, near) == 12);
+static_assert(sizeof(ParticleBlock) == 16 && offsetof(ParticleBlock, tile) == 8 && offsetof(ParticleBlock, near) == 12);
 static_assert(sizeof(BlockFloor) == 320 && offsetof(BlockFloor, around) == 64);
 static_assert(sizeof(ContactSoil) == 16 && offsetof(ContactSoil, inv_density) == 8);
 static_assert(sizeof(Report) == 16 && offsetof(Report, push) == 8);

@@ -26,9 +26,9 @@ static inline Place place_of(float x, float y, float z, float4 site) {
   const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
   const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
   const bool outside = x < site.x || x >= site.z || y < site.y || y >= site.w;
-  const int3 in_home = clamp(base - 4 * d, 0, 3);
+  const int3 cell_in_block = clamp(base - 4 * d, 0, 3);
   const Place place = {(uchar)(outside ? LEFT_SITE : (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1)),
-                       (uchar)(in_home.x + 4 * in_home.y + 16 * in_home.z)};
+                       (uchar)(cell_in_block.x + 4 * cell_in_block.y + 16 * cell_in_block.z)};
   return place;
 }
 

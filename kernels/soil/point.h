@@ -113,7 +113,7 @@ INLINED real seen_opening(real j, real j0, real node_mass, scalar filled, scalar
 // Returns the separating displacement along an axis [cells], away from where the nodes hold more
 // mass. lean: node masses x their positions along the axis, relative to the particle [kg cells];
 // most: largest displacement [cells].
-INLINED real way_apart(real share, real lean, real node_mass, scalar most) {
+INLINED real crowding_displacement(real share, real lean, real node_mass, scalar most) {
   return fmin(fmax(-share * lean / fmax(node_mass, MASS_QUANTUM), -most), most);
 }
 

@@ -48,7 +48,7 @@ typedef struct SideResult {
 // particle that has sunk into the plate returns to its surface. A particle that seems farther
 // behind than possible (contact_max_depth) has come to another plate of the tool, which shows its
 // other face to it (plates that meet in a T). It keeps its position.
-static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
+static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
                                    float band, float longest_push, global const ShellTriangle* triangles,
                                    global const Tool* tools) {
   SideResult out = {x, 0, 0.0f, 0};

@@ -19,8 +19,8 @@ namespace navvy::bench {
 /// up to the end of what it queued on the device. Processor time is counted, too, as it is
 /// meaningful on a busy machine. The number of runs is small, so best, median and spread are kept,
 /// not a mean.
-Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
-               int runs = 5);
+Timing measure(device::Device& device, const std::function<void()>& restore,
+               const std::function<void()>& work, int runs = 5);
 
 /// Does the same for work of the host, without a warm-up.
 Timing measure(int runs, const std::function<void()>& restore, const std::function<void()>& work);
@@ -37,8 +37,8 @@ Timing timing_of(std::vector<double> wall, const std::vector<double>& processor)
 /// Returns the least time that the device's kernels take in one of `runs` runs of `work`, summed by
 /// its own clock: no launches, no copies, no host [s]. The clock slows a run down a little, so
 /// `measure` never uses it.
-double kernel_seconds(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
-                      int runs = 3);
+double kernel_seconds(device::Device& device, const std::function<void()>& restore,
+                      const std::function<void()>& work, int runs = 3);
 
 /// Returns bytes read plus written per second by a plain copy kernel over `bytes` of memory, the
 /// bound for a schedule's traffic.

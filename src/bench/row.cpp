@@ -117,7 +117,8 @@ std::string json(const std::vector<Row>& rows) {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       // An absent key means that nothing was measured; zero would be a value.
       if (fields[k].empty()) continue;
-      out += (first ? "" : ", ") + quoted(columns()[k]) + ": " + (is_text(k) ? quoted(fields[k]) : fields[k]);
+      out += (first ? "" : ", ") + quoted(columns()[k]) + ": " +
+             (is_text(k) ? quoted(fields[k]) : fields[k]);
       first = false;
     }
     out += "}";

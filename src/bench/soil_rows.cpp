@@ -8,16 +8,16 @@
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "device/device.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 
 namespace navvy::bench {
 namespace {
 
-using lab::Box;
 using lab::open_box;
 using lab::Site;
+using lab::SiteBox;
 
 /// Bytes of state, tiles and velocities that a particle moves in one unfused step at 8 particles
 /// per cell (kernels/soil).
@@ -32,7 +32,8 @@ constexpr int kRuns = 3;
 scene::Soil sand() { return lab::clean_sand(35); }
 
 /// Times `steps` steps from the site's present state; tools keep their speed.
-Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
+Row time_steps(device::Device& device, Site& site, int steps,
+               std::vector<soil::ToolMotion> motions = {}) {
   // One saved state for all runs, so that each starts bit-identical.
   const std::vector<char> ground = saved(site.ground()), soil = saved(site.solver());
   // The step that the stability limit allows for the fastest tool, computed once: runs must not
@@ -76,7 +77,8 @@ Row collapse(device::Device& device, double edge, int steps) {
   options.size = 20;
   Site site(device, {sand()}, 0.1, options);
   // Particles at half a cell: 8 per cell, so 8000 in a block of 1 m.
-  std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
+  std::vector<soil::Particle> block =
+      site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
   // The soil is then in motion.
@@ -104,15 +106,17 @@ Row held_bucket(device::Device& device, int steps) {
   // At half a cell, as insertion makes them, and clear of the shell's sides at the start.
   for (double z = 0.04; z < 0.45; z += 0.05)
     for (double y = -0.36; y < 0.37; y += 0.05)
-      for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
+      for (double x = -0.46; x < 0.47; x += 0.05)
+        load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
   site.solver().insert(load);
   return time_steps(device, site, steps, {motion});
 }
 
 /// A tilted bucket with its cutting edge in a bed of `length` x `width` x 0.6 m: the cost of a
 /// trench.
-Row dig(device::Device& device, double length, double width, int steps, const scene::Soil& what = sand()) {
-  const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
+Row dig(device::Device& device, double length, double width, int steps,
+        const scene::Soil& what = sand()) {
+  const SiteBox bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
   // Larger than the bed, so that no soil reaches the site's edge and the count stays.
   options.size = std::max(20.0, 2 * length + 4);
@@ -157,23 +161,33 @@ Row site_dig(device::Device& device, double size, int steps) {
 std::vector<SoilCase> make_cases() {
   using Device = device::Device;
   return {
-      {"soil_held_bucket", "a load at rest in a bucket", true, [](Device& d) { return held_bucket(d, 100); }},
-      {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 2, 100); }},
-      {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 2, 50); }},
-      {"soil_dig:403k", "the same in a wide bed", false, [](Device& d) { return dig(d, 12, 7, 20); }},
+      {"soil_held_bucket", "a load at rest in a bucket", true,
+       [](Device& d) { return held_bucket(d, 100); }},
+      {"soil_dig:29k", "a bucket drawn through a bed", true,
+       [](Device& d) { return dig(d, 3, 2, 100); }},
+      {"soil_dig:96k", "the same in a longer bed", false,
+       [](Device& d) { return dig(d, 10, 2, 50); }},
+      {"soil_dig:403k", "the same in a wide bed", false,
+       [](Device& d) { return dig(d, 12, 7, 20); }},
       {"soil_dig_extended_law:403k", "the same with dilatancy, mu(I) and compaction", false,
        [](Device& d) { return dig(d, 12, 7, 20, every_option()); }},
       {"soil_collapse_no_tool:8k", "a block of 1 m falling apart", true,
        [](Device& d) { return collapse(d, 1.0, 100); }},
-      {"soil_collapse_no_tool:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
-      {"soil_collapse_no_tool:50k", "1.85 m", false, [](Device& d) { return collapse(d, 1.85, 50); }},
+      {"soil_collapse_no_tool:27k", "1.5 m", false,
+       [](Device& d) { return collapse(d, 1.5, 100); }},
+      {"soil_collapse_no_tool:50k", "1.85 m", false,
+       [](Device& d) { return collapse(d, 1.85, 50); }},
       {"soil_collapse_no_tool:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
       {"soil_collapse_no_tool:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
-      {"soil_collapse_no_tool:1953k", "6.25 m", false, [](Device& d) { return collapse(d, 6.25, 5); }},
-      {"site_dig:0.01km2", "a dig with waking ground", true, [](Device& d) { return site_dig(d, 100, 100); }},
-      {"site_dig:0.1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 316.2, 100); }},
-      {"site_dig:1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 1000, 100); }},
+      {"soil_collapse_no_tool:1953k", "6.25 m", false,
+       [](Device& d) { return collapse(d, 6.25, 5); }},
+      {"site_dig:0.01km2", "a dig with waking ground", true,
+       [](Device& d) { return site_dig(d, 100, 100); }},
+      {"site_dig:0.1km2", "the same on a larger site", false,
+       [](Device& d) { return site_dig(d, 316.2, 100); }},
+      {"site_dig:1km2", "the same on a larger site", false,
+       [](Device& d) { return site_dig(d, 1000, 100); }},
   };
 }
 
@@ -194,8 +208,8 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
-    throw InputError(
-        Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word", "one of:" + names});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word",
+                           "one of:" + names});
   for (const SoilCase* c : wanted) {
     // Beside its row, so that other load on the machine affects both alike.
     const Peak peak = measure_peak(device);

@@ -64,8 +64,9 @@ void each_energy(const Visit& visit) {
 /// Reports the account as people and files get it: tell(name, [J]) for every member, then for the
 /// residual.
 template <class Tell>
-void tell_energy(const EnergyAccount& account, const Tell& tell) {
-  each_energy([&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
+void report_energy(const EnergyAccount& account, const Tell& tell) {
+  each_energy(
+      [&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
   tell("residual", account.residual());
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/particles/plan_grid.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "soil/particles/particle.h"
 
 namespace navvy {

@@ -5,7 +5,7 @@
 
 #include "core/edit_distance.h"
 #include "core/error.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 namespace navvy::soil {
 namespace {
@@ -19,8 +19,7 @@ std::string short_text(double value) {
 
 InputError refused(const std::string& name, const std::string& value, const std::string& rule,
                    const std::string& remedy) {
-  return InputError(
-      Fault{Fault::Severity::kError, "", 0, "scheme." + name, value, rule, remedy});
+  return InputError(Fault{Fault::Severity::kError, "", 0, "scheme." + name, value, rule, remedy});
 }
 
 }  // namespace
@@ -41,23 +40,24 @@ void set_scheme_constant(SchemeConstants& scheme, const std::string& name, doubl
     // Written so that NaN is refused as well.
     if (!(value >= row.low && value <= row.high)) {
       const std::string unit = *row.unit == '\0' ? "" : " " + std::string(row.unit);
-      throw refused(name, short_text(value),
-                    "must be within " + short_text(row.low) + " .. " + short_text(row.high) + unit,
-                    std::string(row.help) + "; the default is " + short_text(row.standard()) + unit);
+      throw refused(
+          name, short_text(value),
+          "must be within " + short_text(row.low) + " .. " + short_text(row.high) + unit,
+          std::string(row.help) + "; the default is " + short_text(row.standard()) + unit);
     }
     scheme.*row.value = value;
     return;
   }
-  throw refused(name, "", "is no constant of the scheme",
-                "did you mean '" + nearest_name(names, name) +
-                    "'? `navvy lab constants` lists all of them");
+  throw refused(
+      name, "", "is no constant of the scheme",
+      "did you mean '" + nearest_name(names, name) + "'? `navvy lab constants` lists all of them");
 }
 
 std::vector<std::string> scheme_options(const SchemeConstants& scheme) {
   std::vector<std::string> out = {device::define("SCHEME_GIVEN", 1)};
   for (const SchemeConstant& row : scheme_constants())
-    out.push_back(device::define(std::string("SCHEME_") + row.name,
-                                 static_cast<float>(scheme.*row.value)));
+    out.push_back(
+        device::define(std::string("SCHEME_") + row.name, static_cast<float>(scheme.*row.value)));
   return out;
 }
 

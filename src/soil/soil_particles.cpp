@@ -6,7 +6,7 @@
 
 #include "core/archive.h"
 #include "core/log.h"
-#include "device/error.h"
+#include "device/device_error.h"
 
 namespace navvy::soil {
 
@@ -39,7 +39,8 @@ std::vector<PointMass> SoilParticles::masses_near(const Vec3& low, const Vec3& h
   for (const Particle& p : unplaced_) {
     PointMass point;
     for (int a = 0; a < 3; ++a)
-      point.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
+      point.grid[a] =
+          kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
     point.mass = p.mass;
     out.push_back(point);
   }

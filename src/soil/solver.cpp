@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
 namespace {
 
-/// A step that exceeds the limit by this factor is not split: the limit has a Courant number of 0.5,
-/// and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step chosen for
-/// a slower tool would cost two half steps.
+/// A step that exceeds the limit by this factor is not split: the limit has a Courant number of
+/// 0.5, and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step
+/// chosen for a slower tool would cost two half steps.
 constexpr double kMostStep = 1.3;
 
 double fastest_sound_of(const std::vector<scene::Soil>& soils) {
@@ -27,7 +27,8 @@ ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
   out.w_WT = twist.head<3>();
   out.v_WT = twist.tail<3>();
   const double angle = motion.w_WT.norm() * t;
-  if (angle > 0) out.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
+  if (angle > 0)
+    out.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
   out.X_WT.translation() += motion.v_WT * t;
   return out;
 }
@@ -83,18 +84,23 @@ int Solver::add_tool(const scene::Shell& shell) {
 
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
-void Solver::keep_energy(bool on) {
+void Solver::record_energy(bool on) {
   state_->energy.reset();
   if (on) state_->open_energy();
 }
 
-void Solver::State::open_energy() { energy.emplace(world.soils, frame.cell, world.gravity, scheme); }
+void Solver::State::open_energy() {
+  energy.emplace(world.soils, frame.cell, world.gravity, scheme);
+}
 
-const EnergyAccount* Solver::energy() const { return state_->energy ? &state_->energy->account() : nullptr; }
+const EnergyAccount* Solver::energy() const {
+  return state_->energy ? &state_->energy->account() : nullptr;
+}
 
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
-  return std::min(settings.max_step, settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
+  return std::min(settings.max_step,
+                  settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
 }
 
 double Solver::State::tool_speed(const ToolMotion& motion) const {
@@ -105,15 +111,16 @@ double Solver::State::tool_speed(const ToolMotion& motion) const {
 }
 
 void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
-                  std::span<const Footing> footings) {
-  state_->footings = footings;
+                  std::span<const SupportArea> support_areas) {
+  state_->support_areas = support_areas;
   double fastest = 0;
   for (const ToolMotion& motion : motions) {
     state_->check_motion(motion);
     fastest = std::max(fastest, state_->tool_speed(motion));
   }
   // A step well above the limit is split; the tools move and yield in between.
-  const int parts = std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
     impulses[m].p_W = motions[m].X_WT.translation();
@@ -180,7 +187,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
   stats.particle_steps += static_cast<std::uint64_t>(particles.count());
   stats.particles = particles.count();
   stats.particles_peak = std::max(stats.particles_peak, stats.particles);
-  stats.blocks = static_cast<int>(particles.store().homes().size());
+  stats.blocks = static_cast<int>(particles.store().particle_blocks().size());
 }
 
 void Solver::State::step_particles(double dt, double tool_speed, bool hold,
@@ -192,7 +199,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
   Transfer::Largest report;
   {
     StageClock clock(times, "particles");
-    report = transfer.read_report(store.homes().size());
+    report = transfer.read_report(store.particle_blocks().size());
   }
   if (!(report.speed * dt / frame.cell < 1 - kMaxDrift / 4)) fail(report.speed);
   current.record_step(dt, frame.cell, report.speed, tool_speed);
@@ -254,12 +261,12 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
   for (const ToolMotion& motion : motions) regions.push_back(region_of(motion));
   const std::vector<Particle> all = particles.by_cell();
   standing.update(exchange_clock.elapsed(), motions, regions, all);
-  for (ToolRegion& region : regions) region.seated = standing.supports(region.tool);
+  for (ToolRegion& region : regions) region.supported = standing.supports(region.tool);
   // The next check waits for the end of a transfer.
   const double until_next = (ExchangeClock::kSteps + 1) * dt + current.length();
   Exchange::Result result =
-      exchange.check(all, regions, time, exchange_clock.elapsed(), {footings, until_next});
-  stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
+      exchange.check(all, regions, time, exchange_clock.elapsed(), {support_areas, until_next});
+  stats.wakes += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
   standing.release(regions, result.born);
   replace(all, result.removed, std::move(result.born));
@@ -287,7 +294,8 @@ void Solver::State::replace(const std::vector<Particle>& all,
   assign(stay);
 }
 
-// Masses follow only once the store has the particles: without device memory they stay as they were.
+// Masses follow only once the store has the particles: without device memory they stay as they
+// were.
 void Solver::State::assign(const std::vector<Particle>& all) {
   particles.assign(all);
   masses.set_particles(all);
@@ -316,9 +324,9 @@ void Solver::State::update_lists(std::span<const ToolMotion> motions) {
   ParticleStore& store = particles.store();
   const bool lists = contact.set_motions(motions, store.table(), particles.blocks_changed());
   if (lists || particles.blocks_changed()) {
-    const int tiles = store.set_near(contact.near_homes());
+    const int tiles = store.set_near(contact.near_particle_blocks());
     transfer.set_blocks(store, contact.near_slot(), tiles);
-    mass_count.make_room(store.homes().size());
+    mass_count.reserve(store.particle_blocks().size());
   }
   update_floor();
   particles.clear_blocks_changed();

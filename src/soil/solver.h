@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/machine.h"
 #include "scene/scene.h"
 #include "soil/energy.h"
-#include "soil/exchange/footing.h"
+#include "soil/exchange/support_area.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 #include "soil/scheme_constants.h"
@@ -80,7 +80,7 @@ class Solver {
   /// Opens or closes an energy account. It changes no bit of the soil, but costs more than the
   /// steps themselves. It is not part of the state: after loading it starts anew with the next
   /// transfer.
-  void keep_energy(bool on);
+  void record_energy(bool on);
   /// Returns the account since it was opened, or null without one.
   const EnergyAccount* energy() const;
 
@@ -92,7 +92,7 @@ class Solver {
   /// which then carry the load [docs/exchange.md, footings].
   /// @throws SimulationError with step and cause when a value is not finite or the ledger opens.
   void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
-            std::span<const Footing> footings = {});
+            std::span<const SupportArea> support_areas = {});
 
   /// Turns every column of the rectangle above `z_bottom` [m in W] into particles (for tests, rigs
   /// and first pictures).
@@ -118,7 +118,8 @@ class Solver {
 
   /// Returns 1 for each of `particles` (positions in W) that one of the tools holds, by the rule of
   /// `payload`, else 0.
-  std::vector<std::uint8_t> held(std::span<const Particle> particles, std::span<const PlacedTool> tools) const;
+  std::vector<std::uint8_t> held(std::span<const Particle> particles,
+                                 std::span<const PlacedTool> tools) const;
 
   Ledger ledger() const;
   const SolverStats& stats() const;

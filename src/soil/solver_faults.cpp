@@ -20,7 +20,8 @@ constexpr double kDeepestInRock = 1;
 constexpr double kMoving = 1e-3;
 
 std::string text_of(const Vec3& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+         ")";
 }
 
 }  // namespace
@@ -32,8 +33,10 @@ std::string Solver::State::here() const {
 void Solver::State::check_motion(const ToolMotion& motion) const {
   const scene::Shell& shell = contact.geometry(motion.tool).shell();
   const std::string name = "tool '" + shell.name + "' ";
-  const double sum = motion.X_WT.matrix().sum() + motion.v_WT.sum() + motion.w_WT.sum() + motion.inverse_mass.sum();
-  if (!std::isfinite(sum)) throw SimulationError(here() + name + "has a pose, velocity or mass that is not finite");
+  const double sum = motion.X_WT.matrix().sum() + motion.v_WT.sum() + motion.w_WT.sum() +
+                     motion.inverse_mass.sum();
+  if (!std::isfinite(sum))
+    throw SimulationError(here() + name + "has a pose, velocity or mass that is not finite");
   const double speed = tool_speed(motion), most = std::max(fastest_sound, kLeastTopSpeed);
   if (speed > most)
     throw SimulationError(here() + name + "moves at " + std::to_string(speed) +
@@ -46,13 +49,15 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
     const Vec2i column = ground.column_at(p.x(), p.y());
     if (!ground.contains(column.x(), column.y())) continue;
     if ((motion.v_WT + motion.w_WT.cross(motion.X_WT.linear() * v)).norm() < kMoving) continue;
-    throw SimulationError(here() + name + "is pressed " + std::to_string(depth) + " m into the rock at " + text_of(p) +
+    throw SimulationError(here() + name + "is pressed " + std::to_string(depth) +
+                          " m into the rock at " + text_of(p) +
                           " m, where nothing pushes back; make <depth_m> larger or dig less deep");
   }
 }
 
 void Solver::State::fail(double speed) const {
-  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / frame.cell) +
+  std::string cause = "a particle moves " +
+                      std::to_string(speed * world.solver.max_step / frame.cell) +
                       " cells in one step (" + std::to_string(speed) + " m/s)";
   for (const Particle& p : particles.store().records()) {
     double sum = 0, fastest = 0;
@@ -64,9 +69,10 @@ void Solver::State::fail(double speed) const {
     sum += static_cast<double>(p.j) + p.j0 + p.shear;
     if (std::isfinite(sum) && (!std::isfinite(speed) || fastest < 0.999 * speed)) continue;
     cause += std::string("; particle ") + std::to_string(p.id) +
-             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") + ", block (" +
-             std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " + std::to_string(p.block[2]) +
-             "), offset " + text_of(Vec3(p.x[0], p.x[1], p.x[2])) + " cells, volume ratio " + std::to_string(p.j);
+             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") +
+             ", block (" + std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " +
+             std::to_string(p.block[2]) + "), offset " + text_of(Vec3(p.x[0], p.x[1], p.x[2])) +
+             " cells, volume ratio " + std::to_string(p.j);
     break;
   }
   throw SimulationError(here() + cause);

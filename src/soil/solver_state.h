@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "soil/current_transfer.h"
-#include "soil/energy_book.h"
+#include "soil/energy_ledger.h"
 #include "soil/exchange/exchange.h"
 #include "soil/exchange_clock.h"
 #include "soil/grid_frame.h"
@@ -85,14 +85,14 @@ struct Solver::State {
   StandingTools standing;
   MassRecord masses;
   /// Only on request.
-  std::optional<EnergyBook> energy;
+  std::optional<EnergyLedger> energy;
   /// Crowded particles are separated.
   bool crowding = true;
 
   /// Simulated time, the sum over steps [s].
   double time = 0;
   /// Support areas of the current step.
-  std::span<const Footing> footings;
+  std::span<const SupportArea> support_areas;
   SolverStats stats;
   /// Wall time by stage [s].
   std::map<std::string, double> times;

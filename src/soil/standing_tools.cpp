@@ -26,7 +26,8 @@ bool in_plan(const ToolRegion& region, const Vec3& p_W) {
 }  // namespace
 
 // Gradient of the plane that fits columns and the soil on them best in a rectangle of the plan.
-Vec2 StandingTools::ground_gradient(const Vec2& from, const Vec2& to, std::span<const Particle> all) const {
+Vec2 StandingTools::ground_gradient(const Vec2& from, const Vec2& to,
+                                    std::span<const Particle> all) const {
   // At least three columns each way: fewer define no plane.
   Vec2i low = ground_.column_at(from.x(), from.y()), high = ground_.column_at(to.x(), to.y());
   for (int a = 0; a < 2; ++a)
@@ -49,12 +50,13 @@ Vec2 StandingTools::ground_gradient(const Vec2& from, const Vec2& to, std::span<
       moment += (ground_.height(ix, iy) / frame_.cell + index.pile_height(ix, iy)) * arm;
       square += arm.cwiseAbs2();
     }
-  return {square.x() > 0 ? moment.x() / square.x() : 0, square.y() > 0 ? moment.y() / square.y() : 0};
+  return {square.x() > 0 ? moment.x() / square.x() : 0,
+          square.y() > 0 ? moment.y() / square.y() : 0};
 }
 
 // Normal of the ground under a tool: columns, and what lies on them.
-Vec3 StandingTools::ground_normal(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
-                                     std::span<const Particle> all) const {
+Vec3 StandingTools::ground_normal(const scene::Shell& shell, const ToolMotion& motion,
+                                  const ToolRegion& region, std::span<const Particle> all) const {
   const double across = (region.max - region.min).head<2>().maxCoeff();
   const Vec2 from = region.min.head<2>(), to = region.max.head<2>();
   const Vec3 first = normal_under(ground_gradient(from, to, all), across, frame_.cell);
@@ -95,7 +97,7 @@ void StandingTools::update(double elapsed, std::span<const ToolMotion> motions,
                            std::span<const ToolRegion> regions, std::span<const Particle> all) {
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const ToolMotion& motion = motions[m];
-    Seat& seat = seats_[static_cast<std::size_t>(motion.tool)];
+    RestingContact& seat = seats_[static_cast<std::size_t>(motion.tool)];
     // A scripted tool needs no support.
     if (motion.inverse_mass.isZero(0)) continue;
     const scene::Shell& shell = contact_.geometry(motion.tool).shell();
@@ -117,7 +119,7 @@ void StandingTools::update(double elapsed, std::span<const ToolMotion> motions,
 
 void StandingTools::release(std::span<const ToolRegion> regions, std::span<const Particle> born) {
   for (const ToolRegion& region : regions)
-    if (region.seated && std::any_of(born.begin(), born.end(), [&](const Particle& p) {
+    if (region.supported && std::any_of(born.begin(), born.end(), [&](const Particle& p) {
           return in_plan(region, frame_.position(p));
         }))
       seats_[static_cast<std::size_t>(region.tool)].let_go();
@@ -128,7 +130,7 @@ bool StandingTools::apply(double dt, std::span<const ToolMotion> motions,
   bool ended = false;
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const scene::Shell& shell = contact_.geometry(motions[m].tool).shell();
-    Seat& seat = seats_[static_cast<std::size_t>(motions[m].tool)];
+    RestingContact& seat = seats_[static_cast<std::size_t>(motions[m].tool)];
     ended |= seat.hold(shell, motions[m], dt, frame_.cell, impulses[m]);
   }
   return ended;

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "soil/grid_frame.h"
 #include "soil/tools/contact.h"
-#include "soil/tools/seat.h"
+#include "soil/tools/resting_contact.h"
 
 namespace navvy {
 class Archive;
@@ -20,8 +20,8 @@ namespace navvy::soil {
 class StandingTools {
  public:
   /// Observes the ground; all arguments must outlive it.
-  StandingTools(const scene::Scene& world, const heightfield::Ground& ground, const GridFrame& frame,
-                const Contact& contact)
+  StandingTools(const scene::Scene& world, const heightfield::Ground& ground,
+                const GridFrame& frame, const Contact& contact)
       : world_(world), ground_(ground), frame_(frame), contact_(contact) {}
 
   /// Adds one more tool, in the order of Contact::add_tool.
@@ -53,7 +53,7 @@ class StandingTools {
   const GridFrame& frame_;
   const Contact& contact_;
   /// By tool.
-  std::vector<Seat> seats_;
+  std::vector<RestingContact> seats_;
 };
 
 }  // namespace navvy::soil

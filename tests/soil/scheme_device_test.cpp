@@ -15,9 +15,10 @@ namespace {
 
 using rig::Rig;
 
-/// Hash of a block of clay that falls onto the floor of a pit beside a blade, under these constants.
+/// Hash of a block of clay that falls onto the floor of a pit beside a blade, under these
+/// constants.
 std::string digest_with(const SchemeConstants& scheme) {
-  const lab::Box pit{Vec3(4, 4, -0.4), Vec3(5, 5, 0)};
+  const lab::SiteBox pit{Vec3(4, 4, -0.4), Vec3(5, 5, 0)};
   lab::SiteOptions options;
   options.size = 10;
   options.corner = Vec2::Zero();
@@ -69,10 +70,23 @@ TEST(SoilSolver, VisitsItsPartsInTheOrderOfTheFormat) {
   rig.add_tool(rig::blade(0.6, 0.5), make_pose(5.2, 5.2, 0.1));
   rig.step(0.001);
   // One field of each part and all of the solver's own; another order is another format and hash.
-  const std::vector<std::string> expected = {
-      "blocks_changed", "drift",     "time",  "since_check", "travel", "steps_since_check",
-      "first_check",    "next_id",   "left_site", "inserted", "particle_steps", "X_listed",
-      "still",          "open",      "motion",    "front",    "back"};
+  const std::vector<std::string> expected = {"blocks_changed",
+                                             "drift",
+                                             "time",
+                                             "since_check",
+                                             "travel",
+                                             "steps_since_check",
+                                             "first_check",
+                                             "next_id",
+                                             "left_site",
+                                             "inserted",
+                                             "particle_steps",
+                                             "X_listed",
+                                             "still",
+                                             "open",
+                                             "motion",
+                                             "front",
+                                             "back"};
   std::vector<std::string> found;
   for (const std::string& name : field_order(rig.solver()))
     if (std::find(expected.begin(), expected.end(), name) != expected.end()) found.push_back(name);

@@ -56,7 +56,7 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
 
 // Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
 // soil/point.h). A work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity, Home home, local int* cells,
+static inline float cell_opening(global const float* state, int capacity, ParticleBlock home, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
@@ -84,7 +84,7 @@ static inline float cell_opening(global const float* state, int capacity, Home h
 
 // Returns what a block needs: bit 0 always, bits 1 and 2 for the tiles of a shell's sides, bit 3
 // when any particle is open.
-static inline int needs(global float* state, int capacity, Home home) {
+static inline int needs(global float* state, int capacity, ParticleBlock home) {
   int out = 1;
   for (int i = get_local_id(0); i < home.count; i += CELLS) {
     const int slot = home.start + i, tag = as_int(LOAD(FIELD_TAG));
@@ -99,7 +99,7 @@ static inline int needs(global float* state, int capacity, Home home) {
 }
 
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
+    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
     global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
     const float dx, const float mixing, const float most_mixing, const float carried) {
   local float4 tile[TILE_SIZE];
@@ -108,7 +108,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
   local float openings[CELLS];
   local int wanted, broken;
   const int block = get_group_id(0), me = get_local_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   atomic_or(&wanted, needs(state, capacity, home));

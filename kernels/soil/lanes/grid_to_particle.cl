@@ -87,13 +87,13 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const Home* restrict homes,
+    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
     const float filled, const float closing, const float spread, const float most) {
   const int block = get_global_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
     copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
@@ -173,7 +173,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const real way = (dt / dx) * v[axis] + way_apart(share, lean[axis], node_mass, most);
+      const real way = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
       STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
       m[axis] = way * (dx / dt);
     }
@@ -187,8 +187,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 // Ends a transfer: adds the displacement of each particle to its position and clears it.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
                                                                                 const int capacity,
-                                                                                global const Home* restrict homes) {
-  const Home home = homes[get_global_id(0)];
+                                                                                global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock home = particle_blocks[get_global_id(0)];
   for (int slot = home.start; slot < home.start + home.count; slot += 16)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));

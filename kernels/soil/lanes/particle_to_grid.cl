@@ -76,11 +76,11 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
+    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
     global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
     const float dx, const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
   const int mask = home.near ? tiles_used(state, capacity, home.start, home.start + home.count) : 1;
   used[block] = mask;

@@ -16,7 +16,7 @@ constexpr double kHollowRest = 5;
 /// A tool this far above the soil does not hinder its deposit [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
 /// Volume of a block that is too small to judge [cells]: a quarter cell over all its columns.
-constexpr double kLeastRoom = 4;
+constexpr double kLeastCapacity = 4;
 /// Two columns that differ by this much form a cliff [cells]. Slopes of loose soil stay below 0.8
 /// per column, and the number of particles over a column scatters by 0.65.
 constexpr double kCliff = 1.5;
@@ -50,19 +50,20 @@ bool at_rest(const ColumnIndex& index, int block) {
 
 // Returns true if a tool keeps a block active: it is near, its zone would activate the block again,
 // or it touches one of its particles.
-bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
+bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key,
+                    double top) {
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
   const auto meets = [&](const heightfield::CellRect& r) {
     return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
   };
   for (const ToolZone& tool : zones) {
-    if (tool.seated || top + kToolAbove < tool.low) continue;
+    if (tool.supported || top + kToolAbove < tool.low) continue;
     // Soil that rule A would activate at once is not deposited.
     if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
   }
   const auto stands = [&](int number) {
     return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.seated && tool.tool == number; });
+                       [&](const ToolZone& tool) { return tool.supported && tool.tool == number; });
   };
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
@@ -86,8 +87,8 @@ void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
   rest.swap(now);
 }
 
-bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
-                 const RestTimes& rest, int block) {
+bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
+                 std::span<const ToolZone> zones, const RestTimes& rest, int block) {
   const PlanKey key = index.blocks()[static_cast<std::size_t>(block)];
   const auto found = rest.find(key);
   if (found == rest.end() || found->second < kRestTime) return false;
@@ -153,7 +154,8 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   const PlanGrid& grid = index_.grid();
   for (std::size_t c = 0; c < 16; ++c) {
     const int place = static_cast<int>(c);
-    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place))) continue;
+    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place)))
+      continue;
     // Integers, so that shares of mass add up exactly in any order.
     out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
@@ -163,7 +165,8 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   for (std::size_t c = 0; c < 16; ++c) {
     if (plan.cliff[c]) continue;
     const int place = static_cast<int>(c);
-    for (const std::uint32_t i : index_.column(grid.column_x(key, place), grid.column_y(key, place)))
+    for (const std::uint32_t i :
+         index_.column(grid.column_x(key, place), grid.column_y(key, place)))
       out[c] += index_[i].mass;
   }
   return out;
@@ -193,17 +196,19 @@ double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& pla
   // In cells: kMassQuantum converts quanta to kilograms, the bank density converts to volume, and
   // the cube of the cell to cells.
   for (const SoilShare& share : shares)
-    state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
+    state += kMassQuantum * share.volume /
+             (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
     if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
   // A few particles that the surface does not show are not crowded.
-  return room > kLeastRoom ? state / room : 1.0;
+  return room > kLeastCapacity ? state / room : 1.0;
 }
 
 // At a cliff each column keeps the soil above it, in its own order of soils; nothing is shared.
-void Depositor::book_column(int ix, int iy) {
+void Depositor::deposit_column(int ix, int iy) {
   for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
-    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell, densest_);
+    heightfield::SoilLayer layer =
+        layer_of(share, ground_.setup().soils[share.soil].swell, densest_);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
@@ -218,18 +223,20 @@ void Depositor::book(const Plan& plan, int block) {
   std::vector<std::uint32_t> pooled;
   std::vector<SharedColumn> columns;
   for (std::size_t c = 0; c < 16; ++c) {
-    const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
+    const int ix = grid.column_x(key, static_cast<int>(c)),
+              iy = grid.column_y(key, static_cast<int>(c));
     columns.push_back({ix, iy, weight[c]});
     const Grains grains = index_.column(ix, iy);
     if (plan.cliff[c])
-      book_column(ix, iy);
+      deposit_column(ix, iy);
     else
       pooled.insert(pooled.end(), grains.begin(), grains.end());
   }
   const std::vector<SoilShare> found = soil_shares(index_, pooled);
   const double rise = crowding(found, plan);
   for (const SoilShare& share : found)
-    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_, rise), share.mass, columns);
+    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_, rise),
+              share.mass, columns);
 }
 
 }  // namespace navvy::soil

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "soil/exchange/activation_rules.h"
 #include "soil/exchange/deposit_shape.h"
 #include "soil/exchange/deposit_share.h"
-#include "soil/exchange/wake_rules.h"
 
 namespace navvy::soil {
 
@@ -28,8 +28,8 @@ void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest);
 /// checked later. `block` is an entry of the index. Such a block has rested for 0.8 s inside the
 /// site, no tool is near, touches it or is about to activate it, and nothing moves in the columns
 /// around it.
-bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
-                 const RestTimes& rest, int block);
+bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
+                 std::span<const ToolZone> zones, const RestTimes& rest, int block);
 
 /// Deposits blocks, mass-exact per soil.
 ///
@@ -71,7 +71,7 @@ class Depositor {
 
   double crowding(const std::vector<SoilShare>& shares, const Plan& plan) const;
   void book(const Plan& plan, int block);
-  void book_column(int ix, int iy);
+  void deposit_column(int ix, int iy);
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;

@@ -77,8 +77,10 @@ bool ShapeFinder::hangs(int ix, int iy) {
   heights_.clear();
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      floor = std::max(floor, around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)]);
-      for (const std::uint32_t i : index_.column(ix + dx, iy + dy)) heights_.push_back(height_in_cells(index_[i]));
+      floor = std::max(
+          floor, around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)]);
+      for (const std::uint32_t i : index_.column(ix + dx, iy + dy))
+        heights_.push_back(height_in_cells(index_[i]));
     }
   std::sort(heights_.begin(), heights_.end());
   const double top = height_in_cells(index_[column.back()]);
@@ -97,7 +99,8 @@ void ShapeFinder::sample_columns(int ix, int iy) {
       // A column weighs as the 2 x 2 particles that it would become, so that seams between the two
       // do not show.
       const double weight = column_weight(dx) * column_weight(dy);
-      const double h = around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)];
+      const double h =
+          around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)];
       for (std::size_t k = 0; k < fraction_.size(); ++k)
         fraction_[k] += weight * spline_sum(h - (bottom_ + static_cast<double>(k) / kSamples));
     }
@@ -111,20 +114,20 @@ void ShapeFinder::sample_particles(int ix, int iy) {
     for (int dx = -2; dx <= 2; ++dx)
       for (const std::uint32_t i : index_.column(ix + dx, iy + dy)) {
         const Particle& p = index_[i];
-        const double x =
-            static_cast<double>(kBlockCells) * p.block[0] + static_cast<double>(p.x[0]) - (ix - grid.x + 0.5);
-        const double y =
-            static_cast<double>(kBlockCells) * p.block[1] + static_cast<double>(p.x[1]) - (iy - grid.y + 0.5);
+        const double x = static_cast<double>(kBlockCells) * p.block[0] +
+                         static_cast<double>(p.x[0]) - (ix - grid.x + 0.5);
+        const double y = static_cast<double>(kBlockCells) * p.block[1] +
+                         static_cast<double>(p.x[1]) - (iy - grid.y + 0.5);
         // The spline is a product of its three axes; in plan it is the same for all samples.
         const double plan = spline(x) * spline(y);
         if (plan == 0) continue;
-        const double volume =
-            kilograms(p.mass) * static_cast<double>(p.j0) / (soils[p.soil].bank_density * cell * cell * cell);
+        const double volume = kilograms(p.mass) * static_cast<double>(p.j0) /
+                              (soils[p.soil].bank_density * cell * cell * cell);
         const double z = (height_in_cells(p) - bottom_) * kSamples;
         // Only samples within the spline's support of 1.5 cells.
         const int first = std::max(0, static_cast<int>(std::ceil(z - 1.5 * kSamples)));
-        const int last =
-            std::min(static_cast<int>(fraction_.size()) - 1, static_cast<int>(std::floor(z + 1.5 * kSamples)));
+        const int last = std::min(static_cast<int>(fraction_.size()) - 1,
+                                  static_cast<int>(std::floor(z + 1.5 * kSamples)));
         for (int k = first; k <= last; ++k)
           fraction_[static_cast<std::size_t>(k)] += volume * plan * spline((z - k) / kSamples);
       }

@@ -27,7 +27,8 @@ class ShapeFinder {
  public:
   /// Reads ground and index, which must outlive it. One finder serves many blocks, one after the
   /// other, and reuses its arrays.
-  ShapeFinder(const heightfield::Ground& ground, const ColumnIndex& index) : ground_(ground), index_(index) {}
+  ShapeFinder(const heightfield::Ground& ground, const ColumnIndex& index)
+      : ground_(ground), index_(index) {}
   /// Returns the shape of one block. The ground must not change between the blocks of one check, or
   /// their order would matter.
   BlockShape find(const PlanKey& block);

@@ -14,12 +14,14 @@ constexpr double kMostRise = 1.15, kCrowded = 0.8;
 
 }  // namespace
 
-std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std::uint32_t> grains) {
+std::vector<SoilShare> soil_shares(const ColumnIndex& index,
+                                   std::span<const std::uint32_t> grains) {
   // Few soils meet in a block, so the list is searched.
   std::vector<SoilShare> out;
   for (const std::uint32_t i : grains) {
     const Particle& p = index[i];
-    auto share = std::find_if(out.begin(), out.end(), [&](const SoilShare& s) { return s.soil == p.soil; });
+    auto share =
+        std::find_if(out.begin(), out.end(), [&](const SoilShare& s) { return s.soil == p.soil; });
     if (share == out.end()) {
       out.push_back({p.soil});
       share = out.end() - 1;
@@ -32,15 +34,16 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std
   // Soil that was lower on average stays below. Equal heights are ordered by the soil's number, so
   // that the order is the same in every run.
   std::sort(out.begin(), out.end(), [](const SoilShare& a, const SoilShare& b) {
-    const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
+    const double za = a.height / static_cast<double>(a.mass),
+                 zb = b.height / static_cast<double>(b.mass);
     return za != zb ? za < zb : a.soil < b.soil;
   });
   return out;
 }
 
-heightfield::Layer layer_of(const SoilShare& share, double swell, double densest, double rise) {
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double densest, double rise) {
   const double mass = static_cast<double>(share.mass);
-  heightfield::Layer layer;
+  heightfield::SoilLayer layer;
   layer.soil = share.soil;
   // The limits are wide on purpose: tighter ones turn noise into volume
   // [docs/exchange.md, decisions].
@@ -51,10 +54,11 @@ heightfield::Layer layer_of(const SoilShare& share, double swell, double densest
   return layer;
 }
 
-void share_out(heightfield::Ground& ground, heightfield::Layer layer, std::int64_t mass,
+void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::int64_t mass,
                std::span<const SharedColumn> columns) {
   const auto largest = std::max_element(
-      columns.begin(), columns.end(), [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });
+      columns.begin(), columns.end(),
+      [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });
   std::int64_t sum = 0;
   for (const SharedColumn& column : columns) sum += column.weight;
   // The product may need more than 64 bits; doubles would lose quanta.

@@ -22,10 +22,11 @@ struct SoilShare {
 /// Returns one entry per soil of `grains`, entries of the index, ordered by mean height from below.
 std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std::uint32_t> grains);
 
-/// Returns the soil's layer, still without mass. Density state and plastic shear are the mass means,
-/// the state limited to `densest` .. swell. `rise`: volume in the density state / volume that the
-/// soil has, 1 where nothing is crowded.
-heightfield::Layer layer_of(const SoilShare& share, double swell, double densest, double rise = 1);
+/// Returns the soil's layer, still without mass. Density state and plastic shear are the mass
+/// means, the state limited to `densest` .. swell. `rise`: volume in the density state / volume
+/// that the soil has, 1 where nothing is crowded.
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double densest,
+                                double rise = 1);
 
 /// A column and its integer weight when mass is shared.
 struct SharedColumn {
@@ -35,7 +36,7 @@ struct SharedColumn {
 /// Adds `mass` as `layer` to the columns in proportion to their weights, none of which is negative
 /// and at least one positive. The first of the heaviest takes the few quanta that rounding leaves.
 /// Columns that get nothing are not touched.
-void share_out(heightfield::Ground& ground, heightfield::Layer layer, std::int64_t mass,
+void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::int64_t mass,
                std::span<const SharedColumn> columns);
 
 }  // namespace navvy::soil

@@ -8,12 +8,12 @@
 
 #include "core/archive.h"
 #include "core/log.h"
+#include "soil/exchange/activation.h"
+#include "soil/exchange/activation_rules.h"
 #include "soil/exchange/deposit.h"
 #include "soil/exchange/exchange_index.h"
-#include "soil/exchange/footing_deposit.h"
 #include "soil/exchange/slump.h"
-#include "soil/exchange/wake.h"
-#include "soil/exchange/wake_rules.h"
+#include "soil/exchange/support_deposit.h"
 
 namespace navvy::soil {
 namespace {
@@ -32,7 +32,8 @@ constexpr int kFarthestTile = (1 << 30) / SlumpScan::kTile;
 // Returns the squared distance in plan from a column to a tool's box [columns^2]. Squares have the
 // order of the roots, and stay exact.
 double distance_to(const heightfield::CellRect& box, int ix, int iy) {
-  const double dx = std::max({box.x0 - ix, ix - (box.x1 - 1), 0}), dy = std::max({box.y0 - iy, iy - (box.y1 - 1), 0});
+  const double dx = std::max({box.x0 - ix, ix - (box.x1 - 1), 0}),
+               dy = std::max({box.y0 - iy, iy - (box.y1 - 1), 0});
   return dx * dx + dy * dy;
 }
 
@@ -47,13 +48,13 @@ struct Exchange::State {
   State(const scene::Scene& world, heightfield::Ground& ground_in, const SchemeConstants& scheme)
       : ground(ground_in),
         grid(plan_grid(world, ground_in)),
-        waker(ground_in, grid, -world.gravity.z()),
+        activator(ground_in, grid, -world.gravity.z()),
         table(ground_in.setup().soils, ground_in.cell(), -world.gravity.z()),
         standing(grid),
         scan(ground_in, table, standing, world.ground.steep == scene::SteepGround::kHold),
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
-        awake_zone(world.solver.awake_zone),
+        active_zone(world.solver.active_zone),
         densest(scheme.min_density_state),
         seen(ground_in.sequence()) {}
 
@@ -61,30 +62,34 @@ struct Exchange::State {
   // within the last second. Where a tool stands it may become active at once.
   bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
   std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
-  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
-  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan);
-  void fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan);
-  void wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result);
-  void deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double time,
-               Result& result);
+  void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, ActivationPlan& plan);
+  void plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
+                  ActivationPlan& plan);
+  void fit_budget(std::span<const ToolZone> zones, std::size_t active, double time,
+                  ActivationPlan& plan);
+  void activate_planned(const ColumnIndex& index, const ActivationPlan& plan, Result& result);
+  void deposit(const ColumnIndex& index, std::span<const ToolZone> zones,
+               const ActivationPlan& plan, double time, Result& result);
   /// Deposits and marks the soil under support areas. Returns false when there is none.
-  bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
-                     double time, Result& result);
+  bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
+                     std::span<const SupportPlacement> support_areas, double time, Result& result);
   /// Applies all other rules to the particles of the index.
-  void decide(const ColumnIndex& index, std::span<const ToolZone> zones, std::span<const FootingPlace> footings,
-              double time, double elapsed, Result& result);
-  int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan, double elapsed);
+  void decide(const ColumnIndex& index, std::span<const ToolZone> zones,
+              std::span<const SupportPlacement> support_areas, double time, double elapsed,
+              Result& result);
+  int run_slump(const ColumnIndex& index, std::span<const ToolZone> zones,
+                const ActivationPlan& plan, double elapsed);
   void visit(Archive& a);
 
   heightfield::Ground& ground;
   PlanGrid grid;
-  Waker waker;
+  Activator activator;
   SlumpTable table;
   StandingHeights standing;
   SlumpScan scan;
   Slump slump;
   std::size_t max_particles;
-  double awake_zone;
+  double active_zone;
   // Lowest density state of a layer.
   double densest;
 
@@ -103,20 +108,24 @@ struct Exchange::State {
   bool over_budget = false;
 };
 
-Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground, const SchemeConstants& scheme)
+Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground,
+                   const SchemeConstants& scheme)
     : state_(std::make_unique<State>(world, ground, scheme)) {}
 Exchange::~Exchange() = default;
 
-bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const {
+bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones,
+                                          double time) const {
   const auto found = deposited.find(grid.block_of(ix, iy));
   if (found == deposited.end() || time - found->second >= kRestAfterDeposit) return false;
-  return std::none_of(zones.begin(), zones.end(),
-                      [&](const ToolZone& tool) { return !tool.seated && tool.touches(ix, iy); });
+  return std::none_of(zones.begin(), zones.end(), [&](const ToolZone& tool) {
+    return !tool.supported && tool.touches(ix, iy);
+  });
 }
 
 // Returns tiles whose slopes may have changed: those with particles, and as many changed ones as
 // one check can handle.
-std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones) {
+std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index,
+                                                 std::span<const ToolZone> zones) {
   const auto insert_tiles = [&](const heightfield::CellRect& rect) {
     if (rect.empty()) return;
     const PlanKey first = tile_of(rect.x0, rect.y0), last = tile_of(rect.x1 - 1, rect.y1 - 1);
@@ -131,7 +140,8 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
   for (const PlanKey& block : index.blocks()) {
     // A tile is eight blocks wide, so a block extends over several tiles only at its corners; the
     // grid may be shifted against them.
-    for (const int c : {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
+    for (const int c :
+         {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
       const int ix = grid.column_x(block, c), iy = grid.column_y(block, c);
       if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
     }
@@ -155,14 +165,16 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index, std::
 
 // Rule C: over-steep columns become active where soil is active or a tool works, and slide as
 // columns elsewhere.
-void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, WakePlan& plan) {
+void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones,
+                                  ActivationPlan& plan) {
   std::vector<OverSteep> found;
-  for (const PlanKey& tile : tiles_to_scan(index, zones)) scan.scan(tile.second, tile.first, index, zones, found);
+  for (const PlanKey& tile : tiles_to_scan(index, zones))
+    scan.scan(tile.second, tile.first, index, zones, found);
   for (const OverSteep& slope : found) plan_slope(slope, index, zones, plan);
 }
 
-void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index, std::span<const ToolZone> zones,
-                                 WakePlan& plan) {
+void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index,
+                                 std::span<const ToolZone> zones, ActivationPlan& plan) {
   // Active soil in the block of any column along the drop, or in a block beside it, counts as near:
   // its particles take over what starts to slide.
   bool near = false;
@@ -170,8 +182,10 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
     const PlanKey block = grid.block_of(ix, iy);
     for (int by = -1; by <= 1; ++by)
-      for (int bx = -1; bx <= 1; ++bx) near = near || index.find({block.first + by, block.second + bx}) >= 0;
-    for (const ToolZone& tool : zones) near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
+      for (int bx = -1; bx <= 1; ++bx)
+        near = near || index.find({block.first + by, block.second + bx}) >= 0;
+    for (const ToolZone& tool : zones)
+      near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
   }
   // If the last check was over budget, nothing more may become active: the slope slides as columns,
   // which needs no particles.
@@ -183,19 +197,21 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
   for (int l = 0; l < found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
     // Lower columns in between stay.
-    if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low) plan_wake(plan, ix, iy, bottom);
+    if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low)
+      plan_activation(plan, ix, iy, bottom);
   }
 }
 
 // Drops the requests farthest from tools until the new particles fit the budget.
-void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t awake, double time, WakePlan& plan) {
+void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t active, double time,
+                                 ActivationPlan& plan) {
   // An upper bound except for columns of many thin soils, so that the budget is missed from below.
-  const auto bound = [&](const WakePlan::value_type& entry) {
+  const auto bound = [&](const ActivationPlan::value_type& entry) {
     const double bottom = ground.datum() + entry.second * ground.cell();
     return static_cast<std::size_t>(
-        waker.particle_bound(ground.height(entry.first.second, entry.first.first) - bottom));
+        activator.particle_bound(ground.height(entry.first.second, entry.first.first) - bottom));
   };
-  std::size_t sum = awake;
+  std::size_t sum = active;
   for (const auto& entry : plan) sum += bound(entry);
   if (sum <= max_particles) {
     over_budget = false;
@@ -229,29 +245,32 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t aw
   }
   // Log once, not at every check while it lasts.
   if (!over_budget)
-    log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " + std::to_string(wanted) +
-                " to " + std::to_string(plan.size()) + " columns, or there would be more than " +
-                std::to_string(max_particles) + " particles");
+    log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " +
+                std::to_string(wanted) + " to " + std::to_string(plan.size()) +
+                " columns, or there would be more than " + std::to_string(max_particles) +
+                " particles");
   over_budget = true;
 }
 
 // Columns become active in the order of the map, so new particles have the same order in every run.
-void Exchange::State::wake_planned(const ColumnIndex& index, const WakePlan& plan, Result& result) {
+void Exchange::State::activate_planned(const ColumnIndex& index, const ActivationPlan& plan,
+                                       Result& result) {
   for (const auto& [column, bottom] : plan) {
     const std::size_t before = result.born.size();
     // Particles on a column load it, too. Without that, new particles would settle under them.
-    waker.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
-               kilograms(index.pile(column.second, column.first).mass), result.born);
-    result.woken_columns += result.born.size() > before ? 1 : 0;
+    activator.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
+                   kilograms(index.pile(column.second, column.first).mass), result.born);
+    result.activated_columns += result.born.size() > before ? 1 : 0;
   }
 }
 
-void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
-                              double time, Result& result) {
+void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones,
+                              const ActivationPlan& plan, double time, Result& result) {
   // New particles lie between the ground and resting particles of the same blocks, or beside them.
   for (const auto& [column, bottom] : plan)
     for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) rest.erase(grid.block_of(column.second + dx, column.first + dy));
+      for (int dx = -1; dx <= 1; ++dx)
+        rest.erase(grid.block_of(column.second + dx, column.first + dy));
   // All blocks are judged before any is deposited: a deposit must not make its neighbour ready in
   // the same check.
   std::vector<int> ready;
@@ -269,11 +288,12 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
   }
   standing.remember(ground, index, done);
   // Older entries have no effect; dropping them keeps the list as short as a second of digging.
-  std::erase_if(deposited, [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
+  std::erase_if(deposited,
+                [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
 }
 
-int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones, const WakePlan& plan,
-                               double elapsed) {
+int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones,
+                               const ActivationPlan& plan, double elapsed) {
   // A column slides only while nothing rests on it, nothing is to become active in it, and no tool
   // stands in it: particles and shells would not notice that the ground below them is gone. Nor
   // does a column under a tyre slide: the tyre would press the soil again, for ever.
@@ -281,57 +301,64 @@ int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZon
     if (ground.held(ix, iy)) return true;
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
     const double top = (ground.height(ix, iy) - ground.datum()) / ground.cell();
-    return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.touches(ix, iy) && (tool.seated || tool.low < top); });
+    return std::any_of(zones.begin(), zones.end(), [&](const ToolZone& tool) {
+      return tool.touches(ix, iy) && (tool.supported || tool.low < top);
+    });
   };
   return slump.run(elapsed, blocked);
 }
 
 bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
-                                    std::span<const FootingPlace> footings, double time, Result& result) {
-  if (footings.empty() || index.particles().empty()) return false;
+                                    std::span<const SupportPlacement> support_areas, double time,
+                                    Result& result) {
+  if (support_areas.empty() || index.particles().empty()) return false;
   std::set<PlanKey> blocks;
-  result.footing_columns = FootingDeposit(ground, index, zones, densest).deposit(footings, result.removed, blocks);
+  result.support_columns =
+      SupportDeposit(ground, index, zones, densest).deposit(support_areas, result.removed, blocks);
   // Motion beside a wheel does not activate at once what was deposited under it.
   for (const PlanKey& block : blocks) deposited[block] = time;
-  return result.footing_columns > 0;
+  return result.support_columns > 0;
 }
 
 void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone> zones,
-                             std::span<const FootingPlace> footings, double time, double elapsed, Result& result) {
+                             std::span<const SupportPlacement> support_areas, double time,
+                             double elapsed, Result& result) {
   // The plan collects all three rules before anything changes. Several may ask for one column; the
   // deepest request counts.
-  WakePlan plan;
-  wake_ahead_of_tools(ground, zones, plan);
-  wake_around_motion(
+  ActivationPlan plan;
+  activate_ahead_of_tools(ground, zones, plan);
+  activate_around_motion(
       ground, index, motion_threshold(zones), zones,
       [&](int ix, int iy) { return !rests_since_deposit(ix, iy, zones, time); }, plan);
   plan_slopes(index, zones, plan);
   // Soil under a wheel would be deposited again at the next check, and the wheel would have fallen
   // meanwhile.
-  std::erase_if(plan, [&](const WakePlan::value_type& entry) {
-    return bears_footing(ground, index, zones, footings, entry.first.second, entry.first.first);
+  std::erase_if(plan, [&](const ActivationPlan::value_type& entry) {
+    return supports_machine(ground, index, zones, support_areas, entry.first.second,
+                            entry.first.first);
   });
   fit_budget(zones, index.particles().size(), time, plan);
 
   update_rest(index, elapsed, rest);
-  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not among them. Columns
-  // slide last, on ground that has both.
+  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not
+  // among them. Columns slide last, on ground that has both.
   deposit(index, zones, plan, time, result);
-  wake_planned(index, plan, result);
+  activate_planned(index, plan, result);
   result.slumped_columns = run_slump(index, zones, plan, elapsed);
 }
 
-Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
-                                 double elapsed, const Standing& standing) {
+Exchange::Result Exchange::check(std::span<const Particle> particles,
+                                 std::span<const ToolRegion> tools, double time, double elapsed,
+                                 const Standing& standing) {
   State& s = *state_;
   Result result;
   result.removed.assign(particles.size(), 0);
   const ColumnIndex index(particles, s.ground, s.grid);
-  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.awake_zone);
-  const std::vector<FootingPlace> footings = footing_places(standing.footings, s.ground, standing.interval);
-  if (!s.deposit_under(index, zones, footings, time, result)) {
-    s.decide(index, zones, footings, time, elapsed, result);
+  const std::vector<ToolZone> zones = tool_zones(s.ground, index, tools, s.active_zone);
+  const std::vector<SupportPlacement> support_areas =
+      support_placements(standing.support_areas, s.ground, standing.interval);
+  if (!s.deposit_under(index, zones, support_areas, time, result)) {
+    s.decide(index, zones, support_areas, time, elapsed, result);
     return result;
   }
   // The other rules see the ground with what was booked, and the particles without.
@@ -345,10 +372,11 @@ Exchange::Result Exchange::check(std::span<const Particle> particles, std::span<
   Result others;
   others.removed.assign(left.size(), 0);
   const ColumnIndex index_left(left, s.ground, s.grid);
-  s.decide(index_left, tool_zones(s.ground, index_left, tools, s.awake_zone), footings, time, elapsed, others);
+  s.decide(index_left, tool_zones(s.ground, index_left, tools, s.active_zone), support_areas, time,
+           elapsed, others);
   for (std::size_t i = 0; i < left.size(); ++i) result.removed[place[i]] = others.removed[i];
   others.removed = std::move(result.removed);
-  others.footing_columns = result.footing_columns;
+  others.support_columns = result.support_columns;
   return others;
 }
 
@@ -360,7 +388,7 @@ std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z
   // Rows of the ground's own order, so that new particles come alike in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
-      s.waker.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
+      s.activator.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
   return born;
 }
 
@@ -375,9 +403,11 @@ void Exchange::State::visit(Archive& a) {
   a("slump", slump);
   // Times that are no numbers would keep blocks awake or at rest for ever.
   for (const auto& [block, time] : rest) a.require(std::isfinite(time), "rest", "must be finite");
-  for (const auto& [block, time] : deposited) a.require(std::isfinite(time), "deposited", "must be finite");
+  for (const auto& [block, time] : deposited)
+    a.require(std::isfinite(time), "deposited", "must be finite");
   const auto near = [](int tile) { return tile >= -kFarthestTile && tile <= kFarthestTile; };
-  for (const PlanKey& tile : pending) a.require(near(tile.first) && near(tile.second), "pending", "lies off any site");
+  for (const PlanKey& tile : pending)
+    a.require(near(tile.first) && near(tile.second), "pending", "lies off any site");
 }
 
 void Exchange::visit(Archive& a) {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
-#include "soil/exchange/footing.h"
+#include "soil/exchange/support_area.h"
 #include "soil/particles/particle.h"
 #include "soil/scheme_constants.h"
 #include "soil/tools/tool_motion.h"
@@ -44,13 +44,13 @@ class Exchange {
     std::vector<Particle> born;
     /// One flag per given particle: deposited into columns.
     std::vector<std::uint8_t> removed;
-    int woken_columns = 0, deposited_blocks = 0, slumped_columns = 0;
+    int activated_columns = 0, deposited_blocks = 0, slumped_columns = 0;
     /// Columns that got soil because a wheel or track comes onto them.
-    int footing_columns = 0;
+    int support_columns = 0;
   };
   /// Support areas on the ground, and the longest time until the next check [s].
   struct Standing {
-    std::span<const Footing> footings;
+    std::span<const SupportArea> support_areas;
     double interval = 0;
   };
   /// Runs one check. `particles` come in a repeatable order; `time` is simulated [s] and `elapsed`
@@ -58,10 +58,11 @@ class Exchange {
   /// not: the caller adds and removes them before the next step. The rules are written in simulated
   /// time, so the frequency of checks matters little. Cost is linear in the particles, the columns
   /// near tools and the changes since the last check.
-  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed,
-               const Standing& standing);
+  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
+               double elapsed, const Standing& standing);
   /// Runs one check without support areas.
-  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time, double elapsed) {
+  Result check(std::span<const Particle> particles, std::span<const ToolRegion> tools, double time,
+               double elapsed) {
     return check(particles, tools, time, elapsed, Standing{});
   }
   /// Turns columns above `z_bottom` [m in W] into particles unconditionally, without asking the

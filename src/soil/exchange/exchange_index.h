@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "soil/particles/particle.h"
 #include "soil/particles/plan_grid.h"
 
@@ -40,7 +40,8 @@ class ColumnIndex {
  public:
   /// Sorts the particles. A particle outside the site is listed under the column that would be
   /// below it. `grid`: position of blocks; tests that do not care leave it out.
-  ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground, PlanGrid grid = {});
+  ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
+              PlanGrid grid = {});
 
   const PlanGrid& grid() const { return grid_; }
 

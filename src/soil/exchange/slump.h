@@ -63,7 +63,7 @@ class Slump {
   /// Share of a sweep that is carried to the next check.
   double debt_ = 0;
   // Scratch memory.
-  std::vector<heightfield::Layer> taken_;
+  std::vector<heightfield::SoilLayer> taken_;
 };
 
 // The four colours separate the pairs of one colour, so a sweep does not depend on the order within

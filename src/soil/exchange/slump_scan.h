@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "soil/exchange/activation_rules.h"
 #include "soil/exchange/slump_table.h"
-#include "soil/exchange/wake_rules.h"
 
 namespace navvy::soil {
 
@@ -34,7 +34,8 @@ class StandingHeights {
   explicit StandingHeights(PlanGrid grid) : grid_(grid) {}
   /// Stores the columns of the blocks just `deposited`, and those of the blocks around them as they
   /// are now. `index` is from before the deposit.
-  void remember(const heightfield::Ground& ground, const ColumnIndex& index, const std::set<PlanKey>& deposited);
+  void remember(const heightfield::Ground& ground, const ColumnIndex& index,
+                const std::set<PlanKey>& deposited);
   /// Finds the stored height [cells above datum]. Returns false when there is none.
   bool find(int ix, int iy, double& height) const;
 
@@ -61,21 +62,26 @@ class SlumpScan {
 
   /// Reads ground, table and heights, which must outlive the scan. `hold`: steep ground of the
   /// start stands, whatever the law says.
-  SlumpScan(const heightfield::Ground& ground, const SlumpTable& table, const StandingHeights& standing, bool hold)
+  SlumpScan(const heightfield::Ground& ground, const SlumpTable& table,
+            const StandingHeights& standing, bool hold)
       : ground_(ground), table_(table), standing_(standing), hold_(hold) {}
 
   /// Appends what is over-steep in tile (tx, ty), or against it from outside, to `out`: for each
   /// column and direction the nearest drop. Leaves out drops across a tool that holds them. (tx,
   /// ty) counts tiles from the site's corner. `zones`: present positions of tools.
-  void scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones, std::vector<OverSteep>& out);
+  void scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
+            std::vector<OverSteep>& out);
 
  private:
   // Reads the heights of the tile and its margin, with and without the soil on them, inside the
   // site.
   void read_window(int tx, int ty, const ColumnIndex& index);
   // Examines one pair of columns. Returns true when it was appended.
-  bool look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones, std::vector<OverSteep>& out);
-  std::size_t at(int ix, int iy) const { return static_cast<std::size_t>((iy - y0_) * kSide + ix - x0_); }
+  bool look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
+            std::vector<OverSteep>& out);
+  std::size_t at(int ix, int iy) const {
+    return static_cast<std::size_t>((iy - y0_) * kSide + ix - x0_);
+  }
   // Returns true if the same drop stood at the start, or when soil came to rest there.
   bool stood_before(int ix, int iy, int lx, int ly, double drop) const;
   // Returns true if a tool stands between the two columns, at the height of the drop.
@@ -91,7 +97,7 @@ class SlumpScan {
   int x0_ = 0, y0_ = 0;
   // Surface without and with the soil on it [cells above datum].
   std::vector<float> rest_, top_;
-  std::vector<heightfield::Layer> layers_;
+  std::vector<heightfield::SoilLayer> layers_;
   // Smallest relevant drop, [diagonal][steps] [cells].
   double limit_[2][SlumpTable::kReach + 1] = {};
 };

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/soil.h"
 
 namespace navvy::soil {
@@ -29,11 +29,13 @@ class SlumpTable {
   /// Returns the drop [m] at which soil of plastic shear `shear` [-] and volume ratio
   /// `specific_volume` starts to slide over `steps` columns (1 .. kReach). Its cohesion over unit
   /// weight is rounded down to one of sixteen levels: soil slides a little early, never late.
-  double start(std::uint16_t soil, float shear, float specific_volume, int steps, bool diagonal) const;
+  double start(std::uint16_t soil, float shear, float specific_volume, int steps,
+               bool diagonal) const;
   /// Returns the smallest drop [m] that the layers between two heights of a column allow. `layers`
   /// bottom first, heights in m above datum. Layers that the drop does not expose do not count; 100
   /// m when there is none.
-  double start(std::span<const heightfield::Layer> layers, double low, double high, int steps, bool diagonal) const;
+  double start(std::span<const heightfield::SoilLayer> layers, double low, double high, int steps,
+               bool diagonal) const;
   /// Returns the drop [m] below which no soil slides. Every scan asks for it first, which avoids
   /// reading the layers of nearly all columns.
   double weakest(int steps, bool diagonal) const { return weakest_[place(0, 0, steps, diagonal)]; }

@@ -40,17 +40,17 @@ class BlockIndex {
 /// nodes that particles can reach).
 struct BlockTable {
   /// Sorted.
-  std::vector<BlockKey> homes;
+  std::vector<BlockKey> particle_blocks;
   /// Sorted.
   std::vector<BlockKey> active;
   /// 27 per particle block: index of the neighbour among the active blocks.
   std::vector<int> neighbours;
   /// 27 per active block: index of the neighbour among the particle blocks, or -1.
   std::vector<int> around;
-  BlockIndex home_index, active_index;
+  BlockIndex particle_block_index, active_index;
 
   /// Builds the table from sorted, unique keys.
-  void build(std::vector<BlockKey> sorted_homes);
+  void build(std::vector<BlockKey> sorted_keys);
 };
 
 }  // namespace navvy::soil

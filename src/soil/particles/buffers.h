@@ -23,7 +23,8 @@ void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
 /// again afterwards.
 template <class T>
 void ensure(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
-  if (buffer.size() < size || buffer.empty()) buffer = device::Buffer<T>(device, size + size / 2 + 1);
+  if (buffer.size() < size || buffer.empty())
+    buffer = device::Buffer<T>(device, size + size / 2 + 1);
 }
 
 /// Grows a buffer if needed and writes the values; waits.

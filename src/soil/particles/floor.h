@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 #include "soil/particles/plan_grid.h"

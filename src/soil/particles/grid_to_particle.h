@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/near_nodes.h"
 #include "soil/particles/particle_store.h"
 
@@ -22,7 +22,8 @@ class GridToParticle {
   /// displacements. `velocity`: GridUpdate::velocity; `used`: ParticleToGrid::used. Writes
   /// Report.speed of every block.
   void enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
-               device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double part, double cell);
+               device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt,
+               double part, double cell);
   /// Queues the end of a transfer: particles move by their recorded displacement, and lists may
   /// change.
   void enqueue_end(ParticleStore& store);
@@ -30,7 +31,7 @@ class GridToParticle {
  private:
   device::Device& device_;
   SchemeConstants scheme_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_, end_kernel_;
   /// 27 active-block indices per particle block.
   device::Buffer<std::int32_t> neighbours_;

@@ -8,7 +8,7 @@
 
 #include "core/math.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/near_nodes.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/particle_to_grid.h"
@@ -27,7 +27,8 @@ class GridUpdate {
   void set_floor(const std::vector<BlockFloor>& floors);
   /// Queues velocities after `dv` [m/s] of gravity: final in far blocks, before contact and floor
   /// in near ones. In a `hold` step nodes add the scattered impulse to their velocity.
-  void enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv, bool hold);
+  void enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv,
+               bool hold);
 
   device::Buffer<float>& velocity() { return velocity_; }
   device::Buffer<BlockFloor>& floors() { return floors_; }
@@ -35,7 +36,7 @@ class GridUpdate {
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel far_kernel_, near_kernel_;
   /// Number of active blocks that are not near.
   std::size_t far_ = 0;

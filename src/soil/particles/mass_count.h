@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 
 namespace navvy::soil {
@@ -22,7 +22,7 @@ class MassCount {
   /// Reserves memory for a count of this many blocks. A step does so before it queues its first
   /// kernel, so that a full device does not stop it half-way.
   /// @throws DeviceError when there is no memory.
-  void make_room(std::size_t homes);
+  void reserve(std::size_t particle_blocks);
   /// Queues the count of the stored particles and its copy to the host.
   void queue(ParticleStore& store);
   /// Returns the sums of the last `queue`, after a wait for something queued later; zeros when
@@ -32,7 +32,7 @@ class MassCount {
  private:
   device::Device& device_;
   std::size_t soils_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_;
   device::Buffer<std::int64_t> masses_;
   std::optional<device::Mapped<const std::int64_t>> sums_;

@@ -37,7 +37,8 @@ class ParticleStore {
  public:
   /// Creates an empty store. `site`: x and y of its lower left and its upper right corner in G
   /// [cells]; `soils`: the constant table.
-  ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site, const std::vector<SoilRow>& soils);
+  ParticleStore(device::Device& device, const std::array<std::int32_t, 4>& site,
+                const std::vector<SoilRow>& soils);
 
   /// Replaces all particles; finds their blocks and sorts them.
   /// @throws DeviceError when the device has no memory. The store then keeps its contents, as after
@@ -65,15 +66,15 @@ class ParticleStore {
   int count() const { return count_; }
   int capacity() const { return capacity_[now_]; }
   const BlockTable& table() const { return table_; }
-  const std::vector<Home>& homes() const { return homes_; }
+  const std::vector<ParticleBlock>& particle_blocks() const { return particle_blocks_; }
   device::Buffer<float>& state() { return state_[now_]; }
   const device::Buffer<float>& state() const { return state_[now_]; }
   device::Buffer<SoilRow>& soils() { return soils_; }
   /// Returns the largest bank density of all soils [kg/m3].
   double densest() const;
-  device::Buffer<Home>& homes_buffer() { return homes_buffer_; }
-  device::Buffer<std::array<std::int32_t, 4>>& home_keys() { return home_keys_; }
-  device::Buffer<ContactSoil>& home_surface() { return home_surface_; }
+  device::Buffer<ParticleBlock>& particle_blocks_buffer() { return particle_blocks_buffer_; }
+  device::Buffer<std::array<std::int32_t, 4>>& block_keys() { return block_keys_; }
+  device::Buffer<ContactSoil>& block_surface() { return block_surface_; }
 
   /// Visits block by block every word of every particle as it is on the device. Padding and spare
   /// memory are not state.
@@ -89,9 +90,9 @@ class ParticleStore {
   void lay_out(const std::vector<int>& counts);
   /// Makes the state arrays of a side hold at least `slots`; allocates for `wanted` if it must.
   /// Changes nothing when the device has no memory.
-  void make_room(int side, int slots, int wanted);
+  void reserve(int side, int slots, int wanted);
   /// @pre Their buffers are large enough.
-  void upload_homes();
+  void upload_particle_blocks();
   /// Returns the mean surface over the particles of each block.
   std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
   std::vector<Particle> drop_outside();
@@ -105,18 +106,18 @@ class ParticleStore {
   /// FIELD_COUNT x capacity words, field after field (particle_fields.h).
   device::Buffer<float> state_[2];
   /// One per block, mean over its particles.
-  device::Buffer<ContactSoil> home_surface_;
+  device::Buffer<ContactSoil> block_surface_;
   std::vector<SoilRow> soil_rows_;
   int capacity_[2] = {0, 0};
   /// Index of the current one of the two states; re-binning writes the other.
   int now_ = 0;
   int count_ = 0;
   BlockTable table_;
-  std::vector<Home> homes_;
+  std::vector<ParticleBlock> particle_blocks_;
   /// One per block: current, and before the last re-bin.
-  device::Buffer<Home> homes_buffer_, old_homes_buffer_;
+  device::Buffer<ParticleBlock> particle_blocks_buffer_, old_particle_blocks_buffer_;
   /// Block (x, y, z, 0) of each entry.
-  device::Buffer<std::array<std::int32_t, 4>> home_keys_;
+  device::Buffer<std::array<std::int32_t, 4>> block_keys_;
 };
 
 }  // namespace navvy::soil

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 
 namespace navvy::soil {
@@ -14,13 +14,15 @@ namespace navvy::soil {
 class ParticleToGrid {
  public:
   /// Builds the kernel. `extended_law`: see needs_extended_law.
-  ParticleToGrid(device::Device& device, bool extended_law, const SchemeConstants& scheme = kScheme);
+  ParticleToGrid(device::Device& device, bool extended_law,
+                 const SchemeConstants& scheme = kScheme);
 
   /// Allocates memory for this many blocks and tiles.
-  void set_blocks(std::size_t homes, int tiles);
+  void set_blocks(std::size_t particle_blocks, int tiles);
   /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]. In a `hold` step only
   /// stress adds to the momentum of the nodes. Writes Report.broken of every block.
-  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold);
+  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
+               bool hold);
 
   device::Buffer<float>& tiles() { return tiles_; }
   device::Buffer<std::int32_t>& used() { return used_; }
@@ -28,7 +30,7 @@ class ParticleToGrid {
  private:
   device::Device& device_;
   SchemeConstants scheme_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_;
   /// TILE_NODES float4s per tile: p [kg m/s], m [kg].
   device::Buffer<float> tiles_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/particles/particle.h"
 
@@ -24,15 +24,23 @@ struct PlanGrid {
 
   /// Returns the block that holds column (ix, iy).
   PlanKey block_of(int ix, int iy) const {
-    const auto down = [](int i) { return i >= 0 ? i / kBlockCells : -((kBlockCells - 1 - i) / kBlockCells); };
+    const auto down = [](int i) {
+      return i >= 0 ? i / kBlockCells : -((kBlockCells - 1 - i) / kBlockCells);
+    };
     return {down(iy - y), down(ix - x)};
   }
   /// Return the position of column c of a block, 0 .. 15, x fastest.
-  int column_x(const PlanKey& block, int c) const { return x + kBlockCells * block.second + c % kBlockCells; }
-  int column_y(const PlanKey& block, int c) const { return y + kBlockCells * block.first + c / kBlockCells; }
+  int column_x(const PlanKey& block, int c) const {
+    return x + kBlockCells * block.second + c % kBlockCells;
+  }
+  int column_y(const PlanKey& block, int c) const {
+    return y + kBlockCells * block.first + c / kBlockCells;
+  }
   /// Returns the column below a particle, (ix, iy).
   std::pair<int, int> column_of(const Particle& p) const {
-    const auto cell = [&](int a) { return kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a])); };
+    const auto cell = [&](int a) {
+      return kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a]));
+    };
     return {x + cell(0), y + cell(1)};
   }
   /// Returns the index of a column in its block, 0 .. 15.

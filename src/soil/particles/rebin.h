@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 
@@ -36,7 +36,7 @@ struct StoredParticles {
   /// FIELD_COUNT x capacity words.
   device::Buffer<float>& state;
   int capacity;
-  device::Buffer<Home>& homes;
+  device::Buffer<ParticleBlock>& particle_blocks;
 };
 
 /// Kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
@@ -46,22 +46,22 @@ class Rebin {
 
   /// Counts where particles go, kRebinCodes per block; waits. `site`: x and y of its lower left and
   /// its upper right corner in G [cells]. Without blocks there are no counts.
-  std::vector<int> count(const StoredParticles& now, std::size_t homes,
+  std::vector<int> count(const StoredParticles& now, std::size_t particle_blocks,
                          const device::Buffer<std::array<std::int32_t, 4>>& keys,
                          const std::array<std::int32_t, 4>& site);
   /// Returns the code of every slot from the last count; waits. Slots without a particle have none.
   std::vector<std::uint8_t> codes() const { return codes_.read(); }
   /// Reserves memory for a plan of this many blocks and slots. Throws before anything has changed
   /// when there is none.
-  void make_room(std::size_t homes, std::size_t slots);
+  void reserve(std::size_t particle_blocks, std::size_t slots);
   /// Queues the move of the counted particles into their new blocks (given in `next.homes`), by
   /// cell and in the order of arrival, and the blocks' mean surfaces.
   void move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
-            const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& home_surface);
+            const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface);
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel count_kernel_, gather_kernel_, move_kernel_;
   // From the last count and move.
   /// Per old slot (rebin_count).

@@ -22,7 +22,8 @@ constexpr double kGrainDensity = 2650;
 double radius_of_dilating(double sin_phi, double b) {
   const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * -(2 * b / 3) * (1 - 4 * b * b / 9);
   double r = 1;
-  for (int newton = 0; newton < 10; ++newton) r -= ((a * r - 1) * r * r + 1) / ((3 * a * r - 2) * r);
+  for (int newton = 0; newton < 10; ++newton)
+    r -= ((a * r - 1) * r * r + 1) / ((3 * a * r - 2) * r);
   return r;
 }
 
@@ -45,7 +46,8 @@ LawConstants law_constants(const scene::Soil& soil, double cell, const SchemeCon
   k.alpha = std::sin(soil.friction_angle);
   // Without swell soil has no loose density.
   const bool swells = soil.swell > 1;
-  const double loose = swells ? std::min(soil.loose_cohesion, soil.residual_cohesion) : soil.residual_cohesion;
+  const double loose =
+      swells ? std::min(soil.loose_cohesion, soil.residual_cohesion) : soil.residual_cohesion;
   k.k_loose = loose * std::cos(soil.friction_angle);
   k.k_dense = (soil.residual_cohesion - loose) * std::cos(soil.friction_angle);
   k.k_bond = (soil.cohesion - soil.residual_cohesion) * std::cos(soil.friction_angle);
@@ -57,11 +59,13 @@ LawConstants law_constants(const scene::Soil& soil, double cell, const SchemeCon
   k.viscosity = scheme.shear_damping * soil.bank_density * sound_speed(soil) * cell;
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
-  // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and Mohr-Coulomb's radius
-  // for phi [docs/soil.md, dilatancy].
-  const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
+  // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and
+  // Mohr-Coulomb's radius for phi [docs/soil.md, dilatancy].
+  const double sin_psi = std::sin(soil.dilatancy_angle),
+               b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
   k.dilatancy = soil.swell > 1 ? b : 0;
-  const double cone = 1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
+  const double cone =
+      1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
   k.matched = cone / radius_of_dilating(k.alpha, k.dilatancy) - 1;
   k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);
   k.grain = soil.grain_diameter * std::sqrt(kGrainDensity);
@@ -79,11 +83,13 @@ double sound_speed(const scene::Soil& soil) {
 
 bool needs_extended_law(const std::vector<scene::Soil>& soils) {
   return std::any_of(soils.begin(), soils.end(), [](const scene::Soil& soil) {
-    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle || soil.compaction_pressure > 0;
+    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle ||
+           soil.compaction_pressure > 0;
   });
 }
 
-std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell, const SchemeConstants& scheme) {
+std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell,
+                                const SchemeConstants& scheme) {
   std::vector<Fault> faults;
   for (const scene::Soil& soil : soils)
     for (Fault& fault : scene::check_soil(soil)) faults.push_back(std::move(fault));

@@ -18,8 +18,8 @@ double sound_speed(const scene::Soil& soil);
 double most_mixing(double dt, const SchemeConstants& scheme = kScheme);
 
 /// Returns the mass per free volume of the nodes around a particle [kg] above which soil counts as
-/// crowded at J = 1, for the densest soil of the scene [docs/soil.md, crowding]. Lighter soil beside
-/// the densest is corrected too little, never too much. `densest` in kg/m3, `cell` in m.
+/// crowded at J = 1, for the densest soil of the scene [docs/soil.md, crowding]. Lighter soil
+/// beside the densest is corrected too little, never too much. `densest` in kg/m3, `cell` in m.
 double packed_mass(double densest, double cell, const SchemeConstants& scheme = kScheme);
 /// Returns the mass of that kind [kg] from which on the nodes show soil that is closed at J = 1
 /// [docs/soil.md, opening].
@@ -41,6 +41,7 @@ struct LawConstants {
   ALL_LAW_CONSTANTS(LAW_DOUBLE)
 };
 #undef LAW_DOUBLE
-LawConstants law_constants(const scene::Soil& soil, double cell, const SchemeConstants& scheme = kScheme);
+LawConstants law_constants(const scene::Soil& soil, double cell,
+                           const SchemeConstants& scheme = kScheme);
 
 }  // namespace navvy::soil

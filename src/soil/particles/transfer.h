@@ -30,7 +30,8 @@ class Transfer {
 
   /// Queues law and scatter, then node velocities after gravity: final in far blocks, before
   /// contact in near ones. `hold`: not the first step of a transfer.
-  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold);
+  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity,
+               bool hold);
   /// Queues the gather of a step that is the share `part` of a transfer, and records displacements.
   /// With `part` = 0 crowded particles are not separated.
   void gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell);
@@ -44,7 +45,7 @@ class Transfer {
     double push = 0;
     std::uint64_t crossed = 0;
   };
-  Largest read_report(std::size_t homes) const;
+  Largest read_report(std::size_t particle_blocks) const;
 
   device::Buffer<float>& velocity() { return grid_.velocity(); }
   device::Buffer<Report>& report() { return report_; }

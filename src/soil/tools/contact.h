@@ -10,7 +10,7 @@
 
 #include "core/math.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
 #include "soil/tools/marks.h"
@@ -26,7 +26,8 @@ namespace navvy::soil {
 
 /// Returns the area of a shell / the area that nodes along it stand for (contact_inner of
 /// kernels/soil/contact_law.h): above 1 for plates with corners, at most 2.
-double plate_area_factor(const ShellGeometry& geometry, double cell, const SchemeConstants& scheme = kScheme);
+double plate_area_factor(const ShellGeometry& geometry, double cell,
+                         const SchemeConstants& scheme = kScheme);
 
 /// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with
 /// its share of the plate's speed [docs/tools.md, contact shares]. Any number of tools.
@@ -37,11 +38,14 @@ class Contact {
           const SchemeConstants& scheme = kScheme);
 
   int add_tool(const scene::Shell& shell);
-  const ShellGeometry& geometry(int tool) const { return *tools_[static_cast<std::size_t>(tool)].geometry; }
+  const ShellGeometry& geometry(int tool) const {
+    return *tools_[static_cast<std::size_t>(tool)].geometry;
+  }
 
   /// Sets the tools' poses for the step and updates the near lists. Returns true when the lists
-  /// changed: the caller then assigns tiles anew (near_homes, near_slot).
-  bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed);
+  /// changed: the caller then assigns tiles anew (near_particle_blocks, near_slot).
+  bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table,
+                   bool blocks_changed);
   /// Sets the tools' twists and poses for a held step. Lists, sides of nodes and plates remain
   /// those of the transfer's start; lever arms are current.
   void set_twists(std::span<const ToolMotion> motions);
@@ -52,7 +56,7 @@ class Contact {
   void go_on(Transfer& transfer);
   /// Builds the near lists for the poses of their last build (after `visit` has loaded).
   void list_near(const BlockTable& table);
-  const std::vector<std::uint8_t>& near_homes() const { return near_homes_; }
+  const std::vector<std::uint8_t>& near_particle_blocks() const { return near_particle_blocks_; }
   const std::vector<int>& near_slot() const { return near_slot_; }
   NearNodes& nodes() { return nodes_; }
   /// Returns the change of near nodes in the last step, two entries per node, valid in touched
@@ -123,7 +127,7 @@ class Contact {
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
   bool moved_far() const;
   void set_window(Registered& tool) const;
-  void find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const;
+  void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
   void upload_tools();
   Tool tool_now(std::size_t index) const;
   template <class... Tail>
@@ -138,9 +142,9 @@ class Contact {
   std::vector<Registered> tools_;
   std::vector<ToolMotion> motions_;
   ShellQuery shells_;
-  device::Program contact_program_;
+  device::KernelProgram contact_program_;
   device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
-  std::vector<std::uint8_t> near_homes_;
+  std::vector<std::uint8_t> near_particle_blocks_;
   std::vector<int> near_slot_;
   std::vector<BlockKey> near_keys_;
   NearNodes nodes_;

@@ -21,8 +21,8 @@ double segment_distance(const Vec3& p, const std::array<Vec3, 2>& s) {
 template <class Visit>
 void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Visit& visit) {
   const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0];
-  const int n =
-      std::clamp(static_cast<int>(std::ceil(std::max({u.norm(), v.norm(), (u - v).norm()}) / longest)), 1, 64);
+  const int n = std::clamp(
+      static_cast<int>(std::ceil(std::max({u.norm(), v.norm(), (u - v).norm()}) / longest)), 1, 64);
   const double area = 0.5 * u.cross(v).norm() / (n * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {
@@ -36,13 +36,25 @@ constexpr double kMostAreaFactor = 2;
 
 }  // namespace
 
-double plate_area_factor(const ShellGeometry& geometry, double cell, const SchemeConstants& scheme) {
-  const reference::Reach r{scheme.contact_reach, scheme.contact_ramp, scheme.contact_edge, scheme.contact_edge_ramp, 0, 0, 0, 0, 0, 0, 0};
+double plate_area_factor(const ShellGeometry& geometry, double cell,
+                         const SchemeConstants& scheme) {
+  const reference::Reach r{scheme.contact_reach,
+                           scheme.contact_ramp,
+                           scheme.contact_edge,
+                           scheme.contact_edge_ramp,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())
     sample_triangle(triangle.corner, 0.25 * cell, [&](const Vec3& p, double area) {
       double inset = INFINITY;
-      for (const auto& rim : geometry.rims()) inset = std::min(inset, segment_distance(p, rim) / cell);
+      for (const auto& rim : geometry.rims())
+        inset = std::min(inset, segment_distance(p, rim) / cell);
       whole += area;
       stood_for += area * reference::contact_inner(std::min(inset, 1e3), &r);
     });

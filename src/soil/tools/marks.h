@@ -13,7 +13,8 @@ namespace navvy::soil {
 /// once. Cheaper than sorting them where columns are few.
 class Marks {
  public:
-  Marks(std::size_t rows, std::size_t columns) : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
+  Marks(std::size_t rows, std::size_t columns)
+      : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
 
   void set(std::size_t row, std::size_t column) {
     bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/near_nodes.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
@@ -32,9 +32,9 @@ class ShellQuery {
   explicit ShellQuery(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Uploads the triangles that may be near the near active blocks and the near particle blocks,
-  /// whose indices are `near_homes`.
-  void set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
-                const std::vector<std::int32_t>& near_homes);
+  /// whose indices are `near_particle_blocks`.
+  void set_near(const CandidateRows& node_candidates, const CandidateRows& particle_candidates,
+                const std::vector<std::int32_t>& near_particle_blocks);
   /// Uploads the tools of the step without waiting. The two-way solve changes their twists on the
   /// device.
   void set_tools(ToolShells shells);
@@ -45,7 +45,8 @@ class ShellQuery {
   /// Queues both kernels: split, tool and NodeShell of near nodes, then side and position of
   /// particles, with Report.push and Report.crossed of near blocks. `band`, `longest_push` [cells]:
   /// contact_band and contact_max_push of the scheme.
-  void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push);
+  void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
+               double longest_push);
 
   device::Buffer<Tool>& tools() { return tools_; }
   device::Buffer<std::int32_t>& node_tool() { return node_tool_; }
@@ -53,11 +54,11 @@ class ShellQuery {
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel nodes_kernel_, particles_kernel_;
   /// The device may still be reading it.
   ToolShells now_;
-  std::size_t near_homes_ = 0;
+  std::size_t near_particle_blocks_ = 0;
   // Written by the host.
   device::Buffer<ShellTriangle> triangles_;
   device::Buffer<ShellRim> rims_;
@@ -66,9 +67,9 @@ class ShellQuery {
   /// CandidateRows of near active blocks.
   device::Buffer<std::int32_t> block_first_, block_triangles_;
   /// CandidateRows of near particle blocks.
-  device::Buffer<std::int32_t> home_first_, home_triangles_;
+  device::Buffer<std::int32_t> particle_first_, particle_triangles_;
   /// Indices of the near particle blocks.
-  device::Buffer<std::int32_t> home_list_;
+  device::Buffer<std::int32_t> particle_block_list_;
   // Written by shell_nodes, BLOCK_NODES per near active block.
   /// Tool of the closest triangle, -1: none.
   device::Buffer<std::int32_t> node_tool_;

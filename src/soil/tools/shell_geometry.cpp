@@ -11,7 +11,8 @@
 namespace navvy::soil {
 namespace {
 
-[[noreturn]] void refuse(const scene::Shell& shell, const std::string& value, const std::string& rule) {
+[[noreturn]] void refuse(const scene::Shell& shell, const std::string& value,
+                         const std::string& rule) {
   Fault fault;
   fault.element = "shell[" + shell.name + "]/triangles";
   fault.value = value;
@@ -45,7 +46,8 @@ ShellGeometry::ShellGeometry(const scene::Shell& shell, double cell) : shell_(sh
   for (const auto& t : shell.triangles)
     for (const int v : t)
       if (v < 0 || v >= static_cast<int>(shell.vertices.size()))
-        refuse(shell, std::to_string(v), "vertex indices below " + std::to_string(shell.vertices.size()));
+        refuse(shell, std::to_string(v),
+               "vertex indices below " + std::to_string(shell.vertices.size()));
   find_normals();
   pieces_ = geometry::cut_to_pieces(shell, geometry::kShellPieceCells * cell);
   build_hull();
@@ -57,7 +59,8 @@ void ShellGeometry::find_normals() {
   std::map<int, bool> corner_free;
   for (const auto& index : shell_.triangles) {
     Triangle t;
-    for (std::size_t i = 0; i < 3; ++i) t.corner[i] = shell_.vertices[static_cast<std::size_t>(index[i])];
+    for (std::size_t i = 0; i < 3; ++i)
+      t.corner[i] = shell_.vertices[static_cast<std::size_t>(index[i])];
     const Vec3 area = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
     if (!(area.norm() > 1e-10)) refuse(shell_, "a triangle without area", "an area above 1e-10 m2");
     t.normal = area.normalized();
@@ -81,7 +84,8 @@ void ShellGeometry::find_normals() {
   // A body without free edges: nodes reach around its sharp edges as far as around free ones, and
   // are weighted less near them in the same way. Otherwise it would act a cell larger on every
   // side. Its particles stay outside as at any fold.
-  const bool closed = std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 1; });
+  const bool closed = std::none_of(edges.begin(), edges.end(),
+                                   [](const auto& edge) { return edge.second.count == 1; });
   for (const auto& [key, use] : edges) {
     const bool free = use.count == 1;
     if (free) corner_free[key.first] = corner_free[key.second] = true;
@@ -105,11 +109,13 @@ void ShellGeometry::build_hull() {
   // The mouth opens in the mean direction of the faces; a heap may rise above it by a quarter of
   // the shell's size.
   Vec3 mouth = Vec3::Zero();
-  for (const Triangle& t : triangles_) mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+  for (const Triangle& t : triangles_)
+    mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
   const geometry::Box box = geometry::bounds(shell_);
   const double heap = mouth.norm() > 1e-9 ? 0.25 * (box.high - box.low).norm() : 0;
   std::vector<Vec3> points;
-  for (const Triangle& t : triangles_) points.insert(points.end(), t.corner.begin(), t.corner.end());
+  for (const Triangle& t : triangles_)
+    points.insert(points.end(), t.corner.begin(), t.corner.end());
   if (heap > 0)
     for (const auto& rim : rims_)
       for (const Vec3& p : rim) points.push_back(p + heap * mouth.normalized());
@@ -147,7 +153,11 @@ ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const
       inside = inside && t.normal.cross(along).dot(p - t.corner[i]) >= 0;
       double share = 0;
       const Vec3 c = closest_on_segment(p, t.corner[i], t.corner[(i + 1) % 3], share);
-      offer(c, share <= 0 ? t.corner_normal[i] : share >= 1 ? t.corner_normal[(i + 1) % 3] : t.edge_normal[i], n);
+      offer(c,
+            share <= 0   ? t.corner_normal[i]
+            : share >= 1 ? t.corner_normal[(i + 1) % 3]
+                         : t.edge_normal[i],
+            n);
     }
     if (inside) offer(p - height * t.normal, t.normal, n);
   };

@@ -56,7 +56,7 @@ struct ToolRegion {
   /// From add_tool.
   int tool = -1;
   /// The ground supports it: it keeps no soil active.
-  bool seated = false;
+  bool supported = false;
   /// Box of the shell in W [m].
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
   /// Velocity of the box centre [m/s].

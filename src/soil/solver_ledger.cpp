@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Queries of a solver: particles, payload, ledger, hash, snapshot.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/archive.h"
+#include "core/error.h"
+#include "soil/solver.h"
+#include "soil/solver_state.h"
+
+namespace navvy::soil {
+
+void Solver::State::check_masses() {
+  const std::vector<std::int64_t> counted = mass_count.take();
+  for (std::size_t soil = 0; soil < counted.size(); ++soil) {
+    if (counted[soil] == masses.in_particles()[soil]) continue;
+    throw SimulationError(here() + "the particles of '" + world.soils[soil].name + "' weigh " +
+                          std::to_string(counted[soil] - masses.in_particles()[soil]) +
+                          " units of 2^-24 kg more than booked");
+  }
+}
+
+Ledger Solver::ledger() const { return state_->masses.ledger(state_->particles.masses()); }
+
+std::vector<Particle> Solver::particles() const {
+  std::vector<Particle> out = state_->particles.records();
+  // Present positions, not those at the start of the transfer.
+  for (Particle& p : out) {
+    for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
+    p = in_cell_block(p);
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Particle& a, const Particle& b) { return a.id < b.id; });
+  return out;
+}
+
+double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except) const {
+  const ShellGeometry& geometry = state_->contact.geometry(tool);
+  const Pose X_TW = X_WT.inverse();
+  // Bounding box of what it can hold, in the grid [cells].
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const Vec3& corner : geometry.hull_points()) {
+    const Vec3 grid = (X_WT * corner - state_->frame.origin) / state_->frame.cell;
+    low = low.cwiseMin(grid);
+    high = high.cwiseMax(grid);
+  }
+  std::vector<std::pair<const ShellGeometry*, Pose>> others;
+  for (const PlacedTool& other : except)
+    others.emplace_back(&state_->contact.geometry(other.tool), other.X_WT.inverse());
+  std::int64_t sum = 0;
+  // Triangle of the previous particle: neighbours in memory are neighbours in space.
+  int closest = 0;
+  for (const PointMass& p : state_->particles.masses_near(low, high)) {
+    const Vec3 p_W = state_->frame.origin + p.grid * state_->frame.cell;
+    const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
+    if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds))
+      sum += p.mass;
+  }
+  return kilograms(sum);
+}
+
+std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles,
+                                       std::span<const PlacedTool> tools) const {
+  std::vector<std::uint8_t> out(particles.size(), 0);
+  for (const PlacedTool& tool : tools) {
+    const ShellGeometry& geometry = state_->contact.geometry(tool.tool);
+    const Pose X_TW = tool.X_WT.inverse();
+    // Most particles are far from any tool: test a bounding box in W first.
+    Vec3 low = Vec3::Constant(1e300), high = -low;
+    for (const Vec3& corner : geometry.hull_points()) {
+      low = low.cwiseMin(tool.X_WT * corner);
+      high = high.cwiseMax(tool.X_WT * corner);
+    }
+    int closest = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      if (out[i] != 0) continue;
+      const Vec3 p_W = state_->frame.position(particles[i]);
+      if ((p_W.array() < low.array()).any() || (p_W.array() > high.array()).any()) continue;
+      out[i] = geometry.holds(X_TW * p_W, closest) ? 1 : 0;
+    }
+  }
+  return out;
+}
+
+const Vec3& Solver::grid_origin() const { return state_->frame.origin; }
+const PlanGrid& Solver::grid() const { return state_->frame.grid; }
+const SolverStats& Solver::stats() const { return state_->stats; }
+
+std::vector<std::pair<std::string, double>> Solver::stage_times() const {
+  return {state_->times.begin(), state_->times.end()};
+}
+
+static void visit(Archive& a, SolverStats& stats) {
+  a("steps", stats.steps);
+  a("particle_steps", stats.particle_steps);
+  a("particles", stats.particles);
+  a("particles_peak", stats.particles_peak);
+  a("blocks", stats.blocks);
+  a("rebins", stats.rebins);
+  a("wakes", stats.wakes);
+  a("deposits", stats.deposits);
+  a("shell_crossings", stats.shell_crossings);
+  a("max_speed", stats.max_speed);
+}
+
+// The order of the parts is the order of their fields in hashes and snapshots.
+void Solver::State::visit(Archive& a) {
+  a("particles", particles);
+  a("time", time);
+  a.require(std::isfinite(time) && time >= 0, "time", "must be finite and not negative");
+  a("exchange_clock", exchange_clock);
+  a("masses", masses);
+  a.unhashed("counts for people, no step reads them", [&] { a("stats", stats); });
+  a("contact", contact);
+  a("exchange", exchange);
+  a("standing", standing);
+  a("transfer", current);
+}
+
+// Lists and layout follow from the blocks, and from the poses for which the lists were made.
+void Solver::State::rebuild(Archive& a) {
+  ParticleStore& store = particles.store();
+  masses.set_particles(store.masses(world.soils.size()));
+  floor = Floor(ground, frame.grid, scheme.held_margin);
+  contact.list_near(store.table());
+  transfer.set_blocks(store, contact.near_slot(), store.set_near(contact.near_particle_blocks()));
+  floor.update(store.table().active, true);
+  transfer.set_floor(floor.blocks());
+  current.restore(a);
+}
+
+void Solver::visit(Archive& a) {
+  a.section("soil", 5, [&] {
+    state_->visit(a);
+    if (a.loading()) state_->rebuild(a);
+    if (a.loading() && state_->energy) state_->open_energy();
+  });
+}
+
+}  // namespace navvy::soil
