@@ -54,13 +54,13 @@ class NativeSoil {
   void sort(const std::vector<soil::Particle>& particles);
   /// Appends to the last block.
   void append(const soil::Particle& p);
-  bool sum_openings(const ParticleBlock& home);
-  void scatter(const ParticleBlock& home, float dt, bool hold);
+  bool sum_openings(const ParticleBlock& particle_block);
+  void scatter(const ParticleBlock& particle_block, float dt, bool hold);
   void update_grid(float dt, bool hold);
   /// Moves particles by their recorded displacement.
   void end_transfer();
   /// Returns the fastest velocity component.
-  float gather(const ParticleBlock& home, float dt);
+  float gather(const ParticleBlock& particle_block, float dt);
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
            row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));

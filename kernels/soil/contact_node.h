@@ -31,8 +31,8 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float room = fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
-  const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
+  const float free_fraction = fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
+  const float fill = v.w * surface[i].inv_density / (dx * dx * dx * free_fraction);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
   node->stick = 0.0f;
@@ -128,7 +128,7 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
 // Result of contact and resting ground for one near node, see contact_apply.
 typedef struct NodeResult {
   // Velocity and mass per free volume that particles see, by field.
-  float4 felt[2];
+  float4 seen[2];
   ContactRecord records[2];
   int changed;
 } NodeResult;
@@ -160,8 +160,8 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     // Mass per free volume beside ground and plate.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
-    out.felt[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
+    const float free_fraction = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
+    out.seen[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / free_fraction);
   }
   return out;
 }

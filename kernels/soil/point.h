@@ -68,7 +68,7 @@ INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real o
 // is 1.
 INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f, real mass, real bank,
                              real j, scalar carried, scalar dt, scalar dx, real* start, real* a) {
-  const real kept = carried * mass, cm = kept * dx, sv = (4.0f * dt / dx) * bank * j;
+  const real carried_mass = carried * mass, cm = carried_mass * dx, sv = (4.0f * dt / dx) * bank * j;
   a[0] = cm * c[0] - sv * sigma[0];
   a[1] = cm * c[1] - sv * sigma[3];
   a[2] = cm * c[2] - sv * sigma[5];
@@ -78,9 +78,9 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
   a[6] = cm * c[6] - sv * sigma[5];
   a[7] = cm * c[7] - sv * sigma[4];
   a[8] = cm * c[8] - sv * sigma[2];
-  start[0] = kept * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
-  start[1] = kept * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
-  start[2] = kept * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
+  start[0] = carried_mass * v[0] - (a[0] * f[0] + a[1] * f[1] + a[2] * f[2]);
+  start[1] = carried_mass * v[1] - (a[3] * f[0] + a[4] * f[1] + a[5] * f[2]);
+  start[2] = carried_mass * v[2] - (a[6] * f[0] + a[7] * f[1] + a[8] * f[2]);
 }
 
 // Returns a component of C = 4/dx^2 sum w v (x_i - x_p)^T [1/s] from a component of the gathered
@@ -105,7 +105,7 @@ INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar ful
 // noise of the flow opens soil that is closed, which would cost its cohesion. It closes by a share
 // of the distance to the density state. Soil carries no pressure there, so closing costs and gives
 // no energy [docs/soil.md, opening]. filled: mass of a node that counts as closed at J = 1 [kg].
-INLINED real seen_opening(real j, real j0, real node_mass, scalar filled, scalar share) {
+INLINED real close_noise(real j, real j0, real node_mass, scalar filled, scalar share) {
   const real closing = j + share * (j0 - j);
   return j > j0 && j < SCHEME(max_closing_ratio) * j0 && node_mass * j0 >= filled ? closing : j;
 }

@@ -44,7 +44,7 @@ void CurrentTransfer::restore(Archive& a) {
             "front", "must be four numbers for each node of the blocks that the particles reach");
   transfer_.velocity().write(loaded_[0]);
   if (!loaded_[1].empty()) contact_.nodes().velocity1.write(loaded_[1]);
-  contact_.go_on(transfer_);
+  contact_.resume(transfer_);
 }
 
 }  // namespace navvy::soil

@@ -37,7 +37,7 @@ class CurrentTransfer {
   }
   /// Counts a step of dt [s] after which the fastest particle moves at `fastest` [m/s].
   void record_step(double dt, double cell, double fastest, double tool_speed) {
-    interval_.book(dt, cell, fastest, tool_speed);
+    interval_.count_step(dt, cell, fastest, tool_speed);
   }
   /// Moves the particles to where it takes them; blocks, lists and sides may change then. Returns
   /// the longest displacement [cells], 0 when no transfer is under way.

@@ -63,11 +63,11 @@ void each_energy(const Visit& visit) {
 
 /// Reports the account as people and files get it: tell(name, [J]) for every member, then for the
 /// residual.
-template <class Tell>
-void report_energy(const EnergyAccount& account, const Tell& tell) {
+template <class Sink>
+void report_energy(const EnergyAccount& account, const Sink& report) {
   each_energy(
-      [&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
-  tell("residual", account.residual());
+      [&](const char* name, double EnergyAccount::*member) { report(name, account.*member); });
+  report("residual", account.residual());
 }
 
 inline EnergyAccount& EnergyAccount::operator+=(const EnergyAccount& other) {

@@ -30,7 +30,7 @@ double dot_of(const double* a, const double* b) {
 
 /// Returns the index, among the nodes of the active blocks, of each of the 8 x 8 x 8 nodes of a
 /// block's tile.
-std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t home) {
+std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t particle_block) {
   std::array<std::size_t, 512> out{};
   for (int i = 0; i < 512; ++i) {
     const int t[3] = {i % 8 - 1, i / 8 % 8 - 1, i / 64 - 1};
@@ -41,7 +41,8 @@ std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t hom
       local = 4 * local + t[a] - 4 * d;
     }
     out[static_cast<std::size_t>(i)] =
-        static_cast<std::size_t>(table.neighbours[27 * home + static_cast<std::size_t>(n)]) *
+        static_cast<std::size_t>(
+            table.neighbours[27 * particle_block + static_cast<std::size_t>(n)]) *
             BLOCK_NODES +
         static_cast<std::size_t>(local);
   }
@@ -166,10 +167,10 @@ void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact
   const std::size_t count = table.active.size() * BLOCK_NODES;
   nodes_.assign(2 * count, Node{});
   const std::vector<std::int32_t> split = splits(count, contact.nodes());
-  std::size_t home = store.particle_blocks().size();
+  std::size_t particle_block = store.particle_blocks().size();
   std::array<std::size_t, 512> tile{};
   for_particles(store, [&](std::size_t h, std::size_t slot) {
-    if (h != home) tile = tile_nodes(table, home = h);
+    if (h != particle_block) tile = tile_nodes(table, particle_block = h);
     const double mass = kMassQuantum * now.bits(FIELD_MASS, slot);
     Vec3 v, f;
     Mat3 c;

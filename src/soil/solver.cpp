@@ -210,9 +210,9 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
     stats.shell_crossings += report.crossed;
   }
   StageClock clock(times, "books");
-  contact.book(impulses);
+  contact.sum_impulses(impulses);
   if (standing.apply(dt, motions, impulses)) exchange_clock.hurry();
-  contact.feel(dt, impulses);
+  contact.add_impulses(dt, impulses);
   if (!hold) check_masses();
   if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
 }
@@ -224,7 +224,7 @@ void Solver::State::queue(double dt, bool hold) {
   transfer.scatter(store, contact.nodes(), dt, frame.cell, world.gravity, hold);
   contact.solve(transfer, dt);
   transfer.gather(store, contact.nodes(), dt, crowding ? dt / current.length() : 0, frame.cell);
-  contact.read_later();
+  contact.queue_read();
   // Nothing changes a mass while a transfer lasts.
   if (!hold) mass_count.queue(store);
 }
@@ -266,7 +266,7 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
   const double until_next = (ExchangeClock::kSteps + 1) * dt + current.length();
   Exchange::Result result =
       exchange.check(all, regions, time, exchange_clock.elapsed(), {support_areas, until_next});
-  stats.wakes += static_cast<std::uint64_t>(result.activated_columns);
+  stats.activations += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
   standing.release(regions, result.born);
   replace(all, result.removed, std::move(result.born));
@@ -338,9 +338,9 @@ void Solver::State::update_floor() {
     transfer.set_floor(floor.blocks());
 }
 
-void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {
+void Solver::activate(const heightfield::CellRect& rect, double z_bottom) {
   state_->end_transfer();
-  state_->add(state_->exchange.wake(rect, z_bottom, state_->particles.by_cell()));
+  state_->add(state_->exchange.activate(rect, z_bottom, state_->particles.by_cell()));
 }
 
 void Solver::insert(const std::vector<Particle>& particles) {

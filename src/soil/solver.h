@@ -47,7 +47,7 @@ struct SolverStats {
   std::uint64_t particle_steps = 0;
   int particles = 0, particles_peak = 0;
   int blocks = 0;
-  std::uint64_t rebins = 0, wakes = 0, deposits = 0;
+  std::uint64_t rebins = 0, activations = 0, deposits = 0;
   /// Particles found on the wrong side of a shell, summed over steps.
   std::uint64_t shell_crossings = 0;
   /// Fastest particle in the last step [m/s].
@@ -96,7 +96,7 @@ class Solver {
 
   /// Turns every column of the rectangle above `z_bottom` [m in W] into particles (for tests, rigs
   /// and first pictures).
-  void wake(const heightfield::CellRect& rect, double z_bottom);
+  void activate(const heightfield::CellRect& rect, double z_bottom);
   /// Adds free particles (for tests and rigs). The ledger records their mass as new.
   void insert(const std::vector<Particle>& particles);
 

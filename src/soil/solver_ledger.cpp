@@ -99,7 +99,7 @@ static void visit(Archive& a, SolverStats& stats) {
   a("particles_peak", stats.particles_peak);
   a("blocks", stats.blocks);
   a("rebins", stats.rebins);
-  a("wakes", stats.wakes);
+  a("wakes", stats.activations);
   a("deposits", stats.deposits);
   a("shell_crossings", stats.shell_crossings);
   a("max_speed", stats.max_speed);

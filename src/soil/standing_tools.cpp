@@ -97,23 +97,24 @@ void StandingTools::update(double elapsed, std::span<const ToolMotion> motions,
                            std::span<const ToolRegion> regions, std::span<const Particle> all) {
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const ToolMotion& motion = motions[m];
-    RestingContact& seat = seats_[static_cast<std::size_t>(motion.tool)];
+    RestingContact& contact = contacts_[static_cast<std::size_t>(motion.tool)];
     // A scripted tool needs no support.
     if (motion.inverse_mass.isZero(0)) continue;
-    const scene::Shell& shell = contact_.geometry(motion.tool).shell();
-    const Vec3 &force = contact_.force(motion.tool), &moment = contact_.moment(motion.tool);
-    if (!seat.taken && !seat.stands(shell, motion, elapsed, force)) continue;
-    const Vec3 up = seat.taken ? seat.up : ground_normal(shell, motion, regions[m], all);
+    const scene::Shell& shell = nodal_contact_.geometry(motion.tool).shell();
+    const Vec3 &force = nodal_contact_.force(motion.tool),
+               &moment = nodal_contact_.moment(motion.tool);
+    if (!contact.engaged && !contact.has_settled(shell, motion, elapsed, force)) continue;
+    const Vec3 up = contact.engaged ? contact.up : ground_normal(shell, motion, regions[m], all);
     if (soil_on_tool(shell, motion, up, all)) {
-      seat.let_go();
+      contact.release();
       continue;
     }
     const Vec2i at =
         ground_.column_at(motion.X_WT.translation().x(), motion.X_WT.translation().y());
-    if (seat.taken || !ground_.contains(at.x(), at.y())) continue;
+    if (contact.engaged || !ground_.contains(at.x(), at.y())) continue;
     const double angle = world_.soils[ground_.surface_soil(at.x(), at.y())].tool_friction_angle;
-    seat.take(shell, motion, force, moment, shell.friction_share * std::tan(angle), frame_.cell,
-              up);
+    contact.start(shell, motion, force, moment, shell.friction_share * std::tan(angle), frame_.cell,
+                  up);
   }
 }
 
@@ -122,20 +123,20 @@ void StandingTools::release(std::span<const ToolRegion> regions, std::span<const
     if (region.supported && std::any_of(born.begin(), born.end(), [&](const Particle& p) {
           return in_plan(region, frame_.position(p));
         }))
-      seats_[static_cast<std::size_t>(region.tool)].let_go();
+      contacts_[static_cast<std::size_t>(region.tool)].release();
 }
 
 bool StandingTools::apply(double dt, std::span<const ToolMotion> motions,
                           std::span<ToolImpulse> impulses) {
   bool ended = false;
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    const scene::Shell& shell = contact_.geometry(motions[m].tool).shell();
-    RestingContact& seat = seats_[static_cast<std::size_t>(motions[m].tool)];
-    ended |= seat.hold(shell, motions[m], dt, frame_.cell, impulses[m]);
+    const scene::Shell& shell = nodal_contact_.geometry(motions[m].tool).shell();
+    RestingContact& contact = contacts_[static_cast<std::size_t>(motions[m].tool)];
+    ended |= contact.apply(shell, motions[m], dt, frame_.cell, impulses[m]);
   }
   return ended;
 }
 
-void StandingTools::visit(Archive& a) { a.fixed("seats", seats_); }
+void StandingTools::visit(Archive& a) { a.fixed("seats", contacts_); }
 
 }  // namespace navvy::soil

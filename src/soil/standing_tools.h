@@ -22,17 +22,17 @@ class StandingTools {
   /// Observes the ground; all arguments must outlive it.
   StandingTools(const scene::Scene& world, const heightfield::Ground& ground,
                 const GridFrame& frame, const Contact& contact)
-      : world_(world), ground_(ground), frame_(frame), contact_(contact) {}
+      : world_(world), ground_(ground), frame_(frame), nodal_contact_(contact) {}
 
   /// Adds one more tool, in the order of Contact::add_tool.
-  void add_tool() { seats_.emplace_back(); }
+  void add_tool() { contacts_.emplace_back(); }
   /// Begins the contact of tools that have come to rest, and ends it where soil lies on the tool.
   /// `elapsed`: since the last call [s]; `regions` parallel to the motions; `all`: every particle,
   /// by cell.
   void update(double elapsed, std::span<const ToolMotion> motions,
               std::span<const ToolRegion> regions, std::span<const Particle> all);
   /// Returns true while the ground supports the tool.
-  bool supports(int tool) const { return seats_[static_cast<std::size_t>(tool)].taken; }
+  bool supports(int tool) const { return contacts_[static_cast<std::size_t>(tool)].engaged; }
   /// Ends the contact of tools under which ground became particles (`born`).
   void release(std::span<const ToolRegion> regions, std::span<const Particle> born);
   /// Adds the impulses of the contacts to `impulses`, after all else has acted in a step of dt [s].
@@ -51,9 +51,9 @@ class StandingTools {
   const scene::Scene& world_;
   const heightfield::Ground& ground_;
   const GridFrame& frame_;
-  const Contact& contact_;
+  const Contact& nodal_contact_;
   /// By tool.
-  std::vector<RestingContact> seats_;
+  std::vector<RestingContact> contacts_;
 };
 
 }  // namespace navvy::soil

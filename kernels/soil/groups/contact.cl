@@ -55,8 +55,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_app
   const NodeResult result = apply_contact(near, me, keys[block].xyz, floors + block, NODE_SAME);
   records[2 * i] = result.records[0];
   records[2 * i + 1] = result.records[1];
-  velocity0[(size_t)block * BLOCK_NODES + me] = result.felt[0];
-  velocity1[i] = result.felt[1];
+  velocity0[(size_t)block * BLOCK_NODES + me] = result.seen[0];
+  velocity1[i] = result.seen[1];
   atomic_or(&changed, result.changed);
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me == 0) touched[near] = changed;

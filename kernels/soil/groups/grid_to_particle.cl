@@ -54,7 +54,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   local uchar split[TILE_SIZE];
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
-  const ParticleBlock home = particle_blocks[block];
+  const ParticleBlock particle_block = particle_blocks[block];
   // The other schedule copies tiles by it; here split nodes choose their field when they are read.
   (void)used;
   if (me == 0) fastest = 0;
@@ -68,7 +68,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     front[i] = velocity0[(size_t)active * BLOCK_NODES + n];
     back[i] = (float4)(0.0f);
     split[i] = 0;
-    const int near = home.near ? near_slot[active] : -1;
+    const int near = particle_block.near ? near_slot[active] : -1;
     if (near >= 0 && node_split[near * BLOCK_NODES + n] != 0) {
       split[i] = (uchar)node_split[near * BLOCK_NODES + n];
       back[i] = velocity1[(size_t)near * BLOCK_NODES + n];
@@ -76,7 +76,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (int slot = home.start + me; slot < home.start + home.count; slot += MEMBERS) {
+  for (int slot = particle_block.start + me; slot < particle_block.start + particle_block.count; slot += MEMBERS) {
     const float x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
     const float b[3] = {base_node(x[0]), base_node(x[1]), base_node(x[2])};
     float w[3][3];
@@ -99,14 +99,14 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     UNROLL
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     const float j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, sum.w, filled, closing));
+    STORE(FIELD_J, close_noise(j, j0, sum.w, filled, closing));
     const float share = crowding(c, j, j0, sum.w, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const float lean = moments[axis].w - (x[axis] - b[axis]) * sum.w;
-      const float way = (dt / dx) * v[axis] + crowding_displacement(share, lean, sum.w, most);
-      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
-      speed[axis] = way * (dx / dt);
+      const float displacement = (dt / dx) * v[axis] + crowding_displacement(share, lean, sum.w, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + displacement);
+      speed[axis] = displacement * (dx / dt);
     }
     atomic_max_nonnegative(&fastest, fastest_component(speed));
   }
@@ -117,8 +117,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
 // Ends a transfer, see soil/lanes/grid_to_particle.cl.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
     global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock home = particle_blocks[get_group_id(0)];
-  for (int slot = home.start + (int)get_local_id(0); slot < home.start + home.count; slot += MEMBERS)
+  const ParticleBlock particle_block = particle_blocks[get_group_id(0)];
+  for (int slot = particle_block.start + (int)get_local_id(0); slot < particle_block.start + particle_block.count; slot += MEMBERS)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
       STORE(FIELD_MOVED + axis, 0.0f);

@@ -35,10 +35,10 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n], node = tile_node(n);
-    if (home < 0 || node < 0) continue;
-    for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1) sum += tiles[(size_t)(particle_blocks[home].tile + t) * TILE_NODES + node];
+    const int particle_block = around[27 * block + n], node = tile_node(n);
+    if (particle_block < 0 || node < 0) continue;
+    for (int t = 0; used[particle_block] >> t; ++t)
+      if (used[particle_block] >> t & 1) sum += tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
   }
   // Nodes at or below the floor have no velocity; masses become mass per free volume above the
   // ground.
@@ -67,18 +67,18 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   float4 surface = 0.0f, first = 0.0f;
   bool mixed = false, found = false;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n], node = tile_node(n);
-    if (home < 0 || node < 0) continue;
+    const int particle_block = around[27 * block + n], node = tile_node(n);
+    if (particle_block < 0 || node < 0) continue;
     float mass = 0.0f;
-    for (int t = 0; used[home] >> t; ++t) {
-      if (!(used[home] >> t & 1)) continue;
-      const float4 part = tiles[(size_t)(particle_blocks[home].tile + t) * TILE_NODES + node];
+    for (int t = 0; used[particle_block] >> t; ++t) {
+      if (!(used[particle_block] >> t & 1)) continue;
+      const float4 part = tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
       if (t == 0) neutral += part;
       if (t == 1) front += part;
       if (t == 2) back += part;
       mass += part.w;
     }
-    const float4 here = block_surface[home];
+    const float4 here = block_surface[particle_block];
     if (!found) first = here;
     found = true;
     mixed = mixed || any(here != first);

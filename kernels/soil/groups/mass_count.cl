@@ -15,10 +15,10 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(glob
                                                                                global long* restrict masses,
                                                                                const int soils) {
   local long sums[MEMBERS];
-  const int home = get_group_id(0), me = get_local_id(0);
+  const int particle_block = get_group_id(0), me = get_local_id(0);
   for (int soil = 0; soil < soils; ++soil) {
     long sum = 0;
-    for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS)
+    for (int slot = particle_blocks[particle_block].start + me; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; slot += MEMBERS)
       sum += (LOAD(FIELD_TAG) & 0xffff) == soil ? LOAD(FIELD_MASS) : 0;
     sums[me] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -26,7 +26,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(glob
       if (me < half_size) sums[me] += sums[me + half_size];
       barrier(CLK_LOCAL_MEM_FENCE);
     }
-    if (me == 0) masses[soils * home + soil] = sums[0];
+    if (me == 0) masses[soils * particle_block + soil] = sums[0];
     barrier(CLK_LOCAL_MEM_FENCE);
   }
 }

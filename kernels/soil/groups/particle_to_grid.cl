@@ -56,14 +56,14 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
 
 // Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
 // soil/point.h). A work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity, ParticleBlock home, local int* cells,
+static inline float cell_opening(global const float* state, int capacity, ParticleBlock particle_block, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
   bool open = false;
-  for (int begin = 0; begin < home.count; begin += CHUNK) {
-    const int count = min(CHUNK, home.count - begin);
-    const int slot = home.start + begin + me;
+  for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
+    const int count = min(CHUNK, particle_block.count - begin);
+    const int slot = particle_block.start + begin + me;
     if (me < count) {
       const float mass = convert_float(as_int(LOAD(FIELD_MASS)));
       cells[me] = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
@@ -84,12 +84,12 @@ static inline float cell_opening(global const float* state, int capacity, Partic
 
 // Returns what a block needs: bit 0 always, bits 1 and 2 for the tiles of a shell's sides, bit 3
 // when any particle is open.
-static inline int needs(global float* state, int capacity, ParticleBlock home) {
+static inline int needs(global float* state, int capacity, ParticleBlock particle_block) {
   int out = 1;
-  for (int i = get_local_id(0); i < home.count; i += CELLS) {
-    const int slot = home.start + i, tag = as_int(LOAD(FIELD_TAG));
+  for (int i = get_local_id(0); i < particle_block.count; i += CELLS) {
+    const int slot = particle_block.start + i, tag = as_int(LOAD(FIELD_TAG));
     out |= LOAD(FIELD_J) > LOAD(FIELD_J0) ? 8 : 0;
-    if (home.near)
+    if (particle_block.near)
       out |= 1 << tile_of(tag >> 16);
     else
       // Far from every shell no particle has a side.
@@ -108,26 +108,26 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
   local float openings[CELLS];
   local int wanted, broken;
   const int block = get_group_id(0), me = get_local_id(0);
-  const ParticleBlock home = particle_blocks[block];
+  const ParticleBlock particle_block = particle_blocks[block];
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_or(&wanted, needs(state, capacity, home));
+  atomic_or(&wanted, needs(state, capacity, particle_block));
   for (int i = me; i < TILE_SIZE; i += CELLS) tile[i] = (float4)(0.0f);
   openings[me] = 0.0f;
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
   const int mask = wanted & 7;
   for (int t = 1; mask >> t; ++t)
-    for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)(home.tile + t) * TILE_NODES + i] = (float4)(0.0f);
-  if (wanted & 8) openings[me] = cell_opening(state, capacity, home, cells, stage);
+    for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)(particle_block.tile + t) * TILE_NODES + i] = (float4)(0.0f);
+  if (wanted & 8) openings[me] = cell_opening(state, capacity, particle_block, cells, stage);
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 
-  for (int begin = 0; begin < home.count; begin += CHUNK) {
-    const int count = min(CHUNK, home.count - begin);
+  for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
+    const int count = min(CHUNK, particle_block.count - begin);
     float mine[STAGED];
     int cell = 0, side = 0;
     first[me] = counts[me] = 0;
     if (me < count) {
-      const int slot = home.start + begin + me;
+      const int slot = particle_block.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
       if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing, carried, mine))
@@ -154,18 +154,18 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
               if (t == 0)
                 tile[node] += sums[o];
               else
-                tiles[(size_t)(home.tile + t) * TILE_NODES + node] += sums[o];
+                tiles[(size_t)(particle_block.tile + t) * TILE_NODES + node] += sums[o];
             }
             barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
           }
         }
   }
-  for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)home.tile * TILE_NODES + i] = tile[i];
+  for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)particle_block.tile * TILE_NODES + i] = tile[i];
   if (me > 0) return;
   used[block] = mask;
   report[block].broken = broken;
   // Otherwise soil/groups/shell.cl has written them.
-  if (!home.near) {
+  if (!particle_block.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

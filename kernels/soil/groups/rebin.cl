@@ -17,18 +17,18 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
     global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
     global int* restrict counts, const int4 site) {
   local int count[CODES];
-  const int home = get_group_id(0), me = get_local_id(0);
+  const int particle_block = get_group_id(0), me = get_local_id(0);
   if (me < CODES) count[me] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  const float4 from_block = site_from(site, keys[home]);
-  for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS) {
+  const float4 from_block = site_from(site, keys[particle_block]);
+  for (int slot = particle_blocks[particle_block].start + me; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; slot += MEMBERS) {
     const Place place = place_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2), from_block);
     codes[slot] = place.code;
     cells[slot] = place.cell;
     atomic_inc(&count[place.code]);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (me < CODES) counts[CODES * home + me] = count[me];
+  if (me < CODES) counts[CODES * particle_block + me] = count[me];
 }
 
 // Lists the old slots of each new block. A work-item is a cell of the new block. It counts, then
@@ -39,11 +39,11 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     global int* restrict from) {
   local int found[MEMBERS];
   local uchar cell[MEMBERS];
-  const int home = get_group_id(0), me = get_local_id(0);
+  const int particle_block = get_group_id(0), me = get_local_id(0);
   int next = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * home + n];
+      const int old = sources[27 * particle_block + n];
       const int end = old < 0 ? 0 : old_particle_blocks[old].start + old_particle_blocks[old].count;
       int left = old < 0 ? 0 : counts[CODES * old + n];
       for (int begin = old < 0 ? 0 : old_particle_blocks[old].start; begin < end && left > 0; begin += MEMBERS) {
@@ -62,7 +62,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     if (pass == 0) {
       found[me] = next;
       barrier(CLK_LOCAL_MEM_FENCE);
-      next = particle_blocks[home].start;
+      next = particle_blocks[particle_block].start;
       for (int i = 0; i < me; ++i) next += found[i];
     }
   }
@@ -75,8 +75,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
   local float4 surface[MEMBERS];
-  const int home = get_group_id(0), me = get_local_id(0);
-  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
+  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int start = particle_blocks[particle_block].start, end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
   // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = 0.0f, sum = 0.0f;
@@ -101,5 +101,5 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     if (me < members) surface[me] += surface[me + members];
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  if (me == 0) block_surface[home] = first + surface[0] / (float)max(end - start, 1);
+  if (me == 0) block_surface[particle_block] = first + surface[0] / (float)max(end - start, 1);
 }

@@ -49,28 +49,28 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
     global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
   local int push, crossings;
   const int near = get_group_id(0), me = get_local_id(0);
-  const int home = near_list[near];
-  const int3 key = keys[home].xyz;
+  const int particle_block = near_list[near];
+  const int3 key = keys[particle_block].xyz;
   if (me == 0) push = crossings = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS) {
+  for (int slot = particle_blocks[particle_block].start + me; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; slot += MEMBERS) {
     const float3 x = (float3)(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
     const int tag = as_int(LOAD(FIELD_TAG));
     Closest best;
     query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     // Outside the band, and not inside it before: the particle has no side.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
-    const SideResult kept = enforce_side(x, tag >> 16, key, best.feature, best.distance2,
+    const SideResult result = enforce_side(x, tag >> 16, key, best.feature, best.distance2,
                                       (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
-    STORE(FIELD_X, kept.x.x);
-    STORE(FIELD_X + 1, kept.x.y);
-    STORE(FIELD_X + 2, kept.x.z);
-    STORE(FIELD_TAG, as_float((tag & 0xffff) | (kept.side << 16)));
-    atomic_max_nonnegative(&push, kept.push);
-    if (kept.crossed) atomic_inc(&crossings);
+    STORE(FIELD_X, result.x.x);
+    STORE(FIELD_X + 1, result.x.y);
+    STORE(FIELD_X + 2, result.x.z);
+    STORE(FIELD_TAG, as_float((tag & 0xffff) | (result.side << 16)));
+    atomic_max_nonnegative(&push, result.push);
+    if (result.crossed) atomic_inc(&crossings);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me > 0) return;
-  report[home].push = as_float(push);
-  report[home].crossed = crossings;
+  report[particle_block].push = as_float(push);
+  report[particle_block].crossed = crossings;
 }

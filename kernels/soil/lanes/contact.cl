@@ -50,8 +50,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     const NodeResult result = apply_contact(near, n, key, floors + block, NODE_SAME);
     records[2 * i] = result.records[0];
     records[2 * i + 1] = result.records[1];
-    velocity0[(size_t)block * BLOCK_NODES + n] = result.felt[0];
-    velocity1[i] = result.felt[1];
+    velocity0[(size_t)block * BLOCK_NODES + n] = result.seen[0];
+    velocity1[i] = result.seen[1];
     changed |= result.changed;
   }
   touched[near] = changed;

@@ -93,12 +93,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
     const float filled, const float closing, const float spread, const float most) {
   const int block = get_global_id(0);
-  const ParticleBlock home = particle_blocks[block];
+  const ParticleBlock particle_block = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
     copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
   for (int i = 2048; i < 4 * TILE_NODES; ++i) tile[i] = 0.0f;
-  if (home.near) {
+  if (particle_block.near) {
     const int mask = used[block];
     for (int t = 1; mask >> t; ++t) {
       if (!(mask >> t & 1)) continue;
@@ -118,8 +118,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   Rows rows;
   int cell = -1;
   real fastest = 0.0f;
-  for (int slot = home.start; slot < home.start + home.count; slot += 16) {
-    const int count = min(16, home.start + home.count - slot);
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count; slot += 16) {
+    const int count = min(16, particle_block.start + particle_block.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_S; ++f) SOON(f);
     SOON(FIELD_J);
@@ -169,13 +169,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
     const real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, node_mass, filled, closing));
+    STORE(FIELD_J, close_noise(j, j0, node_mass, filled, closing));
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const real way = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
-      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
-      m[axis] = way * (dx / dt);
+      const real displacement = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + displacement);
+      m[axis] = displacement * (dx / dt);
     }
     fastest = fmax(fastest, fastest_component(m));
   }
@@ -188,8 +188,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
                                                                                 const int capacity,
                                                                                 global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock home = particle_blocks[get_global_id(0)];
-  for (int slot = home.start; slot < home.start + home.count; slot += 16)
+  const ParticleBlock particle_block = particle_blocks[get_global_id(0)];
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count; slot += 16)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
       STORE(FIELD_MOVED + axis, (real)(0.0f));

@@ -71,11 +71,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
-    for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1)
-        add_part(tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
+    for (int t = 0; used[particle_block] >> t; ++t)
+      if (used[particle_block] >> t & 1)
+        add_part(tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const BlockFloor* ground = floors + block;
@@ -111,26 +111,26 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   float4 first = (float4)(0.0f);
   bool mixed = false, any_block = false;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
-    if (!any_block) first = block_surface[home];
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
+    if (!any_block) first = block_surface[particle_block];
     any_block = true;
-    mixed = mixed || any(block_surface[home] != first);
+    mixed = mixed || any(block_surface[particle_block] != first);
   }
   if (mixed)
     for (int i = 0; i < 64; ++i) weight[i] = (float4)(0.0f);
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
-    for (int t = 0; used[home] >> t; ++t) {
-      if (!(used[home] >> t & 1)) continue;
-      global const float* tile = tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES);
+    for (int t = 0; used[particle_block] >> t; ++t) {
+      if (!(used[particle_block] >> t & 1)) continue;
+      global const float* tile = tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }
     if (!mixed) continue;
-    const float4 here = block_surface[home];
+    const float4 here = block_surface[particle_block];
     for (int i = 0; i < 16; ++i) {
       const float4 m = total[i].s37bf;
       weight[4 * i] += here * m.x;

@@ -13,10 +13,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global con
                                                                          global const ParticleBlock* restrict particle_blocks,
                                                                          global long* restrict masses,
                                                                          const int soils) {
-  const int home = get_global_id(0);
+  const int particle_block = get_global_id(0);
   const global int* mass = state + FIELD_MASS * (size_t)capacity;
   const global int* tag = state + FIELD_TAG * (size_t)capacity;
-  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
+  const int start = particle_blocks[particle_block].start, end = start + particle_blocks[particle_block].count;
   for (int soil = 0; soil < soils; ++soil) {
     long16 sum = (long16)(0);
     for (int slot = start; slot < end; slot += NAVVY_LANES) {
@@ -25,6 +25,6 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global con
     }
     const long8 half_sum = sum.lo + sum.hi;
     const long4 quarter = half_sum.lo + half_sum.hi;
-    masses[soils * home + soil] = quarter.x + quarter.y + quarter.z + quarter.w;
+    masses[soils * particle_block + soil] = quarter.x + quarter.y + quarter.z + quarter.w;
   }
 }

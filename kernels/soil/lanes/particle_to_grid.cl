@@ -80,9 +80,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
     const float dx, const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
-  const ParticleBlock home = particle_blocks[block];
-  global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
-  const int mask = home.near ? tiles_used(state, capacity, home.start, home.start + home.count) : 1;
+  const ParticleBlock particle_block = particle_blocks[block];
+  global float* tile = tiles + (size_t)particle_block.tile * (4 * TILE_NODES);
+  const int mask = particle_block.near ? tiles_used(state, capacity, particle_block.start, particle_block.start + particle_block.count) : 1;
   used[block] = mask;
   for (int t = 0; mask >> t; ++t) {
     if (!(mask >> t & 1)) continue;
@@ -90,19 +90,19 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   }
 
   float openings[4 * CELLS];
-  const bool open = cell_openings(state, capacity, home.start, home.start + home.count, openings);
+  const bool open = cell_openings(state, capacity, particle_block.start, particle_block.start + particle_block.count, openings);
   float wxs[4 * 16], wyz[9 * 16], turned_parts[4][64];
   int nodes[16];
   Rows sums;
   int cell = -1;
   int broken = 0;
-  for (int slot = home.start; slot < home.start + home.count; slot += 16) {
-    const int count = min(16, home.start + home.count - slot);
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count; slot += 16) {
+    const int count = min(16, particle_block.start + particle_block.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_ID; ++f) SOON(f);
     int16 tag = as_int16(LOAD(FIELD_TAG));
     // Far from every shell no particle has a side.
-    if (!home.near) {
+    if (!particle_block.near) {
       tag &= 0xffff;
       STORE(FIELD_TAG, as_float16(tag));
     }
@@ -163,7 +163,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   if (cell >= 0) flush(tile, cell, &sums);
   report[block].broken = broken ? 1 : 0;
   // Otherwise soil/lanes/shell.cl has written them.
-  if (!home.near) {
+  if (!particle_block.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

@@ -20,11 +20,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     global const float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
     global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
     global int* restrict counts, const int4 site) {
-  const int home = get_global_id(0);
-  const float4 from_block = site_from(site, keys[home]);
+  const int particle_block = get_global_id(0);
+  const float4 from_block = site_from(site, keys[particle_block]);
   int count[CODES];
   for (int i = 0; i < CODES; ++i) count[i] = 0;
-  for (int slot = particle_blocks[home].start; slot < particle_blocks[home].start + particle_blocks[home].count; ++slot) {
+  for (int slot = particle_blocks[particle_block].start; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; ++slot) {
     const Place place = place_of(state[slot], state[(FIELD_X + 1) * (size_t)capacity + slot],
                                  state[(FIELD_X + 2) * (size_t)capacity + slot],
                                  from_block);
@@ -32,7 +32,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
     cells[slot] = place.cell;
     ++count[place.code];
   }
-  for (int i = 0; i < CODES; ++i) counts[CODES * home + i] = count[i];
+  for (int i = 0; i < CODES; ++i) counts[CODES * particle_block + i] = count[i];
 }
 
 // Lists the old slots of each new block. sources[27 * new + n] = old block from which code n leads
@@ -42,12 +42,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
     global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
     global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
     global int* restrict from) {
-  const int home = get_global_id(0);
+  const int particle_block = get_global_id(0);
   int next[65];
   for (int i = 0; i < 65; ++i) next[i] = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * home + n];
+      const int old = sources[27 * particle_block + n];
       if (old < 0) continue;
       int left = counts[CODES * old + n];
       for (int slot = old_particle_blocks[old].start; left > 0; ++slot) {
@@ -58,7 +58,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
       }
     }
     if (pass == 1) break;
-    next[0] = particle_blocks[home].start;
+    next[0] = particle_blocks[particle_block].start;
     for (int i = 1; i < 65; ++i) next[i] += next[i - 1];
   }
 }
@@ -69,8 +69,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
     global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
-  const int home = get_global_id(0);
-  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
+  const int particle_block = get_global_id(0);
+  const int start = particle_blocks[particle_block].start, end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
   for (int f = 0; f < FIELD_COUNT; ++f) {
     global const float* in = old_state + (size_t)f * old_capacity;
@@ -91,5 +91,5 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     if (slot == start) first = here;
     more += here - first;
   }
-  block_surface[home] = first + more / (float)max(end - start, 1);
+  block_surface[particle_block] = first + more / (float)max(end - start, 1);
 }

@@ -82,14 +82,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
     global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
   const int near = get_global_id(0);
-  const int home = near_list[near];
-  const int3 key = keys[home].xyz;
+  const int particle_block = near_list[near];
+  const int3 key = keys[particle_block].xyz;
   float far_push = 0.0f;
   int crossings = 0;
-  const int end = particle_blocks[home].start + particle_blocks[home].count;
+  const int end = particle_blocks[particle_block].start + particle_blocks[particle_block].count;
   Closest found[PACKS];
   int pack = PACKS;
-  for (int slot = particle_blocks[home].start; slot < end; slot += 16, ++pack) {
+  for (int slot = particle_blocks[particle_block].start; slot < end; slot += 16, ++pack) {
     const int count = min(16, end - slot);
     if (pack == PACKS) {
       query_packs(state, capacity, slot, min(PACKS, (end - slot + 15) / 16), key, triangles, tools, list, first[near],
@@ -116,20 +116,20 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     vstore16(tags, 0, tag);
     for (int l = 0; l < count; ++l) {
       if (!concerned[l]) continue;
-      const SideResult kept = enforce_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
+      const SideResult result = enforce_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
                                   (float3)(cx[l], cy[l], cz[l]), band, longest_push, triangles, tools);
-      px[l] = kept.x.x;
-      py[l] = kept.x.y;
-      pz[l] = kept.x.z;
-      far_push = fmax(far_push, kept.push);
-      crossings += kept.crossed;
-      tag[l] = (tag[l] & 0xffff) | (kept.side << 16);
+      px[l] = result.x.x;
+      py[l] = result.x.y;
+      pz[l] = result.x.z;
+      far_push = fmax(far_push, result.push);
+      crossings += result.crossed;
+      tag[l] = (tag[l] & 0xffff) | (result.side << 16);
     }
     STORE(FIELD_X, vload16(0, px));
     STORE(FIELD_X + 1, vload16(0, py));
     STORE(FIELD_X + 2, vload16(0, pz));
     STORE(FIELD_TAG, as_float16(vload16(0, tag)));
   }
-  report[home].push = far_push;
-  report[home].crossed = crossings;
+  report[particle_block].push = far_push;
+  report[particle_block].crossed = crossings;
 }

@@ -300,10 +300,10 @@ Report run_cycle(const Setup& setup) {
   double ledger = 0, sum = 0;
   for (int i = 0; i < count; ++i) {
     // Each dig begins where the last one left the floor, deeper by the step.
-    const Pose home =
+    const Pose start =
         make_pose(0, 0.07 * setup.cell, 0.02 - i * setup["step-down"], 0, scoop.attack, 0);
     // Put back rather than moved: the way home would cost time and touch nothing.
-    site.tool(driver.tool()).motion.X_WT = home;  // in the air over the hole
+    site.tool(driver.tool()).motion.X_WT = start;  // in the air over the hole
     forces.values.push_back(scoop.fill(driver));
     driver.advance(1.0 + i * setup["step-down"], Vec3(0, 0, 1));
     driver.set_twist(Vec3::Zero());
@@ -330,7 +330,7 @@ Report run_cycle(const Setup& setup) {
   report.note("last cycle", volumes.values.back(), "");
   report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0,
              "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
-  report.note("wakes", static_cast<double>(site.solver().stats().wakes), "");
+  report.note("wakes", static_cast<double>(site.solver().stats().activations), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");
   report.note("particles through the shell",

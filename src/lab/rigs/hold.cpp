@@ -52,14 +52,14 @@ Vec3 middle_of(const Site& site) {
   return sum / std::max<double>(1, static_cast<double>(soil.size()));
 }
 
-/// A servo that carries shell and load at `home` with `hertz`, critically damped nearly.
-void hang(Tool& tool, const Pose& home, double load, double hertz) {
+/// A servo that carries shell and load at `start` with `hertz`, critically damped nearly.
+void hang(Tool& tool, const Pose& start, double load, double hertz) {
   // Turning is held as by springs and dampers on an arm whose square is `arm2` [m2].
   const double omega = 2 * kPi * hertz, all = tool.mass + load, arm2 = 0.3;
   // Of shell and load together: a servo tuned for the shell alone would sag.
   const double stiffness = all * omega * omega, damping = 1.4 * all * omega;
-  const Eigen::AngleAxisd turn(tool.motion.X_WT.linear() * home.linear().transpose());
-  tool.force_W = -stiffness * (tool.motion.X_WT.translation() - home.translation()) -
+  const Eigen::AngleAxisd turn(tool.motion.X_WT.linear() * start.linear().transpose());
+  tool.force_W = -stiffness * (tool.motion.X_WT.translation() - start.translation()) -
                  damping * tool.motion.v_WT + Vec3(0, 0, all * kGravity);
   tool.torque_W = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * tool.motion.w_WT);
 }

@@ -113,15 +113,15 @@ Report run_wall(const Setup& setup) {
       [&](const Vec3& p) { return ahead_of_blade(p, height, kPi / 2, cell); }, trench(height)));
   ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -height));
   // The wall's way either way; half of it at most is spent on coming up to speed.
-  const double way = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * way);
-  site.expect(setup["wait"] + (way + ramp) / speed + setup["hold"]);
+  const double length = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * length);
+  site.expect(setup["wait"] + (length + ramp) / speed + setup["hold"]);
   driver.run(0.7 * setup["wait"]);
   // The last third of the wait, after the start has rung out.
   const double at_rest = -driver.run(0.3 * setup["wait"]).x() / gap;
   const Vec3 twist(passive ? speed : -speed, 0, 0);
-  driver.start(0.8 * way, twist, ramp);
+  driver.start(0.8 * length, twist, ramp);
   // The last fifth: the pressure has reached its limit there, when the soil is stiff enough.
-  const Vec3 last = -driver.advance(0.2 * way, twist) / gap;
+  const Vec3 last = -driver.advance(0.2 * length, twist) / gap;
   // Stopped at once; the last tenth, long after that has rung out.
   const double hold = setup["hold"];
   driver.set_twist(Vec3::Zero());

@@ -127,7 +127,8 @@ void Activator::stress(const Slice& slice, double weight, Particle& particle) co
                                   (1 - std::min(pressure / law.bulk, kMostCompression)));
 }
 
-void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born) {
+void Activator::activate(int ix, int iy, double z_bottom, double load,
+                         std::vector<Particle>& born) {
   taken_.clear();
   slices_.clear();
   // `take_above` cuts a layer in two where needed, exact to the quantum.

@@ -29,7 +29,7 @@ class Activator {
   /// nothing when the column is lower; a z_bottom below the datum takes the whole column. Ids and
   /// velocities are left at zero for the solver. Cost is linear in the layers of the column and the
   /// particles.
-  void wake(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born);
+  void activate(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born);
 
   /// Returns an upper bound of the particles from the top `thickness` [m] of a column of few soils,
   /// for the budget.

@@ -184,7 +184,7 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
     taken.push_back(block);
     plans.push_back({shape, cliffs(block)});
   }
-  for (std::size_t i = 0; i < taken.size(); ++i) book(plans[i], taken[i]);
+  for (std::size_t i = 0; i < taken.size(); ++i) deposit_block(plans[i], taken[i]);
   return taken;
 }
 
@@ -192,16 +192,16 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
 // cliffs.
 double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
-  double state = 0, room = 0;
+  double state = 0, available = 0;
   // In cells: kMassQuantum converts quanta to kilograms, the bank density converts to volume, and
   // the cube of the cell to cells.
   for (const SoilShare& share : shares)
     state += kMassQuantum * share.volume /
              (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
-    if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
+    if (!plan.cliff[c]) available += plan.shape.surface[c] - plan.shape.ground[c];
   // A few particles that the surface does not show are not crowded.
-  return room > kLeastCapacity ? state / room : 1.0;
+  return available > kLeastCapacity ? state / available : 1.0;
 }
 
 // At a cliff each column keeps the soil above it, in its own order of soils; nothing is shared.
@@ -214,7 +214,7 @@ void Depositor::deposit_column(int ix, int iy) {
   }
 }
 
-void Depositor::book(const Plan& plan, int block) {
+void Depositor::deposit_block(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   const PlanGrid& grid = index_.grid();
   const std::array<std::int64_t, 16> weight = weights(plan, block);

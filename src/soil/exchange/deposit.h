@@ -70,7 +70,7 @@ class Depositor {
   bool bonded(int ix, int iy) const;
 
   double crowding(const std::vector<SoilShare>& shares, const Plan& plan) const;
-  void book(const Plan& plan, int block);
+  void deposit_block(const Plan& plan, int block);
   void deposit_column(int ix, int iy);
 
   heightfield::Ground& ground_;

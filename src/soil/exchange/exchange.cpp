@@ -258,8 +258,8 @@ void Exchange::State::activate_planned(const ColumnIndex& index, const Activatio
   for (const auto& [column, bottom] : plan) {
     const std::size_t before = result.born.size();
     // Particles on a column load it, too. Without that, new particles would settle under them.
-    activator.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
-                   kilograms(index.pile(column.second, column.first).mass), result.born);
+    activator.activate(column.second, column.first, ground.datum() + bottom * ground.cell(),
+                       kilograms(index.pile(column.second, column.first).mass), result.born);
     result.activated_columns += result.born.size() > before ? 1 : 0;
   }
 }
@@ -380,15 +380,15 @@ Exchange::Result Exchange::check(std::span<const Particle> particles,
   return others;
 }
 
-std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z_bottom,
-                                     std::span<const Particle> resting) {
+std::vector<Particle> Exchange::activate(const heightfield::CellRect& rect, double z_bottom,
+                                         std::span<const Particle> resting) {
   State& s = *state_;
   std::vector<Particle> born;
   const ColumnIndex index(resting, s.ground, s.grid);
   // Rows of the ground's own order, so that new particles come alike in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
-      s.activator.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
+      s.activator.activate(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
   return born;
 }
 

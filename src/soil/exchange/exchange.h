@@ -68,8 +68,8 @@ class Exchange {
   /// Turns columns above `z_bottom` [m in W] into particles unconditionally, without asking the
   /// budget. `resting` are the existing particles; those on the columns load the new ones. For
   /// tests and for scenes that start with active soil.
-  std::vector<Particle> wake(const heightfield::CellRect& rect, double z_bottom,
-                             std::span<const Particle> resting = {});
+  std::vector<Particle> activate(const heightfield::CellRect& rect, double z_bottom,
+                                 std::span<const Particle> resting = {});
 
   /// Visits the state between checks, in one section, "soil-exchange". With equal ground and
   /// particles, equal states have equal futures. Loading needs an exchange made for the same scene.

@@ -29,7 +29,7 @@ struct SupportArea {
   /// Velocity of the middle [m/s].
   Vec3 v_W = Vec3::Zero();
   /// Flattening under load: it stands on ground this high above its rim [m].
-  double give = 0;
+  double flattening = 0;
   /// Time before the rim arrives at which the ground must be ready [s].
   double ready = 0;
 };
@@ -38,7 +38,7 @@ struct SupportArea {
 class SupportPlacement {
  public:
   /// Places it over the columns. `interval`: time until the next check [s].
-  SupportPlacement(const SupportArea& footing, const heightfield::Ground& ground, double interval);
+  SupportPlacement(const SupportArea& area, const heightfield::Ground& ground, double interval);
 
   /// Returns the columns that it may concern; they may lie outside the site.
   const heightfield::CellRect& rect() const { return rect_; }
@@ -47,7 +47,7 @@ class SupportPlacement {
   bool meets(int ix, int iy, double height) const;
   /// Returns the height [m] to which the ground under the rim may rise in its present position;
   /// infinite beside it.
-  double room(int ix, int iy) const;
+  double height_limit(int ix, int iy) const;
 
  private:
   Vec2 along_across(int ix, int iy) const;
@@ -55,9 +55,9 @@ class SupportPlacement {
   /// middle, widened by `widened` on all sides; infinite beside it.
   double underside(double along, double across, double widened) const;
 
-  SupportArea footing_;
+  SupportArea area_;
   Vec2 origin_, ahead_, left_;
-  double cell_, way_, fall_;
+  double cell_, travel_, fall_;
   heightfield::CellRect rect_;
 };
 

@@ -64,7 +64,7 @@ class SupportDeposit {
   const Stack& stack(int ix, int iy);
   /// Returns the height of columns and soil on them, smoothed [m].
   double smoothed(int ix, int iy);
-  PendingDeposit plan(const SupportPlacement& footing, std::set<PlanKey>& claimed);
+  PendingDeposit plan(const SupportPlacement& area, std::set<PlanKey>& claimed);
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;

@@ -43,8 +43,8 @@ void BlockTable::build(std::vector<BlockKey> sorted_keys) {
   active.clear();
   active.reserve(particle_blocks.size() * 4);
   // All nodes that particles of the blocks can reach before the next re-bin.
-  for (const BlockKey& home : particle_blocks)
-    for (int n = 0; n < 27; ++n) active.push_back(home + neighbour_offset(n));
+  for (const BlockKey& particle_block : particle_blocks)
+    for (int n = 0; n < 27; ++n) active.push_back(particle_block + neighbour_offset(n));
   std::sort(active.begin(), active.end());
   active.erase(std::unique(active.begin(), active.end()), active.end());
   active_index.build(active);

@@ -34,7 +34,7 @@ struct TransferInterval {
     return travel + dt * tool_speed / cell <= most_motion;
   }
   /// Counts a step of dt [s] after which the fastest particle moves at `fastest` [m/s].
-  void book(double dt, double cell, double fastest, double tool_speed) {
+  void count_step(double dt, double cell, double fastest, double tool_speed) {
     open = true;
     time += dt;
     motion += dt * fastest / cell;

@@ -155,7 +155,7 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
 
 // Block h begins where the previous one ends, padded. Without tools every block has one tile, of
 // its own index.
-void ParticleStore::lay_out(const std::vector<int>& counts) {
+void ParticleStore::assign_slots(const std::vector<int>& counts) {
   particle_blocks_.assign(table_.particle_blocks.size(), ParticleBlock{});
   int slot = 0;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
@@ -193,7 +193,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   // By cell inside a block, as a re-bin does. Small keys are sorted: moving whole particles takes
   // three times as long.
   struct Place {
-    BlockKey home;
+    BlockKey particle_block;
     int cell;
     std::uint32_t from;
   };
@@ -201,7 +201,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     places[i] = {key_of(particles[i]), cell_of(particles[i]), static_cast<std::uint32_t>(i)};
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    if (!(a.home == b.home)) return a.home < b.home;
+    if (!(a.particle_block == b.particle_block)) return a.particle_block < b.particle_block;
     return a.cell != b.cell ? a.cell < b.cell : a.from < b.from;
   });
   std::vector<Particle> out;
@@ -236,18 +236,18 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
   reserve(now_, slots, slots + slots / 2);
   // Sorted particles of one block are contiguous, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
-  lay_out(counts);
+  assign_slots(counts);
   {
     // Every slot of the runs is written, padding included: kernels read whole packs.
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
-    for (const ParticleBlock& home : particle_blocks_) {
-      const auto start = static_cast<std::size_t>(home.start),
-                 n = static_cast<std::size_t>(home.count);
+    for (const ParticleBlock& particle_block : particle_blocks_) {
+      const auto start = static_cast<std::size_t>(particle_block.start),
+                 n = static_cast<std::size_t>(particle_block.count);
       for (std::size_t i = 0; i < n; ++i)
         put_record(sorted[next++], view.data(), capacity, start + i);
-      for (std::size_t i = n; i < static_cast<std::size_t>(padded(home.count)); ++i)
+      for (std::size_t i = n; i < static_cast<std::size_t>(padded(particle_block.count)); ++i)
         put_record(empty_lane(), view.data(), capacity, start + i);
     }
   }
@@ -335,9 +335,9 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   std::vector<float> sums;
-  for (const ParticleBlock& home : particle_blocks_) {
-    const auto n = static_cast<std::size_t>(home.count);
-    const float* first = view.data() + home.start;
+  for (const ParticleBlock& particle_block : particle_blocks_) {
+    const auto n = static_cast<std::size_t>(particle_block.count);
+    const float* first = view.data() + particle_block.start;
     // Finite numbers have a finite sum here: none is near the end of the range unless the run has
     // failed.
     sums.assign(n, 0.0f);
@@ -358,9 +358,9 @@ std::vector<Particle> ParticleStore::drop_outside() {
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
-  for (const ParticleBlock& home : particle_blocks_)
-    for (int i = 0; i < home.count; ++i) {
-      const bool out = codes[static_cast<std::size_t>(home.start + i)] == kRebinCodes - 1;
+  for (const ParticleBlock& particle_block : particle_blocks_)
+    for (int i = 0; i < particle_block.count; ++i) {
+      const bool out = codes[static_cast<std::size_t>(particle_block.start + i)] == kRebinCodes - 1;
       (out ? left : stay).push_back(all[next++]);
     }
   assign(stay);
@@ -388,7 +388,7 @@ std::vector<Particle> ParticleStore::rebin() {
   // After this point only the device itself can fail.
   std::swap(particle_blocks_buffer_, old_particle_blocks_buffer_);
   if (!(plan.keys == table_.particle_blocks)) table_.build(plan.keys);
-  lay_out(plan.counts);
+  assign_slots(plan.counts);
   upload_particle_blocks();
   rebin_.move({state_[now_], capacity_[now_], old_particle_blocks_buffer_},
               {state_[other], capacity_[other], particle_blocks_buffer_}, plan, soils_,
@@ -409,13 +409,13 @@ void ParticleStore::visit(Archive& a) {
   if (particle_blocks_.empty()) return;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  BlockWords home;
+  BlockWords particle_block;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    home.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
-                  table_.particle_blocks[h].z};
-    home.take(view.data() + particle_blocks_[h].start, capacity,
-              static_cast<std::size_t>(particle_blocks_[h].count));
-    a.item(h, [&] { home.visit(a); });
+    particle_block.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                            table_.particle_blocks[h].z};
+    particle_block.take(view.data() + particle_blocks_[h].start, capacity,
+                        static_cast<std::size_t>(particle_blocks_[h].count));
+    a.item(h, [&] { particle_block.visit(a); });
   }
 }
 
@@ -429,21 +429,21 @@ void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_
   for (std::size_t from = 0; from < records.size(); from = end_of_block(from)) ++particle_blocks;
   particle_blocks = a.size("homes", particle_blocks);
   if (a.loading()) records.clear();
-  BlockWords home;
+  BlockWords particle_block;
   BlockKey before;
   std::size_t from = 0;
   for (std::uint64_t h = 0; h < particle_blocks; ++h) {
     if (!a.loading()) {
       const std::size_t to = end_of_block(from);
-      home.take(std::span(records).subspan(from, to - from));
+      particle_block.take(std::span(records).subspan(from, to - from));
       from = to;
     }
     a.item(h, [&] {
-      home.visit(a);
+      particle_block.visit(a);
       // Tables are built from keys that are sorted and unique.
-      a.require(h == 0 || before < home.key(), "block", "homes must ascend");
-      before = home.key();
-      if (a.loading()) home.give(a, records, soils);
+      a.require(h == 0 || before < particle_block.key(), "block", "homes must ascend");
+      before = particle_block.key();
+      if (a.loading()) particle_block.give(a, records, soils);
     });
   }
 }

@@ -87,7 +87,7 @@ class ParticleStore {
  private:
   /// Assigns slots to the blocks of the table, with these counts. @pre The buffers are large
   /// enough.
-  void lay_out(const std::vector<int>& counts);
+  void assign_slots(const std::vector<int>& counts);
   /// Makes the state arrays of a side hold at least `slots`; allocates for `wanted` if it must.
   /// Changes nothing when the device has no memory.
   void reserve(int side, int slots, int wanted);

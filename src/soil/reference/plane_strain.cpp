@@ -265,7 +265,7 @@ void PlaneStrain::gather(double dt, bool last) {
       p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
     }
     if (method_.opening == PlaneMethod::Opening::kSeen)
-      p.j = seen_opening(p.j, p.j0, room, filled, kScheme.closing_share / method_.hold);
+      p.j = close_noise(p.j, p.j0, room, filled, kScheme.closing_share / method_.hold);
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

@@ -168,7 +168,7 @@ void ReferenceSolver::gather(double dt) {
     p.v = v;
     Vec3 way = (dt / cell_) * v;
     const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
-    p.j = seen_opening(p.j, p.j0, mass, filled, closing);
+    p.j = close_noise(p.j, p.j0, mass, filled, closing);
     for (int axis = 0; axis < 3; ++axis)
       way[axis] += crowding_displacement(share, lean[axis], mass, most);
     p.x += way;
@@ -186,7 +186,7 @@ void ReferenceSolver::step(double dt) {
   scatter(dt, hold);
   update_grid(dt, hold);
   gather(dt);
-  interval_.book(dt, cell_, fastest_, 0);
+  interval_.count_step(dt, cell_, fastest_, 0);
 }
 
 Vec3 ReferenceSolver::momentum() const {

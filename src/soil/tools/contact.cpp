@@ -108,7 +108,7 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
 }  // namespace
 
 // Mapped without waiting: the read of the report waits for all three.
-void Contact::read_later() {
+void Contact::queue_read() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
   results_.emplace(Results{touched_.map_read_later(0, blocks),
@@ -116,7 +116,7 @@ void Contact::read_later() {
                            records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
-void Contact::book(std::span<ToolImpulse> impulses) {
+void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
   if (!results_) return;
   // The maps end with this copy: the next step may write the buffers.
   const Results read = std::move(*results_);
@@ -157,15 +157,15 @@ void Contact::book(std::span<ToolImpulse> impulses) {
   }
 }
 
-void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
+void Contact::add_impulses(double dt, std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     Registered& tool = tools_[static_cast<std::size_t>(motions_[m].tool)];
     tool.J_W += impulses[m].J_W;
     tool.L_W += impulses[m].L_W;
-    tool.felt_for += dt;
-    if (!tool.told) {
-      tool.force_W = tool.J_W / tool.felt_for;
-      tool.moment_W = tool.L_W / tool.felt_for;
+    tool.summed_time += dt;
+    if (!tool.has_mean) {
+      tool.force_W = tool.J_W / tool.summed_time;
+      tool.moment_W = tool.L_W / tool.summed_time;
     }
     impulses[m].force_W = tool.force_W;
     impulses[m].moment_W = tool.moment_W;
@@ -174,11 +174,11 @@ void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
 
 void Contact::end_transfer() {
   for (Registered& tool : tools_) {
-    tool.told = tool.felt_for > 0;
-    tool.force_W = tool.told ? Vec3(tool.J_W / tool.felt_for) : Vec3(Vec3::Zero());
-    tool.moment_W = tool.told ? Vec3(tool.L_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.has_mean = tool.summed_time > 0;
+    tool.force_W = tool.has_mean ? Vec3(tool.J_W / tool.summed_time) : Vec3(Vec3::Zero());
+    tool.moment_W = tool.has_mean ? Vec3(tool.L_W / tool.summed_time) : Vec3(Vec3::Zero());
     tool.J_W = tool.L_W = Vec3::Zero();
-    tool.felt_for = 0;
+    tool.summed_time = 0;
   }
 }
 

@@ -53,7 +53,7 @@ class Contact {
   bool moves_same(std::span<const ToolMotion> motions) const;
   /// Queues what an open transfer knows of the shells, after `visit` has loaded and the lists are
   /// built.
-  void go_on(Transfer& transfer);
+  void resume(Transfer& transfer);
   /// Builds the near lists for the poses of their last build (after `visit` has loaded).
   void list_near(const BlockTable& table);
   const std::vector<std::uint8_t>& near_particle_blocks() const { return near_particle_blocks_; }
@@ -72,14 +72,14 @@ class Contact {
   /// receives it.
   void solve(Transfer& transfer, double dt);
   /// Queues reading the results.
-  void read_later();
+  void queue_read();
   /// Sums the impulses on the tools, after a wait that follows read_later; `impulses` parallel to
   /// the motions.
-  void book(std::span<ToolImpulse> impulses);
+  void sum_impulses(std::span<ToolImpulse> impulses);
 
   /// Adds the impulses of a step of dt [s] to the current transfer and sets the mean force in
   /// `impulses`.
-  void feel(double dt, std::span<ToolImpulse> impulses);
+  void add_impulses(double dt, std::span<ToolImpulse> impulses);
   /// Return the mean force [N] and the moment about its origin [N m] that a tool last reported.
   const Vec3& force(int tool) const { return tools_[static_cast<std::size_t>(tool)].force_W; }
   const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
@@ -87,7 +87,7 @@ class Contact {
   void end_transfer();
 
   /// Visits the tools. Near lists depend on the poses when they were made, sides of nodes on those
-  /// at the start of the transfer: both are state, and the rest follows (`list_near`, `go_on`).
+  /// at the start of the transfer: both are state, and the rest follows (`list_near`, `resume`).
   /// @throws InputError for another number of tools than registered, or an impossible pose.
   void visit(Archive& a);
 
@@ -118,9 +118,9 @@ class Contact {
     // the steps so far.
     Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
     /// Duration of the sums [s].
-    double felt_for = 0;
+    double summed_time = 0;
     /// There is a previous transfer.
-    bool told = false;
+    bool has_mean = false;
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
     void visit(Archive& a);
   };

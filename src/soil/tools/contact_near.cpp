@@ -95,7 +95,7 @@ void Contact::set_twists(std::span<const ToolMotion> motions) {
   shells_.set_twists(std::move(now));
 }
 
-void Contact::go_on(Transfer& transfer) {
+void Contact::resume(Transfer& transfer) {
   for (Registered& tool : tools_) {
     tool.X_now = tool.X;
     set_window(tool);
@@ -289,11 +289,11 @@ void Contact::Registered::visit(Archive& a) {
   a("X", X);
   a("J_W", J_W);
   a("L_W", L_W);
-  a("felt_for", felt_for);
-  a("told", told);
+  a("felt_for", summed_time);
+  a("told", has_mean);
   a("force_W", force_W);
   a("moment_W", moment_W);
-  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for",
+  a.require(std::isfinite(summed_time) && summed_time >= 0, "felt_for",
             "must be finite and not negative");
   a.require(std::max(X_listed.translation().norm(), X.translation().norm()) < limits::kFarthest,
             "X_listed", "must be a place on the site, as must X");

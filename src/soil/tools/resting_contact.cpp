@@ -32,7 +32,7 @@ constexpr double kSlowly = 0.01;
 /// Iterations over the rows, eight feet at most.
 constexpr int kSweeps = 60;
 /// Share of the soil's wrench that the feet need not exert.
-constexpr double kUnborne = 0.01;
+constexpr double kUncarried = 0.01;
 
 struct Row {
   /// Wrench of a unit impulse, and its change of twist.
@@ -118,8 +118,8 @@ std::vector<Vec3> feet(const scene::Shell& shell, const Pose& X_WT, double cell,
   for (const Vec3& v : shell.vertices) lowest = std::min(lowest, up.dot(X_WT * v));
   const double highest = lowest + (up == Vec3::UnitZ() ? kLevel : kSloping) * cell;
   std::vector<Vec3> out;
-  for (int way = 0; way < 8; ++way) {
-    const Vec2 towards(std::cos(way * kPi / 4), std::sin(way * kPi / 4));
+  for (int direction = 0; direction < 8; ++direction) {
+    const Vec2 towards(std::cos(direction * kPi / 4), std::sin(direction * kPi / 4));
     const Vec3* farthest = nullptr;
     for (const Vec3& v : shell.vertices) {
       if (up.dot(X_WT * v) > highest) continue;
@@ -140,18 +140,18 @@ Vec3 normal_under(const Vec2& gradient, double across, double cell) {
   return Vec3(-gradient.x(), -gradient.y(), 1).normalized();
 }
 
-bool RestingContact::stands(const scene::Shell& shell, const ToolMotion& motion, double seconds,
-                            const Vec3& force) {
+bool RestingContact::has_settled(const scene::Shell& shell, const ToolMotion& motion,
+                                 double seconds, const Vec3& force) {
   // Judged by the displacement: the velocity is that before the soil acts, which includes the
   // weight of a step.
-  const bool stands = farthest(shell, motion.X_WT, X_WT) < kStill * seconds && force.z() > 0;
+  const bool is_still = farthest(shell, motion.X_WT, X_WT) < kStill * seconds && force.z() > 0;
   X_WT = motion.X_WT;
-  still = stands ? still + seconds : 0;
+  still = is_still ? still + seconds : 0;
   return still >= kStillTime;
 }
 
-void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
-                          const Vec3& moment, double tangent, double cell, const Vec3& normal) {
+void RestingContact::start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
+                           const Vec3& moment, double tangent, double cell, const Vec3& normal) {
   // Motion of the tool without the soil, which the feet must stop.
   Vec6 wrench;
   wrench << moment, force;
@@ -159,20 +159,21 @@ void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, c
   Vec6 twist = free;
   const std::vector<Vec3> arms = arms_of(feet(shell, motion.X_WT, cell, normal), motion.X_WT);
   stand(arms, std::vector<double>(arms.size(), 0.0), normal, motion.inverse_mass, tangent, twist);
-  if (!(fastest(shell, motion.X_WT, twist) < kUnborne * fastest(shell, motion.X_WT, free))) return;
-  taken = true;
+  if (!(fastest(shell, motion.X_WT, twist) < kUncarried * fastest(shell, motion.X_WT, free)))
+    return;
+  engaged = true;
   X_WT = motion.X_WT;
   up = normal;
-  bears = load = up.dot(force);
+  initial_load = load = up.dot(force);
   friction = tangent;
 }
 
-bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, double dt,
-                          double cell, ToolImpulse& impulse) {
-  if (!taken) return false;
+bool RestingContact::apply(const scene::Shell& shell, const ToolMotion& motion, double dt,
+                           double cell, ToolImpulse& impulse) {
+  if (!engaged) return false;
   const double moved = farthest(shell, motion.X_WT, X_WT);
-  if (moved > kMoved * cell || load > kOverload * bears) {
-    let_go();
+  if (moved > kMoved * cell || load > kOverload * initial_load) {
+    release();
     return true;
   }
   Vec6 got, twist;
@@ -197,15 +198,16 @@ bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, d
 
 void RestingContact::visit(Archive& a) {
   a("still", still);
-  a("taken", taken);
+  a("taken", engaged);
   a("X_WT", X_WT);
   a("up", up);
-  a("bears", bears);
+  a("bears", initial_load);
   a("load", load);
   a("friction", friction);
-  a.require(
-      std::isfinite(still + bears + load + friction) && still >= 0 && bears >= 0 && friction >= 0,
-      "still", "must be finite and not negative, as must the load that is borne and the friction");
+  a.require(std::isfinite(still + initial_load + load + friction) && still >= 0 &&
+                initial_load >= 0 && friction >= 0,
+            "still",
+            "must be finite and not negative, as must the load that is borne and the friction");
   a.require(std::abs(up.norm() - 1) < 1e-9 && up.z() > 0, "up",
             "must be a direction that leads upward");
   a.require(std::isfinite(X_WT.matrix().sum()) && X_WT.translation().norm() < limits::kFarthest,

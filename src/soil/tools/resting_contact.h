@@ -26,13 +26,13 @@ struct RestingContact {
   /// Time that the tool has stood still [s].
   double still = 0;
   /// The contact carries the tool.
-  bool taken = false;
+  bool engaged = false;
   /// Pose at which the tool came to rest; before, at the last look.
   Pose X_WT = Pose::Identity();
   /// Normal of the ground below, at the start of the contact.
   Vec3 up = Vec3::UnitZ();
   /// Force on the tool along the normal then [N].
-  double bears = 0;
+  double initial_load = 0;
   /// Force of the contact, averaged over the last tenth of a second [N].
   double load = 0;
   /// Tangent of the friction angle.
@@ -40,17 +40,17 @@ struct RestingContact {
 
   /// Returns true if the tool has stood still long enough. `seconds`: time since the last call;
   /// `force`: of the soil on the tool [N].
-  bool stands(const scene::Shell& shell, const ToolMotion& motion, double seconds,
-              const Vec3& force);
+  bool has_settled(const scene::Shell& shell, const ToolMotion& motion, double seconds,
+                   const Vec3& force);
   /// Starts the contact if the tool's feet can exert what the soil exerts now: force [N] and moment
   /// [N m] about its origin. `normal`: of the ground below.
-  void take(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
-            const Vec3& moment, double tangent, double cell, const Vec3& normal);
+  void start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
+             const Vec3& moment, double tangent, double cell, const Vec3& normal);
   /// Adds the impulse of the contact in a step of dt [s], after soil and all else have acted. Ends
   /// the contact if the tool moved or is overloaded; returns true then.
-  bool hold(const scene::Shell& shell, const ToolMotion& motion, double dt, double cell,
-            ToolImpulse& impulse);
-  void let_go() { *this = RestingContact{}; }
+  bool apply(const scene::Shell& shell, const ToolMotion& motion, double dt, double cell,
+             ToolImpulse& impulse);
+  void release() { *this = RestingContact{}; }
 
   void visit(Archive& a);
 };
