@@ -99,7 +99,7 @@ void held_bucket(int steps) {
 
 /// A tilted bucket with its lip in a bed of 28 800 particles: what a trench costs.
 void dig(int steps) {
-  const soil::rig::Box bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
+  const soil::rig::SiteBox bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
   soil::rig::Rig rig({soil::rig::sand(35)}, bed);
   rig.solver().insert(rig.fill(bed, true));
   soil::ToolMotion motion;

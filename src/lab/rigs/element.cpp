@@ -3,9 +3,9 @@
 // kernels themselves strain.
 //
 // The law by itself is tested without a grid (tests/soil/particles). Here the same strains come
-// through transfers, contact and steps, as in any dig, and the stress is read from the particles in
-// the middle, so that rims, lids and plates only have to strain the sample and are not what is
-// measured. There is no gravity: the sample is the same everywhere.
+// through transfers, contact and steps, as in any dig. Stress is read from the particles in the
+// middle, so that rims, lids and plates only strain the sample and are not measured. There is no
+// gravity: the sample is uniform.
 #include <algorithm>
 #include <cmath>
 
@@ -36,12 +36,12 @@ Stress stress_in(const Site& site, const SiteBox& box) {
     sum.zz += pressure - static_cast<double>(p.s[2]);
     count += 1;
   }
-  // No particle in the middle: not a stress of nothing.
+  // No particle in the middle: not a zero stress.
   count = count > 0 ? count : kNone;
   return {sum.xx / count, sum.yy / count, sum.zz / count};
 }
 
-/// Particles under the pressure `p` on all sides, from the start.
+/// Returns particles under the pressure `p` on all sides, from the start.
 std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double p) {
   auto out = site.fill(box);
   const double bulk = site.soil().young_modulus / (3 * (1 - 2 * site.soil().poisson));
@@ -49,7 +49,8 @@ std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double
   return out;
 }
 
-/// Site without gravity, its ground a pit of the sample's size whose floor and walls rest.
+/// Returns a site without gravity, its ground a pit of the sample's size whose floor and walls
+/// rest.
 SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
   SiteOptions out;
   const double reach = std::max(sample.high.x(), sample.high.y());
@@ -63,7 +64,8 @@ SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
 /// Six smooth plates around the sample.
 struct Press {
   std::vector<int> tools;
-  std::vector<Vec3> outward;  ///< by tool, its plate's direction
+  /// Direction of a tool's plate, by tool.
+  std::vector<Vec3> outward;
 
   Press(Site& site, double half, double thickness) {
     for (int axis = 0; axis < 3; ++axis)
@@ -72,7 +74,7 @@ struct Press {
         scene::Shell shell = plate(3 * half, 3 * half);
         shell.half_thickness = thickness;
         Pose X = Pose::Identity();
-        // The plate's front looks along its z, at the sample.
+        // The plate's front faces the sample along its z.
         X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix();
         X.translation() = (half + thickness) * n;
         tools.push_back(site.add_tool(shell, X));
@@ -80,27 +82,29 @@ struct Press {
       }
   }
 
-  /// Plates move at the speed that their place has in the even strain.
+  /// Plates move at the speed of their place in the uniform strain.
   void strain(Site& site, double half, const Vec3& rate) const {
     for (std::size_t i = 0; i < tools.size(); ++i)
       site.tool(tools[i]).motion.v_WT = half * rate.cwiseProduct(outward[i]);
   }
 };
 
-/// Sine of the angle that the largest and the least of three stresses mobilise: tau / sigma of the
-/// plane that shears.
+/// Returns the sine of the angle that the largest and the least of three stresses mobilise: tau /
+/// sigma of the shearing plane.
 double mobilised(const Stress& s) {
   const double most = std::max({s.xx, s.yy, s.zz}), least = std::min({s.xx, s.yy, s.zz});
   return std::clamp((most - least) / (most + least), -1.0, 1.0);
 }
 
-/// What one straining gave.
+/// Results of one straining.
 struct Strained {
-  double sine = 0;  ///< mobilised, mean of the last quarter
-  Stress last;      ///< at the end
+  /// Mobilised, mean of the last quarter.
+  double sine = 0;
+  /// At the end.
+  Stress last;
 };
 
-/// Strains a cube evenly by `rate` [1/s], without change of volume, until the largest strain is
+/// Strains a cube uniformly by `rate` [1/s], without change of volume, until the largest strain is
 /// `strain`.
 Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   const double cell = setup.cell, half = 0.5 * setup["edge"] * cell, p = setup["pressure-pa"];
@@ -110,7 +114,7 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   // In the air: a pit twice as wide and as deep as the sample.
   Site site(smooth, weightless(SiteBox{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
   auto soil = pressed(site, sample, p);
-  // The sample moves evenly from the start, plates and all: no wave runs through it.
+  // The sample and its plates move uniformly from the start: no wave runs through it.
   for (soil::Particle& grain : soil)
     for (int a = 0; a < 3; ++a) {
       grain.v[a] = static_cast<float>(rate[a] * site.position(grain)[a]);
@@ -138,14 +142,14 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   return out;
 }
 
-/// Whether the theory of both rigs speaks of this setup.
+/// Returns true if the theory of both rigs applies to this setup.
 bool plain(const Setup& setup) {
   return !(setup.soil.cohesion > 0) && !(setup.soil.dilatancy_angle > 0) &&
          setup["strain"] > 0.0399;
 }
 
 Report run_shear(const Setup& setup) {
-  // Pressed along x, let go along z, y kept: the planes between shear.
+  // Compression along x, extension along z, y fixed: the planes between them shear.
   const double speed = setup["speed"], rate = speed / (0.5 * setup["edge"] * setup.cell);
   Report report;
   const Strained got = strain_cube(setup, Vec3(-rate, 0, rate), report);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `stand`: a body put on the ground and left alone stands.
+// Rig `stand`: a body placed on the ground and left alone must stand.
 //
-// What machines lay down, stones and steel plates, must not sink for ever: the ground fails or it
-// bears. A body that rests on particles feels whatever they still do, so creep of a contact shows
-// here and nowhere else: at a blade it is nothing beside the blade's speed.
+// Stones, steel plates and tools of machines on the ground must not sink for ever: the ground fails
+// or carries them. A body that rests on particles follows their motion, so only this rig shows
+// creep of a contact; at a blade it is negligible beside the blade's speed.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Buckets and carried loads]";
 
-/// A body about its middle.
+/// Returns a body about its centre.
 scene::Shell body(double length, double width, double height) {
   scene::Shell out = closed_box(length, width, height);
   for (Vec3& v : out.vertices) v.z() -= height / 2;
@@ -28,7 +28,7 @@ Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"], width = setup["width"],
                height = setup["height"];
   SiteOptions options;
-  // The zone that a tool at rest wakes is one dig depth about it; farther out nothing happens.
+  // A tool at rest activates a zone of one dig depth around it; nothing happens farther out.
   options.size = 2 * (whole_cells(std::max(length, width) / 2, cell) + 12 * cell);
   options.depth = whole_cells(2 * std::max(length, width), cell);
   // Between the planes of the grid, where most ground lies.
