@@ -182,7 +182,7 @@ std::vector<SoilCase> make_cases() {
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
       {"soil_collapse_no_tool:1953k", "6.25 m", false,
        [](Device& d) { return collapse(d, 6.25, 5); }},
-      {"site_dig:0.01km2", "a dig with waking ground", true,
+      {"site_dig:0.01km2", "a dig on ground that becomes active", true,
        [](Device& d) { return site_dig(d, 100, 100); }},
       {"site_dig:0.1km2", "the same on a larger site", false,
        [](Device& d) { return site_dig(d, 316.2, 100); }},
@@ -208,7 +208,7 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word",
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case has this word in its name",
                            "one of:" + names});
   for (const SoilCase* c : wanted) {
     // Beside its row, so that other load on the machine affects both alike.

@@ -19,6 +19,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
 #include "lab/rig.h"
@@ -116,8 +117,8 @@ std::string described(const std::string& text) { return wrapped(text, kWidth - k
 
 int list_rigs() {
   std::puts(
-      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
-      "draws it in words.\n");
+      "Virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
+      "describes it.\n");
   for (const lab::Rig& rig : lab::rigs())
     std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
   std::puts(
@@ -396,6 +397,18 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->type_name(type_name(parameter))
         ->default_str(parameter.text(parameter.value))
         ->group("Geometry and procedure");
+  // Former names work for one release; a group without a name keeps them out of the help.
+  for (const lab::Parameter& parameter : rig.parameters)
+    if (!parameter.former.empty())
+      command
+          ->add_option_function<std::string>(
+              "--" + parameter.former,
+              [options, name = parameter.name,
+               former = parameter.former](const std::string& written) {
+                log_warning("lab: --" + former + " is now called --" + name);
+                options->geometry[name] = written;
+              })
+          ->group("");
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
       ->group("Soil");
   // All rigs share the options of the soil; only one rig is run.
@@ -429,8 +442,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
           "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
   command->add_flag(
       "--energy", options->energy,
-      described(
-          "also tell where the soil's energy came from and went; takes up to three times as long"));
+      described("also report the soil's energy account; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;

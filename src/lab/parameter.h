@@ -62,6 +62,8 @@ struct Parameter {
   ParameterRange range;
   /// Empty for a number.
   std::vector<Choice> choices = {};
+  /// Former name, which the command line reads with a warning for one release; "" without one.
+  std::string former = {};
 
   bool allows(double value) const;
   /// Returns the allowed values for help and errors: "above 0 m", "plane or round".

@@ -45,10 +45,10 @@ struct Tolerance {
 };
 
 /// Returns the tolerance of the mean force. A measured force replaces theory. Theory applies to
-/// upright blades in plane strain: smooth ones within --gate-percent, rough ones from 0.95 of the
-/// lower bound (0.80 with cohesion, as soil without dilatancy is weaker) to 1.05 of the spiral.
+/// upright blades in plane strain: smooth ones within --tolerance-percent, rough ones from 0.95 of
+/// the lower bound (0.80 with cohesion, as soil without dilatancy is weaker) to 1.05 of the spiral.
 Tolerance tolerance_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
-  const double given = setup["expected-n"], share = setup["gate-percent"] / 100;
+  const double given = setup["expected-n"], share = setup["tolerance-percent"] / 100;
   const bool upright = setup.is("plane", "yes") && std::abs(setup["rake-deg"] - 90) < 1e-6;
   const Reference theory = upright ? upright_reference(case_of(setup)) : Reference{};
   Tolerance out;
@@ -161,7 +161,7 @@ void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, c
   double top = 0;
   for (double x = -height / std::tan(c.rake); x < travel; x += site.cell() / 4)
     top = std::max(top, surface(x));
-  report.note("top of the pile over the lip", top, "m");
+  report.note("top of the pile over the cutting edge", top, "m");
   // The formula is for a blade of finite length: without one, nothing rides up.
   if (setup["length"] > 0)
     report.add("horizontal force, against a riding layer", end, "N",
@@ -268,69 +268,70 @@ Report run_blade(const Setup& setup) {
 
 const std::vector<Parameter> kBlade = {
     {"width", 1, "m", "of the blade; in plane strain forces are scaled to it", above(0)},
-    {"depth", 0.3, "m", "of the lip under the ground", above(0)},
+    {"depth", 0.3, "m", "of the cutting edge under the ground", above(0)},
     {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright",
      between(15, 150)},
     {"speed", 0.3, "m/s", "ahead", above(0)},
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
-    {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
+    {"ramp", 0.015, "m", "of travel over which it accelerates; 0: at once", at_least(0)},
     yes_no("plane", true, "plane strain between smooth plates",
            "a blade of its width in open ground"),
     {"ahead", 3, "depths", "of soil in front after the travel", at_least(0)},
     {"beside", 2, "depths", "of soil on either side (open ground)", at_least(0)},
-    {"below", 1, "depths", "of soil under the lip", at_least(0)},
+    {"below", 1, "depths", "of soil under the cutting edge", at_least(0)},
     {"thick", 0.01, "m",
      "of the plate in open ground; in plane strain it is half a cell and only its face counts",
      above(0)},
-    {"above", 1, "depths", "of blade over the ground", above(0)},
-    {"length", 0, "m", "of the blade from its lip along its face; 0: as high as `above` says",
+    {"above", 1, "depths", "of the blade over the ground", above(0)},
+    {"length", 0, "m", "of the blade along its face; 0: its height follows from `above`",
      at_least(0)},
-    {"expected-n", 0, "N", "a measured force to be held against instead of the formula; 0: none",
+    {"expected-n", 0, "N", "a measured force for comparison instead of the formula; 0: none",
      at_least(0)},
-    {"gate-percent", 15, "%", "of the expected force; 0: no gate", at_least(0)}};
+    {"tolerance-percent",
+     15,
+     "%",
+     "of the expected force; 0: no tolerance",
+     at_least(0),
+     {},
+     "gate-percent"}};
 
 }  // namespace
 
 Rig blade_rig() {
   Rig rig;
   rig.name = "blade";
-  rig.summary = "flat blade pushed through the ground: force against wedge theory or an experiment";
+  rig.summary =
+      "flat blade pushed through the ground: force compared with wedge theory or an experiment";
   rig.drawing =
-      "A plate with its lip `depth` under level ground, a trench open behind it, moves ahead at "
-      "`speed`. The force is "
-      "the mean of the soil's impulses while the travel is between `from` and `travel`. `plane` "
-      "yes: the plate spans "
-      "a chute of smooth side plates that travel with it, 5 cells wide, 8 with tool friction. In "
-      "soil without "
-      "cohesion the force of the last tenth of the travel is held against Coulomb's wedge under "
-      "the pile as it lies "
-      "then; with `length` Miedema's layer that rides on the whole blade stands beside it, an "
-      "upper bound. What gates: "
-      "an "
-      "upright smooth blade Rankine, a rough one 0.95 of the lower bound (slip lines; weight by "
-      "Lancellotta) to 1.05 "
-      "of the log spiral (Caquot and Kerisel); Reece's planar wedge is an upper bound and only "
-      "printed. Soil that "
-      "softens is held against its residual cohesion and not gated. No: open ground, beside McKyes "
-      "and Ali.";
+      "A plate with its cutting edge `depth` under level ground, with an open trench behind it, "
+      "moves ahead at `speed`. The force is the mean of the soil's impulses while the travel is "
+      "between `from` and `travel`. `plane` yes: the plate spans a chute of smooth side plates "
+      "that travel with it, 5 cells wide, 8 with tool friction. In soil without cohesion the "
+      "force of the last tenth of the travel is compared with Coulomb's wedge under the pile of "
+      "that moment; with `length`, Miedema's layer that rides on the whole blade is an upper "
+      "bound. Tolerances: an upright smooth blade Rankine, a rough one 0.95 of the lower bound "
+      "(slip lines; weight by Lancellotta) to 1.05 of the log spiral (Caquot and Kerisel). "
+      "Reece's planar wedge is an upper bound and only listed. Soil that softens is compared with "
+      "its residual cohesion, without a tolerance. `plane` no: open ground, with McKyes and Ali "
+      "for comparison.";
   rig.examples = {{"Narrow blade in washed sand [Obermayr 2011]; depths 0.10, 0.15, 0.20, 0.25 m "
                    "measured 280, 505, 820, 1310 N",
                    "--plane no --width 0.2 --depth 0.10 --density 1440 --phi-deg 35 --delta-deg "
                    "16.2 --speed 0.45 --from 0.5 "
-                   "--travel 1.5 --expected-n 280 --gate-percent 25 --cell 0.05"},
+                   "--travel 1.5 --expected-n 280 --tolerance-percent 25 --cell 0.05"},
                   {"Raked blade in sand [Hatamura 1977]; the formula of [Miedema 2014] for the "
                    "largest force gives 259, 400, 605 N "
                    "at "
                    "rakes of 30, 45, 60",
                    "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
                    "--density 1460 --depth 0.10 --cell "
-                   "0.033 --ahead 4 --gate-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
-                  {"The same six times as fast, its pile full grown",
+                   "0.033 --ahead 4 --tolerance-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
+                  {"The same six times as fast, with a fully developed pile",
                    "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
                    "--density 1460 --depth 0.10 --cell "
-                   "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
-                  {"Three speeds and two steps in one table, with a picture",
+                   "0.033 --ahead 4 --tolerance-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
+                  {"Three speeds and two steps in one table, with a plot",
                    "--speed 0.05,0.15,0.3 --courant 0.5,0.25 --cell 0.05 --plot blade.svg"}};
   rig.parameters = kBlade;
   rig.default_soil = clean_sand(35);

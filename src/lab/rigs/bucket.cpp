@@ -336,7 +336,7 @@ Report run_cycle(const Setup& setup) {
   report.note("last cycle", volumes.values.back(), "");
   report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0,
              "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
-  report.note("wakes", static_cast<double>(site.solver().stats().activations), "");
+  report.note("activated columns", static_cast<double>(site.solver().stats().activations), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");
   report.note("particles through the shell",
@@ -350,12 +350,12 @@ Report run_cycle(const Setup& setup) {
 std::vector<Parameter> scoop_parameters() {
   return {{"width", 0.8, "m", "of the bucket", above(0)},
           {"volume", 0.3, "m3", "struck, of the bucket", above(0)},
-          {"depth", 0.25, "m", "of the lip in the drag", above(0)},
+          {"depth", 0.25, "m", "of the cutting edge in the drag", above(0)},
           {"drag", 0.8, "m", "level", above(0)},
-          {"speed", 0.8, "m/s", "of the lip", above(0)},
-          {"attack-deg", 30, "deg", "of the floor as the lip goes in", between(10, 80)},
-          {"curl-deg", 50, "deg", "by which it turns up behind the drag", between(1, 120)},
-          {"lift", 0.4, "m", "behind the curl, over and above `depth`", above(0)}};
+          {"speed", 0.8, "m/s", "of the cutting edge", above(0)},
+          {"attack-deg", 30, "deg", "of the floor as the edge enters", between(10, 80)},
+          {"curl-deg", 50, "deg", "by which it turns up after the drag", between(1, 120)},
+          {"lift", 0.4, "m", "after the curl, in addition to `depth`", above(0)}};
 }
 
 }  // namespace
@@ -363,19 +363,17 @@ std::vector<Parameter> scoop_parameters() {
 Rig bucket_rig() {
   Rig rig;
   rig.name = "bucket";
-  rig.summary = "bucket filled along a path: force and load, against half the cell";
+  rig.summary = "bucket filled along a path: force and load, compared with half the cell";
   rig.drawing =
-      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor "
-      "at `attack-deg`, "
-      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, goes up by "
-      "`depth` and `lift` and "
-      "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and "
-      "load.";
+      "A bucket (flat floor, heel, back, two sides, 30 mm plates) enters a bed with its floor at "
+      "`attack-deg`, levels out at `depth`, is dragged by `drag` at `speed`, curls by `curl-deg`, "
+      "rises by `depth` and `lift`, and holds. `refine` yes repeats it at half the cell and "
+      "compares the load and the mean force of the drag.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back(yes_no("refine", false, "also at half the cell", "one run"));
   rig.headline = {"mean horizontal force of the drag", "load", "held force over the load's weight",
                   "drag over an upright wedge of the depth"};
-  rig.examples = {{"Two cells and two steps in one table, with a picture",
+  rig.examples = {{"Two cells and two steps in one table, with a plot",
                    "--cell 0.1,0.05 --courant 0.5,0.25 --plot bucket.svg"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run_bucket;
@@ -387,12 +385,10 @@ Rig scrape_rig() {
   rig.name = "scrape";
   rig.summary = "bucket pressed flat on level ground and dragged: no jam, no gain of energy";
   rig.drawing =
-      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged `drag` at "
-      "`speed` and "
-      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the "
-      "same with crowding "
-      "off, "
-      "its vertical force against the weight of the load.";
+      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged by "
+      "`drag` at `speed`, and lifted. The ground becomes particles and takes soil back by itself. "
+      "The second half of the drag is compared with the same without crowding, its vertical force "
+      "with the weight of the load.";
   rig.parameters = {{"width", 0.8, "m", "of the bucket", above(0)},
                     {"volume", 0.3, "m3", "struck, of the bucket", above(0)},
                     {"press", 0.05, "m", "into the ground", at_least(0)},
@@ -408,9 +404,9 @@ Rig cycle_rig() {
   rig.name = "cycle";
   rig.summary = "dig and dump several times at one place: volume per pass, ledger";
   rig.drawing =
-      "The bucket's path of rig `bucket` on ground that wakes and takes soil back by itself, "
-      "`cycles` times, each "
-      "`step-down` deeper; every load is carried `dump` to the side and tipped by 130 degrees.";
+      "The bucket follows the path of rig `bucket`, `cycles` times, each `step-down` deeper, on "
+      "ground that becomes particles and takes soil back by itself. Every load is carried `dump` "
+      "to the side and dumped by a turn of 130 degrees.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back({"cycles", 3, "", "in all", count_from(1)});
   rig.parameters.push_back({"step-down", 0.15, "m", "per cycle", above(0)});

@@ -179,22 +179,16 @@ Report run(const Setup& setup) {
 Rig column_rig() {
   Rig rig;
   rig.name = "column";
-  rig.summary =
-      "column collapse: run-out and height of a plane or round column of sand that is let go";
+  rig.summary = "column collapse: run-out and height of a released plane or round column of sand";
   rig.drawing =
       "`shape` plane: a block `l0` long and a x l0 high stands on rough level ground between two "
-      "smooth plates `gap` "
-      "cells apart, its back against a third plate, and is let go on its free side. `shape` round: "
-      "a free-standing "
-      "cylinder of radius `l0`, no plates. After `time` x sqrt(H0/g) the run-out is the 99th "
-      "percentile of the "
-      "distances of particles that touch others; the height is that of the surface over the heap. "
-      "The front "
-      "accelerates until its speed is within 5 % of the highest, and stops when 99 % of the way is "
-      "done. The ground "
-      "holds the lowest layer, so the floor's friction is the soil's own. Bands hold for l0 of at "
-      "least 30 cells, phi "
-      "33 and a = 1 or 5 (plane), 1 or 3 (round).";
+      "smooth plates `gap` cells apart, its back against a third plate, and is released on its "
+      "free side. `shape` round: a free cylinder of radius `l0`, without plates. After `time` x "
+      "sqrt(H0/g) the run-out is the 99th percentile of the distances of particles in contact; "
+      "the height is that of the surface over the heap. The front accelerates until its speed is "
+      "within 5 % of the highest, and stops when it has covered 99 % of its run-out. The ground "
+      "holds the lowest layer, so the floor has the soil's own friction. Tolerances apply to l0 "
+      "of at least 30 cells, phi 33 and a = 1 or 5 (plane), 1 or 3 (round).";
   rig.examples = {
       {"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 59"}};
   rig.parameters = {

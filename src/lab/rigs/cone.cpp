@@ -109,12 +109,10 @@ Rig cone_rig() {
   rig.summary = "heaps built at an angle: one must stand, a steeper one must slide";
   rig.drawing =
       "A heap of half width `base` is built on rough level ground with straight flanks and the "
-      "vertical stress of the "
-      "soil above each point, once at phi + `stands` and once at phi + `slides` degrees. It is "
-      "watched for `time`. It "
-      "stands when its flank loses at most 1 degree, it slides when it loses at least 1.5. `shape` "
-      "plane: between "
-      "smooth plates `gap` cells apart; cone: free (triaxial: weaker than phi says).";
+      "vertical stress of the soil above each point, once at phi + `stands` and once at phi + "
+      "`slides` degrees, and then observed for `time`. It stands if its flank loses at most 1 "
+      "degree, and slides if it loses at least 1.5. `shape` plane: between smooth plates `gap` "
+      "cells apart; cone: free (triaxial, with a lower strength than phi gives).";
   rig.parameters = {
       choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
       {"base", 2, "m", "half width", above(0)},

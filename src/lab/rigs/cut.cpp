@@ -121,18 +121,16 @@ Report run(const Setup& setup) {
 Rig cut_rig() {
   Rig rig;
   rig.name = "cut";
-  rig.summary = "vertical cut in cohesive soil: the height that stands";
+  rig.summary = "vertical cut in cohesive soil: the height at which it stands";
   rig.drawing =
-      "Cohesive soil between smooth plates with an upright free face, at rest under its own weight "
-      "without support of "
-      "the face, is let go for `time`. It stands when the upper half of the soil within half a "
-      "height of the face has "
-      "moved less than `limit` heights in the mean. Tried are 0.9 of the height that holds without "
-      "tension, 1.25 Hc, "
-      "and `trials` halvings between.";
+      "Cohesive soil between smooth plates has an upright free face. It starts at rest under its "
+      "own weight, and without support of the face it is released for `time`. It stands if the "
+      "upper half of the soil within half a height of the face has moved by less than `limit` "
+      "heights on average. The trials are 0.9 of the height that holds without tension, 1.25 Hc, "
+      "and `trials` bisections between them.";
   rig.parameters = {{"time", 1.5, "s", "of each trial", above(0)},
-                    {"trials", 3, "", "halvings between the two heights", count_from(1)},
-                    {"limit", 0.05, "heights", "of motion that count as failure", above(0)},
+                    {"trials", 3, "", "bisections between the two heights", count_from(1)},
+                    {"limit", 0.05, "heights", "of displacement that count as failure", above(0)},
                     {"back", 1.5, "heights", "of soil behind the face", at_least(0)},
                     {"front", 0.6, "heights", "of ground in front of it", at_least(0)},
                     {"below", 0.4, "heights", "of soil under the foot", at_least(0)}};

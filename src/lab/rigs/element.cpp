@@ -195,15 +195,11 @@ Rig shear_rig() {
   rig.summary =
       "shear of a sample in plane strain: tau over sigma in its middle is sin phi, at any speed";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
-      "smooth plates: one pair "
-      "closes at `speed` each, one opens as fast, the third stays, until the strain is `strain`. "
-      "tau over sigma is "
-      "that "
-      "of the planes that shear, (s1 - s3) / (s1 + s3) of the mean stress of the particles in the "
-      "middle, over the "
-      "last "
-      "quarter; what plates feel is not used.";
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, lies between six "
+      "smooth plates. One pair closes at `speed` each, one opens at the same speed, and the third "
+      "stays, until the strain is `strain`. tau over sigma is that of the shearing planes, (s1 - "
+      "s3) / (s1 + s3) of the mean stress of the particles in the middle, over the last quarter. "
+      "Forces on plates are not used.";
   rig.examples = {{"As slow as a machine ever moves", "--speed 0.005"}};
   rig.parameters = {{"edge", 8, "cells", "of the cube", above(0)},
                     {"pressure-pa", 10000, "Pa", "at the start", above(0)},
@@ -219,18 +215,15 @@ Rig triaxial_rig() {
   rig.name = "triaxial";
   rig.summary = "triaxial compression and extension: the mobilised friction angle";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
-      "smooth plates: its axis "
-      "is "
-      "strained by `strain` at `rate`, its sides by half of it the other way, so that its volume "
-      "stays. The angle is "
-      "that of the largest and least mean stress of the particles in the middle, over the last "
-      "quarter. Sand stands 2 "
-      "to 4 degrees below its plane-strain angle here, in compression as in extension.";
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, lies between six "
+      "smooth plates. Its axis is strained by `strain` at `rate`, its sides by half of it in the "
+      "opposite direction, so that its volume is constant. The angle is that of the largest and "
+      "least mean stress of the particles in the middle, over the last quarter. Sand has 2 to 4 "
+      "degrees less than its plane-strain angle here, in compression and in extension.";
   rig.examples = {{"Extension", "--path extension"}};
   rig.parameters = {choice("path", "compression", "",
-                           {{"compression", 0, "the axis is pressed, the sides give way"},
-                            {"extension", 1, "the axis gives way, the sides are pressed"}}),
+                           {{"compression", 0, "the axis is compressed, the sides extend"},
+                            {"extension", 1, "the axis extends, the sides are compressed"}}),
                     {"edge", 12, "cells", "of the cube", above(0)},
                     {"pressure-pa", 10000, "Pa", "at the start", above(0)},
                     {"rate", 0.1, "1/s", "of the axial strain", above(0)},

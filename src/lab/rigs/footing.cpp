@@ -226,29 +226,26 @@ Rig footing_rig() {
   rig.summary = "strip footing on weightless soil: bearing capacity factors Nc and Nq";
   rig.drawing =
       "A smooth strip of `breadth` with an upright stem is pressed into level soil at `speed`, in "
-      "plane strain "
-      "between smooth plates. Without surcharge gravity is off (`weightless` yes) and the factor "
-      "is the pressure over "
-      "c at the last fifth of `settlement`. With `surcharge-pa` a layer of two cells lies on the "
-      "soil beside the "
-      "footing: strengthless, a hundred times denser, and gravity is turned down until the layer "
-      "weighs the "
-      "surcharge, so that the soil's own weight is a hundredth of it per layer. The layer is "
-      "inert: faster or softer "
-      "runs than the example's weigh its inertia or end before the strength is mobilised.";
+      "plane strain between smooth plates. Without surcharge, gravity is off (`weightless` yes) "
+      "and the factor is the pressure over c at the last fifth of `settlement`. With "
+      "`surcharge-pa` a layer of two cells lies on the soil beside the footing. It has no "
+      "strength and is a hundred times denser, and gravity is reduced until the layer has the "
+      "weight of the surcharge, so that the soil's own weight is a hundredth of it per layer. The "
+      "layer has inertia: runs that are faster or softer than the example measure that inertia, "
+      "or end before the strength is mobilised.";
   rig.examples = {{"Nc of clay", "--phi-deg 0 --cohesion-pa 5000"},
-                  {"Nq, gated at phi 20 and 30",
+                  {"Nq, with tolerances at phi 20 and 30",
                    "--cohesion-pa 0 --phi-deg 20 --surcharge-pa 2000 --young-pa 4e6 --settlement "
                    "0.08 --speed 0.02 --cell 0.1"}};
   rig.parameters = {
-      {"breadth", 1, "m", "of the strip, 20 cells or more for the gates", above(0)},
+      {"breadth", 1, "m", "of the strip, 20 cells or more for the tolerances", above(0)},
       {"settlement", 0.12, "breadths", "at the end", above(0)},
       {"speed", 0.2, "m/s", "downwards", above(0)},
       {"beside", 2, "breadths", "of soil on either side", at_least(0)},
       {"below", 1.2, "breadths", "of soil", at_least(0)},
-      {"offset", 0.4, "cells", "by which the shell is narrower at either edge", at_least(0)},
+      {"offset", 0.4, "cells", "by which the shell is narrower at each edge", at_least(0)},
       {"surcharge-pa", 0, "Pa", "on the ground beside the footing", at_least(0)},
-      yes_no("weightless", true, "gravity off when there is no surcharge", "gravity as it is")};
+      yes_no("weightless", true, "gravity off when there is no surcharge", "full gravity")};
   rig.default_soil = cohesive(0, 5000);
   rig.default_cell = 0.05;
   rig.experiment = run_footing;
@@ -260,11 +257,10 @@ Rig plate_rig() {
   rig.name = "plate";
   rig.summary = "plate pressed into the ground: pressure against sinkage";
   rig.drawing =
-      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to `sinkage`. "
-      "The curve is "
-      "fitted with p = k z^n. The expected value is Bekker's law with the soil's own parameters: "
-      "what tyres feel on "
-      "resting ground, not a property of the particle law.";
+      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to "
+      "`sinkage`. The curve is fitted with p = k z^n. The expected value is Bekker's law with the "
+      "soil's own parameters, which tyres use on resting ground; it is not a property of the "
+      "particle law.";
   rig.parameters = {{"length", 0.6, "m", "of the plate", above(0)},
                     {"breadth", 0.3, "m", "of the plate", above(0)},
                     {"sinkage", 0.1, "m", "at the end", above(0)},

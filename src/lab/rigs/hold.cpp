@@ -192,19 +192,16 @@ Report run_light(const Setup& setup) {
 Rig hold_rig() {
   Rig rig;
   rig.name = "hold";
-  rig.summary = "a held bucket feels the weight of its resting load";
+  rig.summary = "a held bucket carries the weight of its resting load";
   rig.drawing =
-      "An open box of 1.0 x 0.8 m hangs in the air, tilted by `tilt-deg`, with `mass` of soil laid "
-      "into it, for "
-      "`time`. The force is the mean after the first fifth. With `shell-mass` 0 the box is held "
-      "fast; with more it is "
-      "free and hangs on a servo of `servo-hz` that carries shell and load. `step-share` is the "
-      "step as a share of "
-      "the stable step.";
+      "An open box of 1.0 x 0.8 m, tilted by `tilt-deg` and loaded with `mass` of soil, is held "
+      "in the air for `time`. The force is the mean after the first fifth. With `shell-mass` 0 "
+      "the box is fixed; with more it is free and held by a servo of `servo-hz` that carries "
+      "shell and load. `step-share` is the step as a share of the stable step.";
   rig.parameters = {{"mass", 500, "kg", "of the load", above(0)},
                     {"tilt-deg", 10, "deg", "of the box", at_least(0)},
                     {"time", 10, "s", "held", above(0)},
-                    {"shell-mass", 0, "kg", "of the box; 0: held fast", at_least(0)},
+                    {"shell-mass", 0, "kg", "of the box; 0: fixed", at_least(0)},
                     {"servo-hz", 2, "Hz", "of shell and load", above(0)},
                     {"step-share", 1, "", "of the stable step", above(0)}};
   rig.examples = {{"A load of 1.4 t in a shell of 0.7 t", "--mass 1400 --shell-mass 700"}};
@@ -218,13 +215,11 @@ Rig light_tool_rig() {
   rig.name = "light-tool";
   rig.summary = "a plate lighter than the soil it touches falls on soil and gains no energy";
   rig.drawing =
-      "A square plate of `edge`, tilted by 4 degrees, `mass-ratio` times as heavy as the layer of "
-      "one cell under it, "
-      "falls on a bed from `height` at `speed`. Its kinetic and potential energy must never exceed "
-      "what it started "
-      "with by more than 1 % (one step of gravity before the first contact), and it comes to rest. "
-      "It may stand off by "
-      "half a cell: the gap between its lower face, at its middle, and the nominal ground.";
+      "A square plate of `edge`, tilted by 4 degrees, falls on a bed from `height` at `speed`. It "
+      "is `mass-ratio` times as heavy as the layer of one cell under it. Its kinetic and "
+      "potential energy must never exceed the initial one by more than 1 % (one step of gravity "
+      "before the first contact), and it must come to rest. It may stand off by half a cell: the "
+      "distance between its lower face, at its centre, and the nominal ground.";
   rig.parameters = {
       {"edge", 0.6, "m", "of the plate", above(0)},
       {"mass-ratio", 0.1, "", "mass over that of the soil layer it touches", above(0)},

@@ -174,28 +174,26 @@ Report run(const Setup& setup) {
 Rig pour_rig() {
   Rig rig;
   rig.name = "pour";
-  rig.summary = "angle of repose of a poured heap, and whether it creeps";
+  rig.summary = "angle of repose of a poured heap, and its creep";
   rig.drawing =
-      "A stream of grains, `stream` cells in half width, falls from `drop` cells above the top of "
-      "the heap it makes "
-      "on rough level ground, until the heap would have a base of half width `base` at the angle "
-      "atan(sin phi). Two "
-      "seconds later, and again after `rest`, a line is fitted to the mean flank between 20 and 80 "
-      "% of the height. "
-      "`shape` plane: a heap between smooth plates `gap` cells apart; cone: a free heap. phi is "
-      "the plane-strain "
-      "angle: a cone, being closer to triaxial states, is held against the triaxial angle of "
-      "[Matsuoka 1974]. Gated "
-      "when poured gently, as by default; a faster stream spreads by its momentum.";
+      "A stream of particles, `stream` cells in half width, falls from `drop` cells above the top "
+      "of its heap on rough level ground, until the heap would have a base of half width `base` "
+      "at the angle atan(sin phi). Two seconds later, and again after `rest`, a line is fitted to "
+      "the mean flank between 20 and 80 % of the height. `shape` plane: a heap between smooth "
+      "plates `gap` cells apart; cone: a free heap. phi is the plane-strain angle. A cone is "
+      "closer to triaxial states and is compared with the triaxial angle of [Matsuoka 1974]. "
+      "Tolerances apply to gentle pouring, as by default; a faster stream spreads by its "
+      "momentum.";
   rig.parameters = {
       choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
-      {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
+      {"base", 1.5, "m", "intended half width of the heap", above(0)},
       {"gap", 5, "cells", "between the side plates", above(0)},
       {"stream", 3, "cells", "half width of the stream", above(0)},
       {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
-      {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
+      {"speed", 0.2, "m/s", "of the particles at the mouth", above(0)},
       {"rest", 10, "s", "time at rest", at_least(0)}};
-  rig.examples = {{"A stream that spreads by its momentum, not gated", "--speed 0.8 --drop 4"}};
+  rig.examples = {
+      {"A stream that spreads by its momentum, without tolerance", "--speed 0.8 --drop 4"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

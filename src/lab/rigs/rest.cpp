@@ -114,17 +114,15 @@ Report run(const Setup& setup) {
 Rig rest_rig() {
   Rig rig;
   rig.name = "rest";
-  rig.summary = "level ground at rest: vertical and horizontal stress against the weight above";
+  rig.summary =
+      "level ground at rest: vertical and horizontal stress compared with the weight above";
   rig.drawing =
-      "A square pit, `width` wide and `depth` deep, in resting ground that holds its walls and "
-      "floor. Particles fill "
-      "it up to the surface, with the stress of level ground at rest (`stressed` yes) or without "
-      "any (no: they "
-      "settle). Over the second half of `time` the stress of the middle third is fitted, sigma_z = "
-      "slope x rho g z, "
-      "twelve samples in all: sand at rest rings by a percent or two. The plane-strain cone yields "
-      "under K0 = nu / (1 "
-      "- nu) when phi is below about 32 degrees (nu 0.3): then sigma_x is not K0 sigma_z.";
+      "A square pit, `width` wide and `depth` deep, lies in resting ground that holds its walls "
+      "and floor. Particles fill it up to the surface. They start with the stress of level ground "
+      "at rest (`stressed` yes), or without stress and settle (no). Over the second half of "
+      "`time` the fit sigma_z = slope x rho g z is made for the middle third, in twelve samples, "
+      "as sand at rest rings by a percent or two. Soil yields in plane strain under K0 = nu / (1 "
+      "- nu) if phi is below about 32 degrees (nu 0.3); sigma_x is then not K0 sigma_z.";
   rig.parameters = {
       {"width", 2.8, "m", "edge of the pit", above(0)},
       {"depth", 0.8, "m", "depth of the pit", above(0)},

@@ -105,15 +105,12 @@ Rig shear_box_rig() {
   rig.name = "box";
   rig.summary = "direct shear: tau over sigma at large strain is sin phi";
   rig.drawing =
-      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls are "
-      "resting ground, "
-      "the upper half in a smooth ring with a lid of the same size that rests on it with the "
-      "weight sigma-pa x area, "
-      "free to sink. The ring is moved along x at `speed` by `travel` lengths. tau over sigma is "
-      "the mean horizontal "
-      "force over the weight on the plane between the halves, in the second half of the travel. "
-      "Soil that leaks under "
-      "the ring's rim shows in the sinking of the lid.";
+      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls "
+      "are resting ground. The upper half lies in a smooth ring of the same size with a lid, "
+      "which rests on it with the weight sigma-pa x area and is free to sink. The ring moves "
+      "along x at `speed` by `travel` lengths. tau over sigma is the mean horizontal force over "
+      "the weight on the plane between the halves, in the second half of the travel. Soil that "
+      "leaks under the ring's rim shows as sinking of the lid.";
   rig.parameters = {{"length", 24, "cells", "of the sample", above(0)},
                     {"width", 8, "cells", "of the sample", above(0)},
                     {"height", 4, "cells", "of each half", above(0)},

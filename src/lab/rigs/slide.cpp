@@ -168,12 +168,10 @@ Rig slide_rig() {
       "block on a plane with Coulomb friction: a block of soil on steel, a rigid plate on soil";
   rig.drawing =
       "Gravity is tilted by `tilt-deg`. First a block of strong cohesive soil, 12 x 8 x 5 cells, "
-      "slides on a steel "
-      "plate; then a rigid plate of 12 x 8 cells that weighs `pressure` slides on a bed of the "
-      "same soil, 5 cells "
-      "deep. The friction angle of both is the soil's delta, the shear they bear without push its "
-      "adhesion. The "
-      "acceleration is the slope of the speed in the second half of `time`.";
+      "slides on a steel plate; then a rigid plate of 12 x 8 cells with weight `pressure` slides "
+      "on a bed of the same soil, 5 cells deep. The friction angle of both is the soil's delta, "
+      "the shear without normal force its adhesion. The acceleration is the slope of the speed in "
+      "the second half of `time`.";
   rig.parameters = {{"tilt-deg", 30, "deg", "of gravity", between(0, 90)},
                     {"pressure", 2000, "Pa", "weight of the plate over its area", above(0)},
                     {"time", 0.8, "s", "each", above(0)}};

@@ -158,22 +158,19 @@ Report run(const Setup& setup) {
 Rig slope_rig() {
   Rig rig;
   rig.name = "slope";
-  rig.summary = "long slope of sand: the angle at which it starts to flow, and at which it stops";
+  rig.summary =
+      "long slope of sand: the angle at which it starts to flow, and the one at which it stops";
   rig.drawing =
-      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` cells "
-      "apart, both ends "
-      "free, so that nothing pushes it along but its weight; gravity is tilted. It starts with the "
-      "stress of an "
-      "infinite slope. The mean velocity of the middle third of its length is read after `time`: "
-      "above 0.03 m/s it "
-      "flows. For stopping, 12 degrees more set the bed in motion for a quarter of `time`; then it "
-      "flows on at the "
-      "angle under test when it does not slow down. Both angles are found by `halvings` halvings "
-      "of +-`search` "
-      "degrees around atan(sin phi).";
+      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` "
+      "cells apart. Both ends are free, so that only its weight drives it; gravity is tilted. It "
+      "starts with the stress of an infinite slope. The mean velocity of the middle third of its "
+      "length is read after `time`: the bed flows if it is above 0.03 m/s. For stopping, 12 "
+      "degrees more set the bed in motion for a quarter of `time`; it continues to flow at the "
+      "tested angle if it does not slow down. Both angles are found by `halvings` bisections of "
+      "+-`search` degrees around atan(sin phi).";
   rig.parameters = {
-      {"length", 16, "m", "of the bed; 30 depths keep the collapse of its ends out of the middle",
-       above(0)},
+      {"length", 16, "m",
+       "of the bed; with 30 depths the collapse of its ends does not reach the middle", above(0)},
       {"depth", 0.5, "m", "of the bed", above(0)},
       {"gap", 3, "cells", "between the side plates", above(0)},
       {"time", 1.25, "s", "of each trial", above(0)},

@@ -95,16 +95,12 @@ Report run(const Setup& setup) {
 Rig stand_rig() {
   Rig rig;
   rig.name = "stand";
-  rig.summary =
-      "a body put on the ground stands: how far it sinks, and that it does not go on sinking";
+  rig.summary = "a body on the ground stands: how far it sinks, and that it then stops";
   rig.drawing =
-      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is let go "
-      "`gap` cells above level "
-      "ground, which wakes and goes back to columns by itself. After `settle` it must stand: over "
-      "`time` it neither "
-      "sinks nor drifts by a millimetre. `below-plane` moves the surface from a plane of the grid "
-      "down by a share of "
-      "a cell.";
+      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is released "
+      "`gap` cells above level ground, which becomes particles and returns to columns by itself. "
+      "After `settle` it must stand: over `time` it neither sinks nor drifts by a millimetre. "
+      "`below-plane` lowers the surface from a plane of the grid by a share of a cell.";
   rig.parameters = {
       {"length", 0.6, "m", "of the box", above(0)},
       {"width", 0.6, "m", "of the box", above(0)},
@@ -113,8 +109,8 @@ Rig stand_rig() {
       {"gap", 0.5, "cells", "over the ground at the start", at_least(0)},
       {"tilt-deg", 0, "deg", "about its width, at the start", at_least(0)},
       {"below-plane", 0, "cells", "the surface under a plane of the grid", at_least(0)},
-      {"settle", 10, "s", "before it is watched", at_least(0)},
-      {"time", 60, "s", "watched", above(0)}};
+      {"settle", 10, "s", "before the observation", at_least(0)},
+      {"time", 60, "s", "of observation", above(0)}};
   rig.default_soil = cohesive(28, 5000);
   rig.experiment = run;
   return rig;

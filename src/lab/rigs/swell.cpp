@@ -151,22 +151,19 @@ Rig swell_rig() {
   Rig rig;
   rig.name = "swell";
   rig.summary =
-      "bank soil tipped from a bucket and left to rest: volume of the heap over its bank volume";
+      "bank soil dumped from a bucket and left to rest: volume of the heap over its bank volume";
   rig.drawing =
       "An open box holds a block of undisturbed soil of `volume`, its floor `height` above rough "
-      "level ground. It is "
-      "turned upside down at `turn`, drawn away, and the heap rests for `rest`. Its volume is read "
-      "twice: under the "
-      "surface a ball rolls on over the particles, and as mass times the tracked volume ratio. "
-      "Both are given over "
-      "the bank volume of the particles counted. The number of particles in a cell inside the heap "
-      "says how crowded "
-      "they are.";
+      "level ground. The box is turned upside down at `turn` and removed, and the heap rests for "
+      "`rest`. Its volume is read twice: under the surface on which a ball rolls over the "
+      "particles, and as mass x tracked volume ratio. Both are given over the bank volume of the "
+      "particles counted. The number of particles per cell inside the heap shows how crowded they "
+      "are.";
   rig.examples = {{"Soil without swell must keep its volume", "--swell 1 --cohesion-pa 0"}};
   rig.parameters = {{"volume", 1, "m3", "bank soil in the box", above(0)},
                     {"height", 1.2, "m", "of the box's floor", at_least(0)},
-                    {"turn", 2, "rad/s", "tipping", above(0)},
-                    {"rest", 2, "s", "after the box is gone", at_least(0)}};
+                    {"turn", 2, "rad/s", "of the box when it is dumped", above(0)},
+                    {"rest", 2, "s", "after the box is removed", at_least(0)}};
   rig.default_soil = scene::Soil();
   rig.default_soil.name = "loam";
   rig.experiment = run;

@@ -173,16 +173,13 @@ Report run(const Setup& setup) {
 Rig throw_rig() {
   Rig rig;
   rig.name = "throw";
-  rig.summary = "soil thrown apart in a bin lands in the volume it left";
+  rig.summary = "soil thrown apart in a bin lands in its former volume";
   rig.drawing =
-      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest "
-      "every grain gets a "
-      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up "
-      "to 0.5 m/s aside: "
-      "the soil opens, flies and lands. After the flight and `rest` the volume is read twice: "
-      "under the surface a "
-      "ball rolls on over the particles, and as mass times the tracked volume ratio. Soils with "
-      "swell must land at it.";
+      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at "
+      "rest every particle gets an upward velocity, half of `speed` at the bottom and one and a "
+      "half of it at the top, and up to 0.5 m/s sideways: the soil opens, flies and lands. After "
+      "the flight and `rest` the volume is read twice: under the surface on which a ball rolls "
+      "over the particles, and as mass x tracked volume ratio. Soils with swell must land at it.";
   rig.parameters = {{"edge", 1.2, "m", "of the bin", above(0)},
                     {"height", 0.6, "m", "depth of the soil", above(0)},
                     {"speed", 3, "m/s", "mean velocity of the throw", above(0)},

@@ -136,7 +136,7 @@ Report run_wall(const Setup& setup) {
              "K0 = nu / (1 - nu), elastic rest");
   read_wall(setup, last, share, report);
   if (hold > 0)
-    report.note("force it is held by / force before it stopped", held / last.x(), "",
+    report.note("force after the stop / force before it", held / last.x(), "",
                 "over the last tenth of the hold");
   return finish_blade(site, driver, report);
 }
@@ -146,32 +146,27 @@ Report run_wall(const Setup& setup) {
 Rig wall_rig() {
   Rig rig;
   rig.name = "wall";
-  rig.summary = "retaining wall: active and passive earth pressure against Rankine";
+  rig.summary = "retaining wall: active and passive earth pressure compared with Rankine";
   rig.drawing =
-      "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` "
-      "it moves `travel` "
-      "heights: towards the soil when positive (passive), away when negative (active). Plane "
-      "strain: the wall spans a "
-      "chute of smooth side plates; it comes up to speed over `ramp`. The force at rest is the "
-      "mean of the last third "
-      "of the wait, the other the mean over the last fifth of the travel. With tool friction "
-      "(--delta-deg) the wall is "
-      "rough over its middle two thirds and held against the lower bound of Lancellotta and the "
-      "log spiral of Caquot "
-      "and Kerisel; planar wedges are upper bounds and stand beside them. With --hold it then "
-      "stands, and what the "
-      "soil "
-      "keeps of its force is told.";
+      "An upright wall of `height` retains level soil, which continues under its toe. After "
+      "`wait` it moves by `travel` heights: towards the soil if positive (passive), away if "
+      "negative (active). Plane strain: the wall spans a chute of smooth side plates; it "
+      "accelerates over `ramp`. The force at rest is the mean of the last third of the wait, the "
+      "other the mean over the last fifth of the travel. With tool friction (--delta-deg) the "
+      "wall is rough over its middle two thirds and compared with the lower bound of Lancellotta "
+      "and the log spiral of Caquot and Kerisel; planar wedges are upper bounds and listed for "
+      "comparison. With --hold the wall then stands still, and the report gives the remaining "
+      "force.";
   rig.examples = {{"Active pressure", "--travel -0.03"},
                   {"Passive pressure at two speeds", "--speed 0.05,0.2"},
-                  {"What soil keeps of it when the wall stops", "--hold 0.5,1,2"}};
+                  {"Remaining force after the wall stops", "--hold 0.5,1,2"}};
   rig.parameters = {
       {"height", 1, "m", "of the wall", above(0)},
       {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
-      {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
-      {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
+      {"speed", 0, "m/s", "of the wall; 0: 0.1 passive, 0.01 active", at_least(0)},
+      {"ramp", 0.015, "m", "of travel over which it accelerates; 0: at once", at_least(0)},
       {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
-      {"hold", 0, "s", "that it stands after the travel; the force at its end is told",
+      {"hold", 0, "s", "standing still after the travel; the force at its end is reported",
        at_least(0)},
       {"ahead", 3, "heights", "of soil in front", at_least(0)},
       {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
@@ -181,7 +176,7 @@ Rig wall_rig() {
   // At 1 MPa a passive wall needs a travel of more than a fifth of its height.
   rig.default_soil.young_modulus = 4e6;
   rig.headline = {"passive force", "active force", "coefficient", "force at rest",
-                  "force it is held by / force before it stopped"};
+                  "force after the stop / force before it"};
   rig.experiment = run_wall;
   return rig;
 }

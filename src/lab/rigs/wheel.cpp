@@ -273,29 +273,24 @@ Report run(const Setup& setup) {
 Rig wheel_rig() {
   Rig rig;
   rig.name = "wheel";
-  rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
+  rig.summary = "one wheel at a prescribed slip: drawbar pull, sinkage, torque";
   rig.drawing =
-      "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears "
-      "`load-n`, then goes "
-      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster "
-      "than it goes, -0.2 is "
-      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a "
-      "single-wheel test bed; a "
-      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are "
-      "means from `from` to "
-      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them "
-      "stands what Bekker's "
-      "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not "
-      "follow; those of "
-      "the default soil were measured on its sand. Contact begins up to a cell before the shell; "
-      "`offset` makes up "
-      "for it. With `law` those formulas are all that is measured, in no time, at a slip angle and "
-      "with grousers too.";
+      "A smooth closed wheel of `radius` and `width` is lowered on level soil until the soil "
+      "carries `load-n`. It then moves ahead at `speed` and turns at a prescribed slip: 0 rolls, "
+      "0.2 turns a quarter faster than it moves, -0.2 brakes, -1 is locked. It is free to sink; "
+      "its path and rotation are driven, as in a single-wheel test bed, and a damper carries a "
+      "tenth of the load at a sinking speed of 0.05 m/s. Pull, sinkage and torque are means from "
+      "`from` to `travel`; sinkage is that of the rim's lowest point below the level ground. For "
+      "comparison the report lists the laws of Bekker and Janosi over the arc with the soil's own "
+      "parameters, which the particles do not use; those of the default soil were measured on its "
+      "sand. Contact begins up to a cell before the shell; `offset` compensates for it. With "
+      "`law` only those formulas are evaluated, without simulated time, also at a slip angle and "
+      "with grousers.";
   rig.parameters = {
       {"radius", 0.0625, "m", "of the wheel, 4 cells or more", above(0)},
       {"width", 0.06, "m", "of the wheel, 2 cells or more", above(0)},
       {"load-n", 24.6, "N", "on the axle, the wheel's own weight included", above(0)},
-      {"slip", 0.2, "", "that is kept: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked",
+      {"slip", 0.2, "", "prescribed: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked",
        between(-1, 0.95)},
       {"speed", 0.2, "m/s", "of the axle", above(0)},
       {"travel", 0.25, "m", "of the axle", above(0)},
@@ -305,16 +300,16 @@ Rig wheel_rig() {
        at_least(0)},
       {"beside", 1.6, "radii", "of soil on either side", at_least(0)},
       {"below", 2.2, "radii", "of soil", at_least(0)},
-      {"slip-angle-deg", 0, "deg", "between way and wheel, by the law only", between(0, 80)},
-      {"grouser", 0, "m", "height of bars on the rim, by the law only; 0 is smooth", at_least(0)},
+      {"slip-angle-deg", 0, "deg", "between path and wheel, for the law only", between(0, 80)},
+      {"grouser", 0, "m", "height of bars on the rim, for the law only; 0 is smooth", at_least(0)},
       {"slip-sinkage", 1, "",
-       "coefficient of the law's sinkage by slip: 1 as [Lyasko 2010] has it, 0 none",
-       between(0, 3)},
-      yes_no("law", false, "the law alone, without particles", "particles, the law beside them")};
+       "coefficient of the law's sinkage by slip: 1 as in [Lyasko 2010], 0 none", between(0, 3)},
+      yes_no("law", false, "the law alone, without particles",
+             "particles, with the law for comparison")};
   rig.examples = {{"A wheel on a soil whose plate curve is known",
                    "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set "
                    "janosi_k_m=0.021"}};
-  rig.examples.push_back({"Pull against slip by the law, a wheel with grousers that goes askew",
+  rig.examples.push_back({"Pull against slip by the law, a wheel with grousers at a slip angle",
                           "--law yes --slip 0,0.1,0.2,0.4,0.6 --grouser 0.005 --slip-angle-deg 5"});
   rig.default_soil = wheel_bed_sand();
   rig.default_cell = 0.01;
