@@ -305,11 +305,10 @@ Report run_cycle(const Setup& setup) {
   double ledger = 0, sum = 0;
   for (int i = 0; i < count; ++i) {
     // Each dig begins where the last one left the floor, deeper by the step.
-    const Pose start =
+    const Pose above_hole =
         make_pose(0, 0.07 * setup.cell, 0.02 - i * setup["step-down"], 0, scoop.attack, 0);
     // Placed there instead of moved: the way back would cost time and touch nothing.
-    // In the air over the hole.
-    site.tool(driver.tool()).motion.X_WT = start;
+    site.tool(driver.tool()).motion.X_WT = above_hole;
     forces.values.push_back(scoop.fill(driver));
     driver.advance(1.0 + i * setup["step-down"], Vec3(0, 0, 1));
     driver.set_twist(Vec3::Zero());
