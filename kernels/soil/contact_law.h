@@ -17,9 +17,7 @@ typedef struct Reach {
 } Reach;
 #undef REACH_SCALAR
 
-INLINED scalar contact_unit(scalar x) {
-  return fmin(fmax(x, 0.0f), 1.0f);
-}
+INLINED scalar contact_unit(scalar x) { return fmin(fmax(x, 0.0f), 1.0f); }
 
 // Returns the weight of a node along the plate by its distance from the free edge: 0 at the edge, 1
 // inside.
@@ -52,8 +50,11 @@ INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
 // nodes at the soil's own surface are half empty, too. The square lets a plate fall through nodes
 // that carry hardly any load and settle onto those that carry almost all of it.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
-  const scalar under = fmax(down, 0.0f), full = contact_unit(SCHEME(contact_full) * fill), near = contact_near(clearance, r);
-  const scalar no_clearance = full * (1.0f - under) + contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
+  const scalar under = fmax(down, 0.0f), full = contact_unit(SCHEME(contact_full) * fill),
+               near = contact_near(clearance, r);
+  const scalar no_clearance =
+      full * (1.0f - under) +
+      contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
   const scalar holds = near + (1.0f - near) * no_clearance;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
@@ -85,7 +86,9 @@ INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * SCHEME(co
 // Returns what adhesion [Pa] on the area of a node adds to the largest shear impulse mu x push
 // [N s]. Adhesion acts in shear only and ends with the contact: soil on tools carries no tension
 // [docs/tools.md, adhesion].
-INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) { return adhesion * area * r->patch; }
+INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) {
+  return adhesion * area * r->patch;
+}
 
 // One side of one node.
 typedef struct ContactNode {
@@ -112,8 +115,8 @@ typedef struct ContactBranch {
 // Speeds are relative to the resting ground. A partly covered node falls behind a plate that
 // advances, by the share that the plate does not cover. It settles slowly towards a plate that
 // stands or recedes, which still carries its whole load.
-INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
-                                ContactBranch* branch) {
+INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed,
+                                scalar opening, ContactBranch* branch) {
   const scalar3 plate = speed + cross(spin, node->r);
   const scalar3 rel = node->v - plate;
   const scalar leaves = dot(rel, node->n), advance = dot(plate, node->n);

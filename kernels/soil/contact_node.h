@@ -15,8 +15,9 @@ static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4);
 
 // Loads field s (0 front, 1 back) of one near node. Returns false when the node has no contact.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
-                             global const float4* field, global const int* split, global const int* node_tool,
-                             global const NodeShell* shell, global const ContactSoil* surface, global const Tool* tools,
+                             global const float4* field, global const int* split,
+                             global const int* node_tool, global const NodeShell* shell,
+                             global const ContactSoil* surface, global const Tool* tools,
                              int only) {
   if (split[i] == 0) return false;
   const float4 v = field[i];
@@ -31,7 +32,8 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float free_fraction = fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
+  const float free_fraction =
+      fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * free_fraction);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
@@ -45,18 +47,19 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 }
 
 #define BLOCK_ARGS global const int* restrict near_list, global const int4* restrict keys
-#define NODE_ARGS                                                                                                 \
-  global const float4 *restrict before0, global const float4 *restrict before1, global const int *restrict split, \
-      global const int *restrict node_tool, global const NodeShell *restrict shell,                               \
-      global const ContactSoil *restrict surface, global const Tool *restrict tools, const int only,                  \
-      const Reach reach, const float dx
+#define NODE_ARGS                                                                         \
+  global const float4 *restrict before0, global const float4 *restrict before1,           \
+      global const int *restrict split, global const int *restrict node_tool,             \
+      global const NodeShell *restrict shell, global const ContactSoil *restrict surface, \
+      global const Tool *restrict tools, const int only, const Reach reach, const float dx
 #define NODE_SAME before0, before1, split, node_tool, shell, surface, tools, only, reach, dx
-#define LOAD_NODE(node)                                                                                          \
-  load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, \
-            surface, tools, only)
+#define LOAD_NODE(node)                                                                      \
+  load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, \
+            node_tool, shell, surface, tools, only)
 
 // Initial value of the sums.
-#define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
+#define NO_SUMS \
+  { {0.0f}, {0.0f}, 0.0f }
 
 // Adds field s of node n of near block `near` to the sums: the wrench of its impulse J (moment
 // about the tool's origin, force) and the matrix G^T m P G. P is the part of the plate's velocity
@@ -68,8 +71,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   if (!LOAD_NODE(&node)) return;
   global const Tool* tool = tools + node_tool[i];
   ContactBranch branch;
-  const float3 j =
-      contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
+  const float3 j = contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist),
+                                   reach.opening, &branch);
   if (!branch.acts) return;
   const float3 l = cross(node.r, j);
   sums->wrench[0] += l.x;
@@ -80,7 +83,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   sums->wrench[5] += j.z;
   // Three axes when the contact sticks, which also cover the normal, and a correction along the
   // normal. Each adds m p g g^T with g = (r x d, d) and the part p that is passed on.
-  const float along_normal = (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
+  const float along_normal =
+      (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
     if (a == 3 && along_normal == 0.0f) continue;
     const float3 d = a == 3 ? node.n : (float3)(a == 0, a == 1, a == 2);
@@ -133,7 +137,8 @@ typedef struct NodeResult {
   int changed;
 } NodeResult;
 
-static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground, NODE_ARGS) {
+static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground,
+                                       NODE_ARGS) {
   const int i = near_node(near, n);
   const float z = (float)(n >> 4);
   const bool held = z <= ground->held[n & 15];
@@ -148,8 +153,8 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     if (LOAD_NODE(&node)) {
       global const Tool* tool = tools + node_tool[i];
       ContactBranch branch;
-      const float3 j =
-          contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
+      const float3 j = contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist),
+                                       reach.opening, &branch);
       if (branch.acts) {
         after = (float4)(v.xyz + j / node.m, dot(j, node.n));
         out.changed = 1;
@@ -160,7 +165,9 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     // Mass per free volume beside ground and plate.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float free_fraction = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
+    const float free_fraction = v.w == 0.0f     ? 1.0f
+                                : split[i] == 0 ? free_fraction_above(below)
+                                                : free_fraction_between(below, beside);
     out.seen[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / free_fraction);
   }
   return out;

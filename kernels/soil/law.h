@@ -57,7 +57,8 @@ typedef struct LawState {
 // Newton steps from 1, of which the first is written out. 2 / sqrt(27) bounds the invariant.
 INLINED real lode_radius(real determinant, real q, real sin_phi) {
   const real safe = fmax(q, (scalar)(1e-3));
-  const real invariant = fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
+  const real invariant =
+      fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
   const real a = 0.5f * sin_phi * (3.0f - sin_phi * sin_phi) * invariant;
   real r = 1.0f + a / (2.0f - 3.0f * a);
   for (int newton = 0; newton < 2; ++newton)
@@ -67,7 +68,8 @@ INLINED real lode_radius(real determinant, real q, real sin_phi) {
 
 // Advances the state by dt [s] under the velocity gradient c [1/s]. sigma [Pa]: stress that the
 // grid feels, with pressure and viscosity, in the order of state->s. Positive in tension.
-INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state, real* sigma) {
+INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state,
+                        real* sigma) {
   const real* s = state->s;
   real j = state->j, j0 = state->j0;
   const real trace = c[0] + c[4] + c[8];
@@ -95,7 +97,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // One Newton step towards the density state that carries the pressure. Loosened soil carries
   // little until it is dense again [docs/soil.md, compaction].
   const real line = 1.0f + soil->cap_growth * (1.0f - j0);
-  const real over = fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
+  const real over =
+      fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
   const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
   j0 = fmax(j0 - over / slope, fmin(j0, SCHEME(min_density_state)));
 #endif
@@ -120,9 +123,11 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real sin_phi = soil->alpha;
 #endif
   const real q = sqrt(0.5f * (xx * xx + yy * yy + zz * zz) + (xy * xy + yz * yz + xz * xz));
-  const real determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-  real strength = lode_radius(determinant, q, sin_phi) *
-                  (1.0f + soil->static_share * fmax(1.0f - rate * SCHEME(static_friction_time), 0.0f));
+  const real determinant =
+      xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  real strength =
+      lode_radius(determinant, q, sin_phi) *
+      (1.0f + soil->static_share * fmax(1.0f - rate * SCHEME(static_friction_time), 0.0f));
 #ifdef LAW_EXTENDED
   strength = strength * (1.0f + soil->matched * dense);
 #endif

@@ -74,7 +74,8 @@ typedef struct Report {
 } Report;
 
 #ifdef __cplusplus
-static_assert(sizeof(ParticleBlock) == 16 && offsetof(ParticleBlock, tile) == 8 && offsetof(ParticleBlock, near) == 12);
+static_assert(sizeof(ParticleBlock) == 16 && offsetof(ParticleBlock, tile) == 8 &&
+              offsetof(ParticleBlock, near) == 12);
 static_assert(sizeof(BlockFloor) == 320 && offsetof(BlockFloor, around) == 64);
 static_assert(sizeof(ContactSoil) == 16 && offsetof(ContactSoil, inv_density) == 8);
 static_assert(sizeof(Report) == 16 && offsetof(Report, push) == 8);

@@ -24,10 +24,13 @@ INLINED columns kernel_share(columns t) {
 // negative), on its side of a plate at distance `beside` [cells]. At least
 // SCHEME(min_free_fraction).
 INLINED scalar free_fraction_between(columns below, scalar beside) {
-  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))), SCHEME(min_free_fraction));
+  return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))),
+              SCHEME(min_free_fraction));
 }
 
-INLINED scalar free_fraction_above(columns below) { return all(below >= 1.5f) ? 1.0f : free_fraction_between(below, 1.5f); }
+INLINED scalar free_fraction_above(columns below) {
+  return all(below >= 1.5f) ? 1.0f : free_fraction_between(below, 1.5f);
+}
 
 // 1 / m [1/kg] of a node, or of several nodes at once; 0 for a node lighter than a mass quantum,
 // which is empty. The velocity after gravity is p INVERSE_MASS(m) + g dt where m > MASS_QUANTUM.

@@ -44,7 +44,8 @@
 // Index of a field: field f of slot i is word f * capacity + i. Three integer words follow the
 // floats.
 #define FIELD_ONE(NAME, member, rest) FIELD_##NAME,
-#define FIELD_MANY(NAME, member, count, rest) FIELD_##NAME, FIELD_##NAME##_LAST = FIELD_##NAME + (count)-1,
+#define FIELD_MANY(NAME, member, count, rest) \
+  FIELD_##NAME, FIELD_##NAME##_LAST = FIELD_##NAME + (count)-1,
 enum {
   FLOAT_FIELDS(FIELD_ONE, FIELD_MANY)  //
   // int, mass quanta.

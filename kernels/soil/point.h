@@ -31,7 +31,9 @@ INLINED ints tile_of(ints side) { return side > 0 ? 2 - (side & 1) : 0; }
 // Opening is a property of the cell, not of one particle [docs/soil.md, mixing]. If half the
 // particles of a cell are open and half closed, the closed ones alone would carry a heap and it
 // would rest too loose.
-INLINED real mean_opening(real volume, real bank, real open) { return open > 0.0f ? volume / fmax(bank, 1.0f) : 0.0f; }
+INLINED real mean_opening(real volume, real bank, real open) {
+  return open > 0.0f ? volume / fmax(bank, 1.0f) : 0.0f;
+}
 
 // Returns J of a particle that relaxes by the share `mixing` towards the opening of its cell. An
 // opening of 0 leaves it unchanged.
@@ -51,8 +53,8 @@ INLINED real strain_rate(const real* c) {
 // mixing: dt / mixing strain [s], a share when multiplied by the strain rate. most_mixing: largest
 // share in a step [-]. Mixing follows strain, so that the soil of a slow tool, or soil at rest
 // under stress, is not mixed longer.
-INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening, scalar mixing,
-                           scalar most_mixing, LawState* state, real* sigma) {
+INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening,
+                           scalar mixing, scalar most_mixing, LawState* state, real* sigma) {
   const real before = state->j;
   state->j = mixed(before, state->j0, opening, fmin(mixing * strain_rate(c), most_mixing));
   law_update(c, dt, soil, state, sigma);
@@ -66,9 +68,11 @@ INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real o
 // [Hu 2018]. bank = mass / bank density [m3], f = offset from the base node [cells]. In a held step
 // the nodes still have their momentum: `carried` is 0 and only the stress adds to it; otherwise it
 // is 1.
-INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f, real mass, real bank,
-                             real j, scalar carried, scalar dt, scalar dx, real* start, real* a) {
-  const real carried_mass = carried * mass, cm = carried_mass * dx, sv = (4.0f * dt / dx) * bank * j;
+INLINED void affine_momentum(const real* c, const real* sigma, const real* v, const real* f,
+                             real mass, real bank, real j, scalar carried, scalar dt, scalar dx,
+                             real* start, real* a) {
+  const real carried_mass = carried * mass, cm = carried_mass * dx,
+             sv = (4.0f * dt / dx) * bank * j;
   a[0] = cm * c[0] - sv * sigma[0];
   a[1] = cm * c[1] - sv * sigma[3];
   a[2] = cm * c[2] - sv * sigma[5];
@@ -86,7 +90,9 @@ INLINED void affine_momentum(const real* c, const real* sigma, const real* v, co
 // Returns a component of C = 4/dx^2 sum w v (x_i - x_p)^T [1/s] from a component of the gathered
 // velocity v, its first moment about the base node along one axis [m/s x cells], and the offset f
 // along that axis.
-INLINED real velocity_gradient(real moment, real f, real v, scalar dx) { return (4.0f / dx) * (moment - f * v); }
+INLINED real velocity_gradient(real moment, real f, real v, scalar dx) {
+  return (4.0f / dx) * (moment - f * v);
+}
 
 // Returns the share of the separating displacement that a particle makes where soil is crowded, 0
 // elsewhere. J is integrated and cannot see particles crowd; the nodes can

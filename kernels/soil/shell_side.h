@@ -8,8 +8,8 @@
 
 // Finds the signed distance phi [cells] and the normal of one point from its closest feature. The
 // normal always points to the front of the plate. Returns false without a feature.
-static inline bool resolve(global const ShellTriangle* triangles, int feature, float3 away, float distance2, float* phi,
-                           float3* normal, bool* rim) {
+static inline bool resolve(global const ShellTriangle* triangles, int feature, float3 away,
+                           float distance2, float* phi, float3* normal, bool* rim) {
   if (feature < 0) return false;
   global const ShellTriangle* triangle = triangles + (feature >> 3);
   global const ShellFeature* closest = triangle->feature + (feature & 7);
@@ -48,9 +48,10 @@ typedef struct SideResult {
 // particle that has sunk into the plate returns to its surface. A particle that seems farther
 // behind than possible (contact_max_depth) has come to another plate of the tool, which shows its
 // other face to it (plates that meet in a T). It keeps its position.
-static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
-                                   float band, float longest_push, global const ShellTriangle* triangles,
-                                   global const Tool* tools) {
+static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature,
+                                      float distance2, float3 closest, float band,
+                                      float longest_push, global const ShellTriangle* triangles,
+                                      global const Tool* tools) {
   SideResult out = {x, 0, 0.0f, 0};
   float phi = 0.0f;
   float3 normal = (float3)(0.0f);

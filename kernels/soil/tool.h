@@ -138,7 +138,8 @@ typedef struct ContactSums {
 static_assert(sizeof(ContactReach) == 44);
 static_assert(sizeof(Tool) == 232 && offsetof(Tool, origin) == 16 && offsetof(Tool, twist) == 32 &&
               offsetof(Tool, inverse_mass) == 80 && offsetof(Tool, adhesion) == 228);
-static_assert(sizeof(ShellFeature) == 16 && sizeof(ShellTriangle) == 160 && offsetof(ShellTriangle, feature) == 48);
+static_assert(sizeof(ShellFeature) == 16 && sizeof(ShellTriangle) == 160 &&
+              offsetof(ShellTriangle, feature) == 48);
 static_assert(sizeof(ShellRim) == 32 && offsetof(ShellRim, along) == 16);
 static_assert(sizeof(NodeShell) == 32 && offsetof(NodeShell, inset) == 16);
 static_assert(sizeof(ContactRecord) == 32 && offsetof(ContactRecord, after) == 16);

@@ -16,6 +16,7 @@ struct Timing {
   double median = 0;
   /// (slowest - best) / best.
   double spread = 0;
+  /// Number of runs.
   int runs = 0;
   /// Least processor time of a run, over all threads of this program [s].
   double processor = 0;
@@ -33,9 +34,11 @@ struct Peak {
 struct Row {
   /// Name, with the size after a colon where one name has several.
   std::string bench;
-  /// Or elements.
+  /// Number of particles or elements.
   std::uint64_t particles = 0;
+  /// Steps of one run.
   std::uint64_t steps = 0;
+  /// Times of the runs.
   Timing timing;
   /// Least time of the device's kernels alone in a run, by its own clock [s].
   double kernels = 0;
@@ -49,7 +52,7 @@ struct Row {
   std::string hash;
   /// Edge of the square site [m], where it matters.
   double site = 0;
-  /// From DeviceInfo.
+  /// Texts of DeviceInfo.
   std::string device, driver;
   /// Peak rates of the device, for the shares.
   Peak peak;

@@ -19,9 +19,11 @@ namespace navvy::bench {
 struct SoilCase {
   /// With its size after a colon.
   std::string name;
+  /// Description for `navvy bench --list`.
   std::string help;
   /// Takes a few seconds on two cores.
   bool quick = false;
+  /// Runs the case on a device.
   std::function<Row(device::Device&)> run;
 };
 

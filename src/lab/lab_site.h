@@ -21,6 +21,7 @@ namespace navvy::lab {
 /// Axis-parallel box in W [m].
 struct SiteBox {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+  /// Returns true for a point inside or on the low faces.
   bool contains(const Vec3& p) const {
     return (p.array() >= low.array()).all() && (p.array() < high.array()).all();
   }
@@ -102,7 +103,9 @@ class Site {
   heightfield::Ground& ground() { return ground_; }
   const heightfield::Ground& ground() const { return ground_; }
   const scene::Scene& world() const { return world_; }
+  /// Returns a soil of the site.
   const scene::Soil& soil(std::size_t index = 0) const { return world_.soils[index]; }
+  /// Returns the edge of a cell [m].
   double cell() const { return world_.solver.cell; }
   /// Simulated time [s].
   double time() const { return time_; }
@@ -153,6 +156,7 @@ class Site {
   void finish(Report& report) const;
 
  private:
+  /// Creates the solver with all tools added so far.
   void make_solver();
   /// Applies weight and external forces, before the soil.
   void push_tool(Tool& tool, double dt) const;
@@ -164,7 +168,7 @@ class Site {
   heightfield::Ground ground_;
   bool crowding_, energy_;
   soil::SchemeConstants scheme_;
-  /// Of solvers that were replaced.
+  /// Account of solvers that were replaced.
   soil::EnergyAccount energy_before_;
   std::unique_ptr<soil::Solver> solver_;
   std::vector<scene::Shell> shells_;

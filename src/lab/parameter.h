@@ -14,7 +14,9 @@ namespace navvy::lab {
 
 /// Range of a parameter. Only finite numbers lie in any range.
 struct ParameterRange {
+  /// Lower end.
   double least = -std::numeric_limits<double>::infinity();
+  /// Upper end.
   double most = std::numeric_limits<double>::infinity();
   /// `least` itself is excluded.
   bool open_least = false;
@@ -23,6 +25,7 @@ struct ParameterRange {
   /// Whole numbers only: a count.
   bool whole = false;
 
+  /// Returns true if the value is allowed.
   bool contains(double value) const;
   /// Returns the rule in words, "above 0" or "15 .. 150"; "a finite number" without limits.
   std::string text() const;
@@ -41,7 +44,7 @@ ParameterRange count_from(int least);
 
 /// One of the variants of a rig.
 struct Choice {
-  /// As on the command line.
+  /// Text on the command line.
   std::string word;
   /// Value in the setup; the command line accepts it, too.
   double number = 0;
@@ -50,7 +53,7 @@ struct Choice {
 
 /// One number of a rig, not of its soil. SI units unless `unit` says otherwise.
 struct Parameter {
-  /// As on the command line, words joined by '-'.
+  /// Text on the command line, words joined by '-'.
   std::string name;
   /// Default.
   double value = 0;
@@ -65,6 +68,7 @@ struct Parameter {
   /// Former name, which the command line reads with a warning for one release; "" without one.
   std::string former = {};
 
+  /// Returns true if the value is in the range, or one of the choices.
   bool allows(double value) const;
   /// Returns the allowed values for help and errors: "above 0 m", "plane or round".
   std::string rule() const;

@@ -20,7 +20,9 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// tolerance; kNone where there is none. Units are those that a reader wants (mm, deg, %), spelled
 /// out in `unit`.
 struct Quantity {
+  /// Name of the quantity.
   std::string name;
+  /// Measured value.
   double measured = kNone;
   /// "" for a pure number.
   std::string unit;
@@ -35,6 +37,7 @@ struct Quantity {
   /// This setup is within the validity.
   bool in_range = true;
 
+  /// Returns true if `low` or `high` is given.
   bool has_tolerance() const;
   /// Returns true if the tolerance applies to this setup.
   bool judged() const { return has_tolerance() && in_range; }
@@ -47,22 +50,25 @@ struct Quantity {
 /// A recorded curve. Series of one report have one length unless their names say otherwise.
 struct Series {
   std::string name, unit;
+  /// Samples, in order.
   std::vector<double> values;
 };
 
 /// All results of one experiment. A rig that runs several beds in sequence sums their steps and
 /// times.
 struct Report {
-  /// In the order in which a reader wants them.
+  /// Results in the order in which a reader wants them.
   std::vector<Quantity> results;
   std::vector<Series> series;
+  /// Largest number of particles.
   int particles_peak = 0;
+  /// Steps of all beds.
   std::uint64_t steps = 0;
   /// [s].
   double simulated_time = 0, wall_time = 0;
   /// [kMassQuantum]; 0 = mass closed.
   std::int64_t ledger_error = 0;
-  /// Of all beds, if the setup asks for it.
+  /// Energy account of all beds, if the setup asks for it.
   std::optional<soil::EnergyAccount> energy;
   /// Hash of the soil at the end, repeatable on one device.
   std::string state_hash;

@@ -25,11 +25,13 @@ struct Rig;
 struct Setup {
   /// Rig whose parameters these are.
   const Rig* rig = nullptr;
+  /// Device to run on.
   device::Device* device = nullptr;
+  /// Soil of the experiment.
   scene::Soil soil;
   /// Edge of a cell [m].
   double cell = 0.1;
-  /// By Parameter::name.
+  /// Values by Parameter::name.
   std::map<std::string, double> geometry;
   /// Constants of the particle method; defaults unless an experiment changes one.
   soil::SchemeConstants scheme;
@@ -50,6 +52,7 @@ struct Setup {
 
 /// A notable way to run a rig, mostly one published experiment.
 struct Example {
+  /// Description in one line.
   std::string what;
   /// Arguments of `navvy lab RIG`.
   std::string arguments;

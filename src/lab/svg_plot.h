@@ -15,13 +15,15 @@ namespace navvy::lab {
 struct PlotLine {
   /// Name in the legend.
   std::string name;
-  /// Of equal length, in the order in which points are joined.
+  /// Coordinates, of equal length, in the order in which points are joined.
   std::vector<double> x, y;
 };
 
 /// Contents of a chart. Labels include units.
 struct Plot {
+  /// Texts of the chart.
   std::string title, x_label, y_label;
+  /// Lines, in the order of the legend.
   std::vector<PlotLine> lines;
   /// Heights of dashed lines.
   std::vector<double> expected;

@@ -17,17 +17,21 @@ namespace navvy::lab {
 
 /// One varied quantity.
 struct SweepAxis {
-  /// As on the command line; "" for a pure number.
+  /// Texts as on the command line; "" for a pure number.
   std::string name, unit;
+  /// Values, in the order of the command line.
   std::vector<double> values;
 };
 
 /// One run and its values, in the order of the axes.
 struct SweepRun {
+  /// One value per axis.
   std::vector<double> at;
+  /// Results of the run.
   Report report;
 };
 
+/// All axes and runs of a sweep.
 struct Sweep {
   std::vector<SweepAxis> axes;
   std::vector<SweepRun> runs;

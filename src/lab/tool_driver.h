@@ -10,7 +10,7 @@ namespace navvy::lab {
 
 /// Forces on a tool, one entry per step; all four have one length. Vectors in W.
 struct Trace {
-  /// At the end of the step [s].
+  /// Time at the end of the step [s].
   std::vector<double> time;
   /// Path length of the frame's origin since the driver was created [m].
   std::vector<double> travel;
@@ -30,6 +30,7 @@ class ToolDriver {
   Site& site() { return *site_; }
   /// Returns its number in the site.
   int tool() const { return tool_; }
+  /// Returns the present pose of the shell.
   const Pose& pose() const;
   /// Sets the twist until the next call; w turns about the frame's origin [m/s], [rad/s].
   void set_twist(const Vec3& v_W, const Vec3& w_W = Vec3::Zero());
@@ -50,6 +51,7 @@ class ToolDriver {
   /// the soil. Returns the mean force of the whole [N].
   Vec3 start(double distance, const Vec3& v_W, double ramp);
 
+  /// Returns the forces recorded so far.
   const Trace& trace() const { return trace_; }
   /// Adds time, travel and the components of the force (low-passed when `cutoff` [Hz] > 0) to the
   /// report's series.

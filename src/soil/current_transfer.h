@@ -29,7 +29,9 @@ class CurrentTransfer {
         length_(length),
         max_motion_(max_motion) {}
 
+  /// Returns the longest time of a transfer [s].
   double length() const { return length_; }
+  /// Returns the longest displacement in a transfer [cells].
   double max_motion() const { return max_motion_; }
   /// Returns true when a step of dt [s] may belong to it. `tool_speed` in m/s, `gravity` in m/s2.
   bool holds(double dt, double cell, double tool_speed, double gravity) const {
@@ -43,11 +45,13 @@ class CurrentTransfer {
   /// the longest displacement [cells], 0 when no transfer is under way.
   double end();
 
+  /// Visits the interval and, while a transfer is under way, the velocities of its nodes.
   void visit(Archive& a);
   /// Puts the loaded velocities onto the nodes, once the lists of blocks are made.
   void restore(Archive& a);
 
  private:
+  /// Visits the velocities of the front and the back fields.
   void visit_nodes(Archive& a);
 
   ParticleStore& store_;

@@ -35,7 +35,9 @@ struct EnergyAccount {
   /// Potential energy gained by separating crowded particles; no force does that work.
   double apart = 0;
 
+  /// Returns the energy that came in [J].
   double supplied() const { return tools + gravity + exchanged; }
+  /// Returns the energy that was spent [J].
   double dissipated() const { return plastic + viscous + contact + transfer + mixing; }
   /// Returns what the sums do not explain: stresses and velocities of a step belong to different
   /// moments.

@@ -19,6 +19,7 @@
 
 namespace navvy::soil {
 
+/// Energy account of one solver. Energies are sums in doubles, in a fixed order.
 class EnergyLedger {
  public:
   EnergyLedger(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,
@@ -32,9 +33,11 @@ class EnergyLedger {
                 bool hold, std::span<const ToolMotion> motions,
                 std::span<const ToolImpulse> impulses);
 
+  /// Returns the sums since the account was opened.
   const EnergyAccount& account() const { return account_; }
 
  private:
+  /// Mass and velocity of a node field, during and after the scatter.
   struct Node {
     double mass = 0;
     /// Momentum while it is summed, then velocity [m/s].
@@ -49,16 +52,23 @@ class EnergyLedger {
     }
     int bits(int field, std::size_t slot) const;
   };
+  /// Copies the words of all particles from the device; waits.
   static Words words_of(const ParticleStore& store);
   template <class Visit>
   static void for_particles(const ParticleStore& store, const Visit& visit);
+  /// Returns the kinetic energy of the particles, with that of their velocity gradients [J].
   double moving_energy(const ParticleStore& store, const Words& now) const;
+  /// Returns the elastic energy of shear and volume [J].
   double elastic_energy(const ParticleStore& store, const Words& now) const;
+  /// Adds plastic work, viscous work and mixing of a step of dt [s].
   void record_law(const ParticleStore& store, const Words& now, double dt);
+  /// Computes the nodes at the start of a transfer from the state before it.
   void scatter(const ParticleStore& store, const Words& now, Contact& contact);
+  /// Returns the kinetic energy of the nodes [J].
   double nodes_energy() const;
   /// Returns the velocities of the nodes after the step, and keeps them for the next one.
   std::vector<Vec3> velocities(Transfer& transfer, Contact& contact) const;
+  /// Adds the work of tools, and what contact dissipates.
   void record_tools(Contact& contact, const std::vector<Vec3>& after,
                     std::span<const ToolMotion> motions, std::span<const ToolImpulse> impulses);
 

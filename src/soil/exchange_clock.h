@@ -39,6 +39,7 @@ class ExchangeClock {
   /// Makes the next check due at once.
   void hurry() { first_ = true; }
 
+  /// Visits all of it: equal clocks check at the same time.
   void visit(Archive& a) {
     a("since_check", elapsed_);
     a("travel", travel_);

@@ -11,7 +11,9 @@ namespace navvy::soil {
 
 /// One row of kernels/soil/scheme_constants.h.
 struct SchemeConstant {
+  /// Name in the table, without the prefix "scheme.".
   const char* name;
+  /// Member that holds the value.
   double SchemeConstants::*value;
   /// "" for a pure number.
   const char* unit;

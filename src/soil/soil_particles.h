@@ -30,8 +30,10 @@ class SoilParticles {
   SoilParticles(device::Device& device, const std::array<std::int32_t, 4>& site,
                 const std::vector<SoilRow>& soils, int budget);
 
+  /// Returns the particles on the device.
   ParticleStore& store() { return store_; }
   const ParticleStore& store() const { return store_; }
+  /// Returns the number of particles on the device.
   int count() const { return store_.count(); }
 
   /// Returns all particles in stored order.
@@ -48,11 +50,13 @@ class SoilParticles {
   void assign(const std::vector<Particle>& particles);
   /// Sorts the particles into new blocks; returns those that left the site.
   std::vector<Particle> rebin();
+  /// Returns true when particles may leave the margin of their tiles in the next transfer.
   bool rebin_due() const { return drift_ > kMaxDrift; }
   /// Adds a displacement [cells] that particles may have made.
   void add_drift(double cells) { drift_ += cells; }
   /// Returns true while lists of blocks must be made anew.
   bool blocks_changed() const { return blocks_changed_; }
+  /// Notes that all lists are up to date.
   void clear_blocks_changed() { blocks_changed_ = false; }
 
   /// Visits the particles, and whether the next step makes lists anew.

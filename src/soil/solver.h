@@ -42,11 +42,17 @@ struct Ledger {
   std::int64_t error() const;
 };
 
+/// Counters of a run, for progress and telemetry. No step reads them.
 struct SolverStats {
+  /// Steps since the start.
   std::uint64_t steps = 0;
+  /// Sum of the number of particles over all steps.
   std::uint64_t particle_steps = 0;
+  /// Number of particles, now and at most.
   int particles = 0, particles_peak = 0;
+  /// Number of blocks that hold particles.
   int blocks = 0;
+  /// Re-bins, activated columns, deposited blocks.
   std::uint64_t rebins = 0, activations = 0, deposits = 0;
   /// Particles found on the wrong side of a shell, summed over steps.
   std::uint64_t shell_crossings = 0;
@@ -121,7 +127,9 @@ class Solver {
   std::vector<std::uint8_t> held(std::span<const Particle> particles,
                                  std::span<const PlacedTool> tools) const;
 
+  /// Counts the masses of all particles and columns; waits for the device.
   Ledger ledger() const;
+  /// Returns the counters.
   const SolverStats& stats() const;
   /// Returns seconds of wall time by stage name ("particles", "exchange", ...).
   std::vector<std::pair<std::string, double>> stage_times() const;

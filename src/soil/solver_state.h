@@ -31,34 +31,51 @@ struct Solver::State {
   /// Splits a step of dt [s] into equal parts, between which the tools move and yield.
   void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions,
                         std::span<ToolImpulse> impulses);
+  /// Advances by one step of dt [s], which the stability limit allows.
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
   /// Runs the kernels of a step and reads what they give; `hold`: not the first step of a transfer.
   void step_particles(double dt, double tool_speed, bool hold, std::span<const ToolMotion> motions,
                       std::span<ToolImpulse> impulses);
+  /// Queues the kernels of a step.
   void queue(double dt, bool hold);
 
+  /// Checks the exchange between two transfers, if its clock says so.
   void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
+  /// Runs one check of the exchange and applies its result.
   void check_exchange(double dt, std::span<const ToolMotion> motions);
   /// Removes flagged particles (all stay without flags) and adds the new ones with ids.
   void replace(const std::vector<Particle>& all, const std::vector<std::uint8_t>& removed,
                std::vector<Particle> born);
+  /// Ends the current transfer: particles move, and lists may change.
   void end_transfer() { particles.add_drift(current.end()); }
+  /// Sorts particles that drifted far into new blocks.
   void rebin_if_due();
+  /// Updates near lists, tiles and floors for the tools' poses.
   void update_lists(std::span<const ToolMotion> motions);
+  /// Uploads the heights of resting ground where they changed.
   void update_floor();
+  /// Adds particles, with new ids.
   void add(std::vector<Particle> added);
+  /// Replaces all particles on the device and their masses in the ledger.
   void assign(const std::vector<Particle>& all);
+  /// Starts a new energy account.
   void open_energy();
 
+  /// Returns the speed of the fastest vertex of a tool [m/s].
   double tool_speed(const ToolMotion& motion) const;
+  /// Returns the bounding box of a tool in W, and the velocity of its centre.
   ToolRegion region_of(const ToolMotion& motion) const;
+  /// Compares the masses counted on the device with the ledger.
+  /// @throws SimulationError naming the soil when they differ.
   void check_masses();
   /// @throws SimulationError when no step can carry this motion.
   void check_motion(const ToolMotion& motion) const;
   /// Returns "soil step 12, t = 0.02 s: ", the start of every fault.
   std::string here() const;
+  /// Throws the fault of a particle that is too fast or not finite, with its id and position.
   [[noreturn]] void fail(double speed) const;
 
+  /// Visits all parts, in the order of the format.
   void visit(Archive& a);
   /// Makes what follows from the state, after it was loaded.
   void rebuild(Archive& a);

@@ -39,12 +39,16 @@ class StandingTools {
   /// Returns true when a contact ended, so that the exchange must be checked at once.
   bool apply(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
 
+  /// Visits the contacts, one per tool.
   void visit(Archive& a);
 
  private:
+  /// Returns the normal of the ground under a tool: columns, and soil on them.
   Vec3 ground_normal(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
                      std::span<const Particle> all) const;
+  /// Returns the gradient of the plane that fits the ground best in a rectangle of the plan.
   Vec2 ground_gradient(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
+  /// Returns true if a particle lies on the tool, seen along the normal `up`.
   bool soil_on_tool(const scene::Shell& shell, const ToolMotion& motion, const Vec3& up,
                     std::span<const Particle> all) const;
 
@@ -52,7 +56,7 @@ class StandingTools {
   const heightfield::Ground& ground_;
   const GridFrame& frame_;
   const Contact& nodal_contact_;
-  /// By tool.
+  /// Contacts by tool.
   std::vector<RestingContact> contacts_;
 };
 

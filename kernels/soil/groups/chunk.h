@@ -24,7 +24,8 @@ static inline int cell_of(float x, float y, float z) {
 
 // Returns the place of this work-item's particle among the `count` particles of the chunk, by cell,
 // then in stored order. first, counts (zero before): range of each cell's particles.
-static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first, local int* counts) {
+static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first,
+                                 local int* counts) {
   const int me = get_local_id(0);
   int lower = 0, earlier = 0;
   for (int i = 0; i < count; ++i) {
@@ -41,8 +42,8 @@ static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 6
 
 // Adds the momentum and mass that the `count` particles from slot `first` on give to the nine nodes
 // of one layer (0..2 above the base node), x fastest. Counts particles that belong to tile t only.
-static inline void add_layer(local const float* stage, local const int* sides, int first, int count, int t, int layer,
-                             float4* sums) {
+static inline void add_layer(local const float* stage, local const int* sides, int first, int count,
+                             int t, int layer, float4* sums) {
   UNROLL
   for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
   for (int i = first; i < first + count; ++i) {
@@ -52,7 +53,8 @@ static inline void add_layer(local const float* stage, local const int* sides, i
     spline(staged[(STAGED_F + 0) * CHUNK], wx);
     spline(staged[(STAGED_F + 1) * CHUNK], wy);
     spline(staged[(STAGED_F + 2) * CHUNK], wz);
-    const float4 start = (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
+    const float4 start =
+        (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
     const float4 ax = (float4)(staged[3 * CHUNK], staged[4 * CHUNK], staged[5 * CHUNK], 0.0f);
     const float4 ay = (float4)(staged[6 * CHUNK], staged[7 * CHUNK], staged[8 * CHUNK], 0.0f);
     const float4 az = (float4)(staged[9 * CHUNK], staged[10 * CHUNK], staged[11 * CHUNK], 0.0f);

@@ -8,8 +8,8 @@
 #include "soil/contact_node.h"
 
 // Computes the sums of one tool. Out: one ContactSums per near block.
-__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
-                                                                                  global ContactSums* restrict sums) {
+__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(
+    BLOCK_ARGS, NODE_ARGS, global ContactSums* restrict sums) {
   local float parts[CONTACT_SUM_WORDS * BLOCK_NODES];
   const int near = get_group_id(0), me = get_local_id(0);
   const int3 key = keys[near_list[near]].xyz;
@@ -30,7 +30,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sum
 
 // Solves one Newton iteration in one work-group: each work-item adds up one word over the blocks.
 __attribute__((reqd_work_group_size(CONTACT_SUM_WORDS, 1, 1))) kernel void contact_twist(
-    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums, const int blocks) {
+    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums,
+    const int blocks) {
   local float parts[CONTACT_SUM_WORDS];
   const int me = get_local_id(0);
   float sum = 0.0f;
@@ -46,7 +47,8 @@ __attribute__((reqd_work_group_size(CONTACT_SUM_WORDS, 1, 1))) kernel void conta
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
-    global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {
+    global ContactRecord* restrict records, global float4* restrict velocity0,
+    global float4* restrict velocity1) {
   local int changed;
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = near_list[near], i = near_node(near, me);

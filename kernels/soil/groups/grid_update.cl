@@ -15,7 +15,8 @@
 static inline int tile_node(int n) {
   const int me = get_local_id(0);
   const int3 node = (int3)(me & 3, (me >> 2) & 3, me >> 4) - 4 * neighbour_offset(n) + 1;
-  const bool on = node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < 8 && node.y < 8 && node.z < 8;
+  const bool on =
+      node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < 8 && node.y < 8 && node.z < 8;
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
@@ -29,8 +30,9 @@ static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 be
 }
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float4* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float4* restrict tiles,
+    global const int* restrict used, global const BlockFloor* restrict floors,
     global float4* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
@@ -38,7 +40,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     const int particle_block = around[27 * block + n], node = tile_node(n);
     if (particle_block < 0 || node < 0) continue;
     for (int t = 0; used[particle_block] >> t; ++t)
-      if (used[particle_block] >> t & 1) sum += tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
+      if (used[particle_block] >> t & 1)
+        sum += tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
   }
   // Nodes at or below the floor have no velocity; masses become mass per free volume above the
   // ground.
@@ -55,11 +58,13 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
 
 // Updates blocks near shells, see soil/lanes/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float4* restrict tiles, global const int* restrict used, global const float4* restrict block_surface,
-    global const int* restrict node_split, global float4* restrict field0, global float4* restrict field1,
-    global float4* restrict node_surface, global const float4* restrict last0, global const float4* restrict last1,
-    const float4 dv, const int hold) {
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float4* restrict tiles,
+    global const int* restrict used, global const float4* restrict block_surface,
+    global const int* restrict node_split, global float4* restrict field0,
+    global float4* restrict field1, global float4* restrict node_surface,
+    global const float4* restrict last0, global const float4* restrict last1, const float4 dv,
+    const int hold) {
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = list[near];
   float4 neutral = 0.0f, front = 0.0f, back = 0.0f;
@@ -72,7 +77,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     float mass = 0.0f;
     for (int t = 0; used[particle_block] >> t; ++t) {
       if (!(used[particle_block] >> t & 1)) continue;
-      const float4 part = tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
+      const float4 part =
+          tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
       if (t == 0) neutral += part;
       if (t == 1) front += part;
       if (t == 2) back += part;
@@ -87,8 +93,13 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
   // Neutral soil joins the side of its node; an unsplit node joins all.
   const int near_node = near * BLOCK_NODES + me, split = node_split[near_node];
   const float4 sum = neutral + front + back, none = 0.0f;
-  field0[near_node] = velocity_of(split == 0 ? sum : split == 1 ? front + neutral : front, dv, hold,
-                                  last0[(size_t)block * BLOCK_NODES + me]);
-  field1[near_node] = velocity_of(split == 0 ? none : split == 2 ? back + neutral : back, dv, hold, last1[near_node]);
+  field0[near_node] = velocity_of(split == 0   ? sum
+                                  : split == 1 ? front + neutral
+                                               : front,
+                                  dv, hold, last0[(size_t)block * BLOCK_NODES + me]);
+  field1[near_node] = velocity_of(split == 0   ? none
+                                  : split == 2 ? back + neutral
+                                               : back,
+                                  dv, hold, last1[near_node]);
   node_surface[near_node] = mixed ? surface / fmax(sum.w, MASS_QUANTUM) : first;
 }

@@ -27,6 +27,8 @@
 
 // Raises `largest` to `value` if that is larger, for values >= 0 or infinite: the order of such
 // floats is the order of their bits, and integers have atomics.
-static inline void atomic_max_nonnegative(local int* largest, float value) { atomic_max(largest, as_int(value)); }
+static inline void atomic_max_nonnegative(local int* largest, float value) {
+  atomic_max(largest, as_int(value));
+}
 
 #endif  // NAVVY_KERNELS_SOIL_GROUPS_GROUP_H

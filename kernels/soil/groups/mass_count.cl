@@ -9,16 +9,17 @@
 
 #define MEMBERS 64
 
-__attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(global const int* restrict state,
-                                                                               const int capacity,
-                                                                               global const ParticleBlock* restrict particle_blocks,
-                                                                               global long* restrict masses,
-                                                                               const int soils) {
+__attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void mass_count(
+    global const int* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global long* restrict masses,
+    const int soils) {
   local long sums[MEMBERS];
   const int particle_block = get_group_id(0), me = get_local_id(0);
   for (int soil = 0; soil < soils; ++soil) {
     long sum = 0;
-    for (int slot = particle_blocks[particle_block].start + me; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; slot += MEMBERS)
+    for (int slot = particle_blocks[particle_block].start + me;
+         slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
+         slot += MEMBERS)
       sum += (LOAD(FIELD_TAG) & 0xffff) == soil ? LOAD(FIELD_MASS) : 0;
     sums[me] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);

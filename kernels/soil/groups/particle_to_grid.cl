@@ -20,8 +20,9 @@ static inline LawSoil load_soil(constant SoilRow* row) {
 
 // Computes law and momentum of the particle in `slot`. Returns false when a value is not finite.
 // out: STAGED words.
-static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
-                           float dt, float dx, float mixing, float most_mixing, float carried, float* out) {
+static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils,
+                           float opening, float dt, float dx, float mixing, float most_mixing,
+                           float carried, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
@@ -56,7 +57,8 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
 
 // Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
 // soil/point.h). A work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity, ParticleBlock particle_block, local int* cells,
+static inline float cell_opening(global const float* state, int capacity,
+                                 ParticleBlock particle_block, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
@@ -99,9 +101,10 @@ static inline int needs(global float* state, int capacity, ParticleBlock particl
 }
 
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
-    global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing, const float most_mixing, const float carried) {
+    global float* restrict state, const int capacity, constant SoilRow* soils,
+    global const ParticleBlock* restrict particle_blocks, global float4* restrict tiles,
+    global int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float mixing, const float most_mixing, const float carried) {
   local float4 tile[TILE_SIZE];
   local float stage[STAGED * CHUNK];
   local int cells[CHUNK], sides[CHUNK], first[CELLS], counts[CELLS];
@@ -117,7 +120,8 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
   const int mask = wanted & 7;
   for (int t = 1; mask >> t; ++t)
-    for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)(particle_block.tile + t) * TILE_NODES + i] = (float4)(0.0f);
+    for (int i = me; i < TILE_SIZE; i += CELLS)
+      tiles[(size_t)(particle_block.tile + t) * TILE_NODES + i] = (float4)(0.0f);
   if (wanted & 8) openings[me] = cell_opening(state, capacity, particle_block, cells, stage);
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 
@@ -130,7 +134,8 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
       const int slot = particle_block.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing, carried, mine))
+      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing,
+                   carried, mine))
         atomic_or(&broken, 1);
       cells[me] = cell;
     }
@@ -160,7 +165,8 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
           }
         }
   }
-  for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)particle_block.tile * TILE_NODES + i] = tile[i];
+  for (int i = me; i < TILE_SIZE; i += CELLS)
+    tiles[(size_t)particle_block.tile * TILE_NODES + i] = tile[i];
   if (me > 0) return;
   used[block] = mask;
   report[block].broken = broken;

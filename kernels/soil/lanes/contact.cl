@@ -11,8 +11,8 @@
 #include "soil/contact_node.h"
 
 // Computes the sums of one tool. Out: one ContactSums per near block.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
-                                                                        global ContactSums* restrict sums) {
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(
+    BLOCK_ARGS, NODE_ARGS, global ContactSums* restrict sums) {
   const int near = get_global_id(0);
   const int3 key = keys[near_list[near]].xyz;
   ContactSums out = NO_SUMS;
@@ -22,9 +22,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_AR
 }
 
 // Solves one Newton iteration for the twist of one tool. Out: its twist.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global Tool* restrict tools, const int tool,
-                                                                         global const ContactSums* restrict sums,
-                                                                         const int blocks) {
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(
+    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums,
+    const int blocks) {
   ContactSums total = NO_SUMS;
   for (int near = 0; near < blocks; ++near) {
     for (int i = 0; i < 6; ++i) total.wrench[i] += sums[near].wrench[i];
@@ -40,7 +40,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global 
 // changed; records per node and field, valid in touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
-    global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {
+    global ContactRecord* restrict records, global float4* restrict velocity0,
+    global float4* restrict velocity1) {
   const int near = get_global_id(0);
   const int block = near_list[near];
   const int3 key = keys[block].xyz;

@@ -33,13 +33,16 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
 
 // Returns v = p / m + g dt of four nodes, added to the velocity before in a held step. Nodes
 // lighter than a mass quantum are empty.
-static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
+static inline float16 velocity_of(float16 momentum, float4 dv, int hold,
+                                  global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
   const float4 on = select((float4)(0.0f), (float4)(1.0f), m > MASS_QUANTUM);
   float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
               (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
-  if (hold) v += vload16(0, before) * (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
+  if (hold)
+    v += vload16(0, before) *
+         (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
@@ -64,8 +67,9 @@ static inline bool far_above(global const BlockFloor* ground) {
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
+    global const int* restrict used, global const BlockFloor* restrict floors,
     global float* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
@@ -75,7 +79,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     if (particle_block < 0) continue;
     for (int t = 0; used[particle_block] >> t; ++t)
       if (used[particle_block] >> t & 1)
-        add_part(tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+        add_part(tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES),
+                 rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const BlockFloor* ground = floors + block;
@@ -97,11 +102,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
 // a ContactSoil per block; node_surface = its mean by mass at the node. last0 (per active block)
 // and last1 = both fields after contact in the previous step.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float* restrict tiles, global const int* restrict used, global const float4* restrict block_surface,
-    global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
-    global float4* restrict node_surface, global const float* restrict last0, global const float* restrict last1,
-    const float4 dv, const int hold) {
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
+    global const int* restrict used, global const float4* restrict block_surface,
+    global const int* restrict node_split, global float* restrict field0,
+    global float* restrict field1, global float4* restrict node_surface,
+    global const float* restrict last0, global const float* restrict last1, const float4 dv,
+    const int hold) {
   const int near = get_global_id(0);
   const int block = list[near];
   float16 rows[3][16], total[16];
@@ -125,7 +132,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
     for (int t = 0; used[particle_block] >> t; ++t) {
       if (!(used[particle_block] >> t & 1)) continue;
-      global const float* tile = tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES);
+      global const float* tile =
+          tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }

@@ -40,20 +40,20 @@ typedef float4 columns;
 
 // Transposes rows r0..r3, which hold components 0..3 of 16 particles. Afterwards o0..o3 hold
 // float4s: that of particle 4 q + i is part q of o_i. It is its own inverse.
-#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                         \
-  do {                                                                     \
-    const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1);         \
-    const float16 t2_ = PICK_LOW(r2, r3), t3_ = PICK_HIGH(r2, r3);         \
-    o0 = PICK_LOW2(t0_, t2_);                                              \
-    o1 = PICK_HIGH2(t0_, t2_);                                             \
-    o2 = PICK_LOW2(t1_, t3_);                                              \
-    o3 = PICK_HIGH2(t1_, t3_);                                             \
+#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                 \
+  do {                                                             \
+    const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1); \
+    const float16 t2_ = PICK_LOW(r2, r3), t3_ = PICK_HIGH(r2, r3); \
+    o0 = PICK_LOW2(t0_, t2_);                                      \
+    o1 = PICK_HIGH2(t0_, t2_);                                     \
+    o2 = PICK_LOW2(t1_, t3_);                                      \
+    o3 = PICK_HIGH2(t1_, t3_);                                     \
   } while (0)
 
 // Fields of the 16 slots from `slot` on, in kernels that name their arguments state and capacity,
 // and all fields of a list (particle_fields.h) into or out of a struct.
-#define LOAD(field) vload16(0, state + (size_t)(field) * capacity + slot)
-#define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + slot)
+#define LOAD(field) vload16(0, state + (size_t)(field)*capacity + slot)
+#define STORE(field, value) vstore16(value, 0, state + (size_t)(field)*capacity + slot)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
 #define LOAD_MANY(NAME, member, count, rest) \
   for (int k_ = 0; k_ < (count); ++k_) soil_state.member[k_] = LOAD(FIELD_##NAME + k_);
@@ -65,8 +65,9 @@ typedef float4 columns;
 // follows by itself. Does nothing where the compiler has no such built-in.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
-#define SOON(field) \
-  __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + slot + 4 * NAVVY_LANES))
+#define SOON(field)   \
+  __builtin_prefetch( \
+      (const void*)(size_t)(state + (size_t)(field)*capacity + slot + 4 * NAVVY_LANES))
 #endif
 #endif
 #ifndef SOON
@@ -74,20 +75,20 @@ typedef float4 columns;
 #endif
 
 // Transposes four rows into 16 float4s in `part`, and back.
-#define TURN(part, a, b, c, d)                    \
-  do {                                            \
-    float16 o0_, o1_, o2_, o3_;                   \
-    TRANSPOSE4(a, b, c, d, o0_, o1_, o2_, o3_);   \
-    vstore16(o0_, 0, part);                       \
-    vstore16(o1_, 1, part);                       \
-    vstore16(o2_, 2, part);                       \
-    vstore16(o3_, 3, part);                       \
+#define TURN(part, a, b, c, d)                  \
+  do {                                          \
+    float16 o0_, o1_, o2_, o3_;                 \
+    TRANSPOSE4(a, b, c, d, o0_, o1_, o2_, o3_); \
+    vstore16(o0_, 0, part);                     \
+    vstore16(o1_, 1, part);                     \
+    vstore16(o2_, 2, part);                     \
+    vstore16(o3_, 3, part);                     \
   } while (0)
-#define UNTURN(part, a, b, c, d)                                                   \
-  do {                                                                             \
-    const float16 i0_ = vload16(0, part), i1_ = vload16(1, part);                  \
-    const float16 i2_ = vload16(2, part), i3_ = vload16(3, part);                  \
-    TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                                    \
+#define UNTURN(part, a, b, c, d)                                  \
+  do {                                                            \
+    const float16 i0_ = vload16(0, part), i1_ = vload16(1, part); \
+    const float16 i2_ = vload16(2, part), i3_ = vload16(3, part); \
+    TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                   \
   } while (0)
 
 // Returns true if any lane of a comparison is true. any() of PoCL tests one lane after the other.

@@ -8,15 +8,15 @@
 // src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
 #include "soil/lanes/lanes.h"
 
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global const int* restrict state,
-                                                                         const int capacity,
-                                                                         global const ParticleBlock* restrict particle_blocks,
-                                                                         global long* restrict masses,
-                                                                         const int soils) {
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(
+    global const int* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global long* restrict masses,
+    const int soils) {
   const int particle_block = get_global_id(0);
   const global int* mass = state + FIELD_MASS * (size_t)capacity;
   const global int* tag = state + FIELD_TAG * (size_t)capacity;
-  const int start = particle_blocks[particle_block].start, end = start + particle_blocks[particle_block].count;
+  const int start = particle_blocks[particle_block].start,
+            end = start + particle_blocks[particle_block].count;
   for (int soil = 0; soil < soils; ++soil) {
     long16 sum = (long16)(0);
     for (int slot = start; slot < end; slot += NAVVY_LANES) {

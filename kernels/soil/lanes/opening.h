@@ -15,9 +15,11 @@ static inline int16 cell_of(real x, real y, real z) {
 
 // Sums per cell into float4s: volume, bank volume, open particles, 0. Returns false, without sums,
 // when no particle is open.
-INLINED bool cell_openings(global const float* state, int capacity, int start, int end, float* openings) {
+INLINED bool cell_openings(global const float* state, int capacity, int start, int end,
+                           float* openings) {
   bool open = false;
-  for (int slot = start; slot < end && !open; slot += 16) open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));
+  for (int slot = start; slot < end && !open; slot += 16)
+    open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));
   if (!open) return false;
   for (int i = 0; i < CELLS / 4; ++i) vstore16((float16)(0.0f), i, openings);
   int cell = 0;

@@ -16,7 +16,8 @@
 #include "soil/point.h"
 
 // Loads the constants of the soils of 16 particles, of which the first `count` exist.
-static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
+static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawSoil* soil,
+                             real* inv_density) {
   const int first = tag.s0 & 0xffff;
   int kinds[16];
   vstore16(tag & 0xffff, 0, kinds);
@@ -28,7 +29,7 @@ static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawS
     *inv_density = soils[first].inv_density;
     return;
   }
-#define LANE_SOIL(name)                                      \
+#define LANE_SOIL(name)                                        \
   for (int l = 0; l < 16; ++l) lane[l] = soils[kinds[l]].name; \
   soil->name = vload16(0, lane);
   float lane[16];
@@ -39,17 +40,17 @@ static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawS
 
 INLINED void flush(global float* tile, int node, const Rows* sums) {
   UNROLL
-  for (int k = 0; k < 3; ++k)
-    UNROLL
-    for (int j = 0; j < 3; ++j) {
-      global float* row = tile + 4 * (node + 8 * j + 64 * k);
-      vstore16(vload16(0, row) + sums->row[3 * k + j], 0, row);
-    }
+  for (int k = 0; k < 3; ++k) UNROLL
+  for (int j = 0; j < 3; ++j) {
+    global float* row = tile + 4 * (node + 8 * j + 64 * k);
+    vstore16(vload16(0, row) + sums->row[3 * k + j], 0, row);
+  }
 }
 
 // Adds the shares of one particle. Its transposed components are momentum at the base node and
 // mass, then the change of momentum per node in x, y, z.
-INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wyz) {
+INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx,
+                     const float* wyz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
   const float16 rx = w * (float16)(start, next, next + ax, (float4)(0.0f));
@@ -76,27 +77,33 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
-    global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing, const float most_mixing, const float carried) {
+    global float* restrict state, const int capacity, constant SoilRow* soils,
+    global const ParticleBlock* restrict particle_blocks, global float* restrict tiles,
+    global int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
   const ParticleBlock particle_block = particle_blocks[block];
   global float* tile = tiles + (size_t)particle_block.tile * (4 * TILE_NODES);
-  const int mask = particle_block.near ? tiles_used(state, capacity, particle_block.start, particle_block.start + particle_block.count) : 1;
+  const int mask = particle_block.near ? tiles_used(state, capacity, particle_block.start,
+                                                    particle_block.start + particle_block.count)
+                                       : 1;
   used[block] = mask;
   for (int t = 0; mask >> t; ++t) {
     if (!(mask >> t & 1)) continue;
-    for (int i = 0; i < TILE_NODES / 4; ++i) vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
+    for (int i = 0; i < TILE_NODES / 4; ++i)
+      vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
   }
 
   float openings[4 * CELLS];
-  const bool open = cell_openings(state, capacity, particle_block.start, particle_block.start + particle_block.count, openings);
+  const bool open = cell_openings(state, capacity, particle_block.start,
+                                  particle_block.start + particle_block.count, openings);
   float wxs[4 * 16], wyz[9 * 16], turned_parts[4][64];
   int nodes[16];
   Rows sums;
   int cell = -1;
   int broken = 0;
-  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count; slot += 16) {
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count;
+       slot += 16) {
     const int count = min(16, particle_block.start + particle_block.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_ID; ++f) SOON(f);
@@ -156,8 +163,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
         for (int i = 0; i < 9; ++i) sums.row[i] = 0.0f;
         cell = nodes[l];
       }
-      scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]), vload4(t, turned_parts[2]),
-              vload4(t, turned_parts[3]), vload4(t, wxs), wyz + l);
+      scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]),
+              vload4(t, turned_parts[2]), vload4(t, turned_parts[3]), vload4(t, wxs), wyz + l);
     }
   }
   if (cell >= 0) flush(tile, cell, &sums);

@@ -17,17 +17,19 @@
 
 // Counts. site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
-    global const float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
-    global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
-    global int* restrict counts, const int4 site) {
+    global const float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
+    global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
+    const int4 site) {
   const int particle_block = get_global_id(0);
   const float4 from_block = site_from(site, keys[particle_block]);
   int count[CODES];
   for (int i = 0; i < CODES; ++i) count[i] = 0;
-  for (int slot = particle_blocks[particle_block].start; slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count; ++slot) {
+  for (int slot = particle_blocks[particle_block].start;
+       slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
+       ++slot) {
     const Place place = place_of(state[slot], state[(FIELD_X + 1) * (size_t)capacity + slot],
-                                 state[(FIELD_X + 2) * (size_t)capacity + slot],
-                                 from_block);
+                                 state[(FIELD_X + 2) * (size_t)capacity + slot], from_block);
     codes[slot] = place.code;
     cells[slot] = place.cell;
     ++count[place.code];
@@ -39,8 +41,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
 // here, or -1. Particles of one cell are stored together, in the order of their arrival: scatter
 // and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
-    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
-    global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
+    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes,
+    global const uchar* restrict cells, global const int* restrict counts,
+    global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
     global int* restrict from) {
   const int particle_block = get_global_id(0);
   int next[65];
@@ -52,8 +55,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
       int left = counts[CODES * old + n];
       for (int slot = old_particle_blocks[old].start; left > 0; ++slot) {
         if (codes[slot] != n) continue;
-        if (pass == 0) ++next[cells[slot] + 1];
-        else from[next[cells[slot]]++] = slot;
+        if (pass == 0)
+          ++next[cells[slot] + 1];
+        else
+          from[next[cells[slot]]++] = slot;
         --left;
       }
     }
@@ -66,11 +71,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
 // Copies every field. Also computes the mean surface of each block (ContactSoil), and sets the mass
 // of lanes beyond its count to 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
-    global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
-    global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,
+    global const float* restrict old_state, const int old_capacity,
+    global const uchar* restrict codes, global const int* restrict from,
+    global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
   const int particle_block = get_global_id(0);
-  const int start = particle_blocks[particle_block].start, end = start + particle_blocks[particle_block].count;
+  const int start = particle_blocks[particle_block].start,
+            end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
   for (int f = 0; f < FIELD_COUNT; ++f) {
     global const float* in = old_state + (size_t)f * old_capacity;

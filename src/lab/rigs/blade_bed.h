@@ -20,11 +20,11 @@ struct Reference {
   double expected = 0;
   /// Bounds of the theory, without a tolerance [N].
   double low = 0, high = 0;
-  /// On the tool, down [N].
+  /// Force on the tool, down [N].
   double vertical = 0;
   /// Name of the theory, with its reference.
   std::string source;
-  /// From slip lines and log spiral, not from Rankine.
+  /// True for slip lines and log spiral, false for Rankine.
   bool rough = false;
 };
 /// Returns Rankine for a smooth tool; with tool friction or adhesion the lower bound and the log

@@ -26,7 +26,7 @@ struct ChuteShape {
   double top = 0;
   /// Height of the blade's upper edge over its cutting edge [m].
   double height = 0;
-  /// Of the blade [rad].
+  /// Rake of the blade [rad].
   double rake = kPi / 2;
   /// Half thickness of all plates; positions refer to faces, not to mid-planes [m].
   double half = 0;

@@ -21,17 +21,22 @@ struct HeapSurface {
   Vec2 origin = Vec2::Zero();
   /// [m].
   double spacing = 0;
+  /// Number of columns along x and y.
   int nx = 0, ny = 0;
   /// x fastest; `floor` where there is no soil [m].
   std::vector<double> top;
+  /// Height of the floor [m].
   double floor = 0;
 
+  /// Returns the height of a column [m].
   double at(int ix, int iy) const { return top[static_cast<std::size_t>(ix + nx * iy)]; }
+  /// Returns the centre of a column in W [m].
   Vec2 middle(int ix, int iy) const { return origin + spacing * Vec2(ix, iy); }
   /// Returns the height over a particle of the pile, at the nearest column [m].
   double over(const Vec3& p) const;
   /// Returns the volume between surface and floor [m3].
   double volume() const;
+  /// Returns the greatest height [m].
   double highest() const;
 };
 
@@ -42,8 +47,10 @@ HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double f
 
 /// Least-squares line z = a + b x.
 struct Line {
+  /// Intercept and slope.
   double a = 0, b = 0;
 };
+/// Returns the least-squares line through the points (x, z).
 Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
 
 /// Returns distance from `axis` [m] and mean height over the floor [m], in rings (`axisymmetric`)

@@ -28,7 +28,7 @@ struct ToolZone {
   double scale = 1;
   /// [m/s].
   double speed = 0;
-  /// From add_tool.
+  /// Index from add_tool.
   int tool = -1;
   /// The tool stands: no soil becomes or stays active because of it.
   bool supported = false;
@@ -37,6 +37,7 @@ struct ToolZone {
 
   /// Returns true for a column under the box in plan, at any height.
   bool touches(int ix, int iy) const { return contains(box, ix, iy); }
+  /// Returns true for a column inside a rectangle.
   static bool contains(const heightfield::CellRect& r, int ix, int iy) {
     return ix >= r.x0 && ix < r.x1 && iy >= r.y0 && iy < r.y1;
   }

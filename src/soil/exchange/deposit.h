@@ -64,13 +64,20 @@ class Depositor {
   };
   // Indices of the particles over a block, or over those of its columns that share.
   using Grains = std::span<const std::uint32_t>;
+  /// Returns the integer share of each column of a block in its volume.
   std::array<std::int64_t, 16> weights(const Plan& plan, int block) const;
+  /// Returns the columns of a block that stand beside a cliff.
   std::array<bool, 16> cliffs(int block) const;
+  /// Returns the surface of a column with the soil on it [cells above datum].
   double surface(int ix, int iy) const;
+  /// Returns true if a good part of the soil over a column was hardly sheared.
   bool bonded(int ix, int iy) const;
 
+  /// Returns the volume in the density state over the volume that the soil has.
   double crowding(const std::vector<SoilShare>& shares, const Plan& plan) const;
+  /// Deposits one block: columns at a cliff by themselves, the others from one pool.
   void deposit_block(const Plan& plan, int block);
+  /// Deposits the soil over one column at a cliff.
   void deposit_column(int ix, int iy);
 
   heightfield::Ground& ground_;

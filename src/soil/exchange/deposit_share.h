@@ -12,6 +12,7 @@ namespace navvy::soil {
 
 /// Sums over the particles of one soil.
 struct SoilShare {
+  /// Index of the soil in the world.
   std::uint16_t soil = 0;
   /// [kMassQuantum].
   std::int64_t mass = 0;
@@ -30,7 +31,9 @@ heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double den
 
 /// A column and its integer weight when mass is shared.
 struct SharedColumn {
+  /// Column of the site.
   int ix = 0, iy = 0;
+  /// Share of the mass, in any unit.
   std::int64_t weight = 0;
 };
 /// Adds `mass` as `layer` to the columns in proportion to their weights, none of which is negative

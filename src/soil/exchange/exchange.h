@@ -44,6 +44,7 @@ class Exchange {
     std::vector<Particle> born;
     /// One flag per given particle: deposited into columns.
     std::vector<std::uint8_t> removed;
+    /// Number of columns and blocks that each rule changed.
     int activated_columns = 0, deposited_blocks = 0, slumped_columns = 0;
     /// Columns that got soil because a wheel or track comes onto them.
     int support_columns = 0;

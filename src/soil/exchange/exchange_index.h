@@ -43,6 +43,7 @@ class ColumnIndex {
   ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
               PlanGrid grid = {});
 
+  /// Returns the position of blocks among the columns.
   const PlanGrid& grid() const { return grid_; }
 
   /// Returns the blocks with particles, ascending.

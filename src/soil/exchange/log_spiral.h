@@ -16,6 +16,7 @@ double stability_number(double friction_angle, double face);
 /// Heights at which faces of one friction angle fail, tabulated over the angle of the face.
 class FaceHeights {
  public:
+  /// Tabulates the faces of soil with this friction angle [rad].
   explicit FaceHeights(double friction_angle);
 
   /// Returns the largest height [m], at most `highest`, at which soil of cohesion / unit weight
@@ -25,6 +26,7 @@ class FaceHeights {
  private:
   static constexpr int kFaces = 64;
 
+  /// Returns 1 / stability number of a face of this angle [rad], interpolated.
   double inverse(double face) const;
 
   double friction_angle_;

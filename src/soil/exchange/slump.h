@@ -54,6 +54,7 @@ class Slump {
   /// Moves soil from the higher of two neighbours to the lower. Returns false when none had to
   /// move.
   bool exchange(const PlanKey& a, const PlanKey& b);
+  /// Drops columns that have not moved for some sweeps.
   void forget_still();
 
   heightfield::Ground& ground_;

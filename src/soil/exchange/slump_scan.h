@@ -19,6 +19,7 @@ struct OverSteep {
   int ix = 0, iy = 0;
   /// Direction of the low one.
   int dx = 0, dy = 0;
+  /// Distance of the two columns [columns along the direction].
   int steps = 0;
   /// Surface of the low one, with the soil on it [cells above datum].
   double low = 0;
@@ -79,6 +80,7 @@ class SlumpScan {
   // Examines one pair of columns. Returns true when it was appended.
   bool look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
             std::vector<OverSteep>& out);
+  /// Returns the index of a column of the window.
   std::size_t at(int ix, int iy) const {
     return static_cast<std::size_t>((iy - y0_) * kSide + ix - x0_);
   }

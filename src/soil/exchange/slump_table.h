@@ -54,6 +54,7 @@ class SlumpTable {
     /// Cohesion x specific volume of level 0, and the difference to the highest level.
     double low, range;
   };
+  /// Returns the cohesion after plastic shear at a volume ratio [Pa].
   static double cohesion(const Strength& of, double shear, double specific_volume);
 
   std::vector<scene::Soil> soils_;

@@ -50,6 +50,7 @@ class SupportPlacement {
   double height_limit(int ix, int iy) const;
 
  private:
+  /// Returns the position of a column relative to the middle, along and across [m].
   Vec2 along_across(int ix, int iy) const;
   /// Returns the height of the rim's underside [m] at a position `along` and `across` from its
   /// middle, widened by `widened` on all sides; infinite beside it.

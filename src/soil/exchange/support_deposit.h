@@ -57,13 +57,16 @@ class SupportDeposit {
     /// One of them is on a side of a shell.
     bool touched = false;
   };
+  /// Soil under one support area, and the columns that will get it.
   struct PendingDeposit {
     std::vector<SharedColumn> columns;
     std::vector<std::uint32_t> grains;
   };
+  /// Returns the particles on a column; each column is computed once.
   const Stack& stack(int ix, int iy);
   /// Returns the height of columns and soil on them, smoothed [m].
   double smoothed(int ix, int iy);
+  /// Collects the soil under one support area from columns that are not in `claimed` yet.
   PendingDeposit plan(const SupportPlacement& area, std::set<PlanKey>& claimed);
 
   heightfield::Ground& ground_;

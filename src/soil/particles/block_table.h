@@ -13,6 +13,7 @@ namespace navvy::soil {
 struct BlockKey {
   std::int32_t x = 0, y = 0, z = 0;
   bool operator==(const BlockKey&) const = default;
+  /// Orders by z, then y, then x.
   bool operator<(const BlockKey& other) const {
     return z != other.z ? z < other.z : y != other.y ? y < other.y : x < other.x;
   }
@@ -26,6 +27,7 @@ inline BlockKey neighbour_offset(int n) { return {n % 3 - 1, n / 3 % 3 - 1, n / 
 /// Finds the index of a key in a list, by open addressing. It is only looked up, never iterated.
 class BlockIndex {
  public:
+  /// Replaces the list of keys, which must be unique.
   void build(const std::vector<BlockKey>& keys);
   /// Returns -1 when absent.
   int find(const BlockKey& key) const;

@@ -35,7 +35,7 @@ class Floor {
   const heightfield::Ground* ground_;
   PlanGrid grid_;
   double held_margin_;
-  /// By (bx, by).
+  /// Patches by (bx, by).
   std::map<std::pair<int, int>, BlockFloor> patches_;
   std::uint64_t sequence_ = 0;
   bool first_ = true;

@@ -14,6 +14,7 @@ namespace navvy::soil {
 /// Kernels of kernels/soil/*/grid_to_particle.cl.
 class GridToParticle {
  public:
+  /// Builds the kernels with these constants.
   explicit GridToParticle(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Uploads the active blocks around each particle block.

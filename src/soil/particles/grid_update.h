@@ -18,6 +18,7 @@ namespace navvy::soil {
 /// Kernels of kernels/soil/*/grid_update.cl and their results.
 class GridUpdate {
  public:
+  /// Builds the kernels with these constants.
   explicit GridUpdate(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Uploads the active blocks. `near_slot`: index into the near arrays or -1, one entry per active

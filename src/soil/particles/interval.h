@@ -42,6 +42,7 @@ struct TransferInterval {
     speed = fastest;
   }
 
+  /// Visits all of it: held steps depend on it.
   void visit(Archive& a) {
     a("open", open);
     a("time", time);

@@ -17,6 +17,7 @@ namespace navvy::soil {
 /// does).
 class MassCount {
  public:
+  /// Builds the kernel. `soils`: number of soils.
   MassCount(device::Device& device, std::size_t soils);
 
   /// Reserves memory for a count of this many blocks. A step does so before it queues its first

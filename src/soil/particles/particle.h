@@ -11,14 +11,17 @@
 
 namespace navvy::soil {
 
+/// Edge of a block [cells].
 inline constexpr int kBlockCells = 4;
 
 /// Host record of a particle. The device keeps the same fields in its own order. Velocities in m/s,
 /// stress in Pa, positive in tension.
 struct Particle {
+  /// Block that holds it.
   std::int32_t block[3] = {0, 0, 0};
   /// Offset from the block's lower corner at the last transfer [cells], normally 0..4.
   float x[3] = {0, 0, 0};
+  /// Velocity [m/s].
   float v[3] = {0, 0, 0};
   /// Velocity gradient, row major: c[3*i+j] = dv_i/dx_j [1/s].
   float c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -32,8 +35,9 @@ struct Particle {
   float j0 = 1;
   /// Accumulated plastic shear [-].
   float shear = 0;
-  /// In kMassQuantum.
+  /// Mass [kMassQuantum].
   std::int32_t mass = 0;
+  /// Index of the soil in the world.
   std::uint16_t soil = 0;
   /// 0 none; 1 + 2 tool + (1 behind the shell, 0 in front).
   std::uint16_t side = 0;

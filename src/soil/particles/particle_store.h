@@ -63,12 +63,17 @@ class ParticleStore {
   /// Marks the blocks near shells (one flag each) and assigns tiles. Returns the number of tiles.
   int set_near(const std::vector<std::uint8_t>& near);
 
+  /// Returns the number of particles.
   int count() const { return count_; }
+  /// Returns the number of slots of the state array.
   int capacity() const { return capacity_[now_]; }
+  /// Returns the particle blocks and active blocks.
   const BlockTable& table() const { return table_; }
   const std::vector<ParticleBlock>& particle_blocks() const { return particle_blocks_; }
+  /// Returns the state array: FIELD_COUNT x capacity words.
   device::Buffer<float>& state() { return state_[now_]; }
   const device::Buffer<float>& state() const { return state_[now_]; }
+  /// Returns the constant table of soils.
   device::Buffer<SoilRow>& soils() { return soils_; }
   /// Returns the largest bank density of all soils [kg/m3].
   double densest() const;
@@ -95,6 +100,7 @@ class ParticleStore {
   void upload_particle_blocks();
   /// Returns the mean surface over the particles of each block.
   std::vector<ContactSoil> surfaces(const std::vector<Particle>& sorted) const;
+  /// Removes particles beyond the site's edge and returns them.
   std::vector<Particle> drop_outside();
 
   device::Device& device_;
@@ -108,6 +114,7 @@ class ParticleStore {
   /// One per block, mean over its particles.
   device::Buffer<ContactSoil> block_surface_;
   std::vector<SoilRow> soil_rows_;
+  /// Slots of the two state arrays.
   int capacity_[2] = {0, 0};
   /// Index of the current one of the two states; re-binning writes the other.
   int now_ = 0;

@@ -20,6 +20,7 @@ using PlanKey = std::pair<int, int>;
 /// the same offset in its block wherever it stands: the same dig some columns away is then
 /// bit-identical.
 struct PlanGrid {
+  /// Column at the origin of G.
   int x = 0, y = 0;
 
   /// Returns the block that holds column (ix, iy).
@@ -50,6 +51,7 @@ struct PlanGrid {
   }
 };
 
+/// Returns the position of blocks for a world: 0 without machines.
 inline PlanGrid plan_grid(const scene::Scene& world, const heightfield::Ground& ground) {
   if (world.machines.empty()) return {};
   const Vec3& start = world.machines.front().X_WM.translation();

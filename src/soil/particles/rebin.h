@@ -35,6 +35,7 @@ RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts);
 struct StoredParticles {
   /// FIELD_COUNT x capacity words.
   device::Buffer<float>& state;
+  /// Number of slots.
   int capacity;
   device::Buffer<ParticleBlock>& particle_blocks;
 };
@@ -42,6 +43,7 @@ struct StoredParticles {
 /// Kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
 class Rebin {
  public:
+  /// Builds the kernels.
   explicit Rebin(device::Device& device);
 
   /// Counts where particles go, kRebinCodes per block; waits. `site`: x and y of its lower left and

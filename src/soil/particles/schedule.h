@@ -8,6 +8,7 @@
 
 namespace navvy::soil {
 
+/// Kind of kernels.
 enum class Schedule {
   /// One work-item per block, sixteen lanes at a time: processors (kernels/soil/lanes).
   kLanes,

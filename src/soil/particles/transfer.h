@@ -26,6 +26,7 @@ class Transfer {
   /// Uploads the lists of blocks after a re-bin or a change of the near blocks. `near_slot` has one
   /// entry per active block; `tiles` comes from ParticleStore::set_near.
   void set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles);
+  /// Uploads the heights of resting ground, one entry per active block.
   void set_floor(const std::vector<BlockFloor>& floors) { grid_.set_floor(floors); }
 
   /// Queues law and scatter, then node velocities after gravity: final in far blocks, before
@@ -45,11 +46,16 @@ class Transfer {
     double push = 0;
     std::uint64_t crossed = 0;
   };
+  /// Reads the report of all blocks; waits for everything queued before.
   Largest read_report(std::size_t particle_blocks) const;
 
+  /// Returns the node velocities of field 0, BLOCK_NODES float4s per active block.
   device::Buffer<float>& velocity() { return grid_.velocity(); }
+  /// Returns the reports, one per particle block.
   device::Buffer<Report>& report() { return report_; }
+  /// Returns the heights of resting ground, one per active block.
   device::Buffer<BlockFloor>& floors() { return grid_.floors(); }
+  /// Returns the block (x, y, z, 0) of each active block.
   device::Buffer<std::array<std::int32_t, 4>>& active_keys() { return grid_.active_keys(); }
 
  private:

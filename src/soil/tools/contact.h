@@ -37,7 +37,9 @@ class Contact {
   Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
           const SchemeConstants& scheme = kScheme);
 
+  /// Registers a shell and returns its tool index.
   int add_tool(const scene::Shell& shell);
+  /// Returns the geometry of a tool.
   const ShellGeometry& geometry(int tool) const {
     return *tools_[static_cast<std::size_t>(tool)].geometry;
   }
@@ -56,8 +58,11 @@ class Contact {
   void resume(Transfer& transfer);
   /// Builds the near lists for the poses of their last build (after `visit` has loaded).
   void list_near(const BlockTable& table);
+  /// Returns 1 for each particle block near a shell, else 0.
   const std::vector<std::uint8_t>& near_particle_blocks() const { return near_particle_blocks_; }
+  /// Returns the index of each active block in the near arrays, or -1.
   const std::vector<int>& near_slot() const { return near_slot_; }
+  /// Returns the arrays of near nodes.
   NearNodes& nodes() { return nodes_; }
   /// Returns the change of near nodes in the last step, two entries per node, valid in touched
   /// blocks.
@@ -97,6 +102,7 @@ class Contact {
     device::Mapped<const std::int32_t> touched, tool_of;
     device::Mapped<const ContactRecord> records;
   };
+  /// A tool: geometry, lists, poses and mean force.
   struct Registered {
     std::unique_ptr<ShellGeometry> geometry;
     int first_triangle = 0;
@@ -124,12 +130,19 @@ class Contact {
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
     void visit(Archive& a);
   };
+  /// Returns a position in G [cells].
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
+  /// Returns true if a tool has left the margin of its lists.
   bool moved_far() const;
+  /// Sets the block whose corner is the origin of the tool's float coordinates.
   void set_window(Registered& tool) const;
+  /// Marks the triangles near each active block and each particle block.
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
+  /// Uploads triangles, rims and tools of this step.
   void upload_tools();
+  /// Returns a tool as the kernels take it, with its present twist.
   Tool tool_now(std::size_t index) const;
+  /// Queues a contact kernel over the near blocks; `only`: tool whose nodes count, -1: all.
   template <class... Tail>
   void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
 

@@ -16,9 +16,11 @@ class Marks {
   Marks(std::size_t rows, std::size_t columns)
       : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
 
+  /// Marks a pair.
   void set(std::size_t row, std::size_t column) {
     bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);
   }
+  /// Returns true if any column of the row is marked.
   bool any(std::size_t row) const {
     for (std::size_t w = 0; w < words_; ++w)
       if (bits_[row * words_ + w] != 0) return true;

@@ -50,8 +50,10 @@ struct RestingContact {
   /// the contact if the tool moved or is overloaded; returns true then.
   bool apply(const scene::Shell& shell, const ToolMotion& motion, double dt, double cell,
              ToolImpulse& impulse);
+  /// Ends the contact.
   void release() { *this = RestingContact{}; }
 
+  /// Visits all of it: later steps depend on it.
   void visit(Archive& a);
 };
 

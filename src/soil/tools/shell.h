@@ -16,8 +16,11 @@ namespace navvy::soil {
 
 /// Tools as the kernels take them in one step. Triangles are numbered over all tools.
 struct ToolShells {
+  /// Triangles of all tools.
   std::vector<ShellTriangle> triangles;
+  /// Free edges of all tools.
   std::vector<ShellRim> rims;
+  /// One per tool.
   std::vector<Tool> tools;
 };
 
@@ -29,6 +32,7 @@ struct CandidateRows {
 /// Kernels of kernels/soil/*/shell.cl, their data of tools, and their results for near nodes.
 class ShellQuery {
  public:
+  /// Builds the kernels with these constants.
   explicit ShellQuery(device::Device& device, const SchemeConstants& scheme = kScheme);
 
   /// Uploads the triangles that may be near the near active blocks and the near particle blocks,

@@ -54,15 +54,19 @@ class ShellGeometry {
     /// Pseudo-normal there, towards the front; not of unit length.
     Vec3 normal = Vec3::Zero();
   };
+  /// Returns the closest point; `closest` as in `distance`.
   Nearest nearest(const Vec3& p, int& closest) const;
   /// Returns true for a point inside the hull (raised over the mouth to hold a heap) and in front.
   bool holds(const Vec3& p) const;
+  /// Returns the same, faster when `closest` names a triangle that is likely the closest.
   bool holds(const Vec3& p, int& closest) const;
   /// Returns the hull's corners, and points inside it.
   const std::vector<Vec3>& hull_points() const { return hull_points_; }
 
  private:
+  /// Computes pseudo-normals and free edges.
   void find_normals();
+  /// Builds the hull, raised over the mouth.
   void build_hull();
 
   scene::Shell shell_;

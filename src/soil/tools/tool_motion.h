@@ -9,7 +9,7 @@ namespace navvy::soil {
 
 /// Motion of a tool during the coming step. T is the link frame of its shell.
 struct ToolMotion {
-  /// From add_tool.
+  /// Index from add_tool.
   int tool = -1;
   Pose X_WT = Pose::Identity();
   /// Velocity of T's origin before soil acts [m/s].
@@ -24,7 +24,7 @@ struct ToolMotion {
 
 /// Pose of a tool.
 struct PlacedTool {
-  /// From add_tool.
+  /// Index from add_tool.
   int tool = -1;
   Pose X_WT = Pose::Identity();
 };
@@ -53,7 +53,7 @@ struct ToolImpulse {
 
 /// Region of a tool: soil ahead of it becomes active, and soil near it stays active.
 struct ToolRegion {
-  /// From add_tool.
+  /// Index from add_tool.
   int tool = -1;
   /// The ground supports it: it keeps no soil active.
   bool supported = false;
