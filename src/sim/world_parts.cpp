@@ -91,7 +91,7 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
 }
 
 void WorldParts::wake(const scene::ActiveSoil& active) {
-  soil.wake(active_columns(active, ground), active.bottom);
+  soil.activate(active_columns(active, ground), active.bottom);
 }
 
 }  // namespace navvy::sim

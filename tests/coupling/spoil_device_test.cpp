@@ -62,7 +62,7 @@ class Layer {
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
-  void wake() { parts_.soil.wake(area_, foot_); }
+  void wake() { parts_.soil.activate(area_, foot_); }
   /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
   /// `around` [m] of a wheel's middle.
   void keep_awake(double around) {
@@ -75,7 +75,7 @@ class Layer {
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
         for (int w = 0; rests && w < 4; ++w)
           rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
-        if (rests) parts_.soil.wake({ix, iy, ix + 1, iy + 1}, foot_);
+        if (rests) parts_.soil.activate({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
   /// How much higher the ground lies for being loose [m].
