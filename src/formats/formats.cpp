@@ -26,8 +26,9 @@ MapFormat ply_format();
 
 const std::vector<MapFormat>& all_formats() {
   static const std::vector<MapFormat> table = {
-      geotiff_format(), npz_format(),   nav2_format(), nav2_scale_format(), hillshade_format(), relief_format(),
-      obj_format(),     terra_format(), mcap_format(), bag_format(),        ply_format(),
+      geotiff_format(),   npz_format(),    nav2_format(), nav2_scale_format(),
+      hillshade_format(), relief_format(), obj_format(),  terra_format(),
+      mcap_format(),      bag_format(),    ply_format(),
   };
   return table;
 }
@@ -38,12 +39,12 @@ const MapFormat& format_named(const std::string& name) {
     if (each.name == name) return each;
     names.push_back(each.name);
   }
-  throw InputError(
-      Fault{Fault::Severity::kError, "", 0, "format", name, "is not the name of a format", suggestion(name, names)});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "format", name,
+                         "is not the name of a format", suggestion(name, names)});
 }
 
-void write_map(const std::string& format, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
-               const std::string& path) {
+void write_map(const std::string& format, const map::TerrainMap& map,
+               const std::vector<map::MapLayer>& layers, const std::string& path) {
   format_named(format).write(map, layers, path);
 }
 
@@ -51,7 +52,8 @@ std::vector<std::string> files_of(const MapFormat& format, const std::string& pa
   std::vector<std::string> out;
   // The files of a folder are inside it, others stand beside the first file.
   if (format.within != nullptr) {
-    for (const std::string& name : format.within(folder_name(path))) out.push_back(path + "/" + name);
+    for (const std::string& name : format.within(folder_name(path)))
+      out.push_back(path + "/" + name);
     return out;
   }
   out.push_back(path);

@@ -40,7 +40,8 @@ struct MapFormat {
   /// Writes a picture with lines over it, three columns wide, in four colours by the numbers of the
   /// lines; null for formats that cannot. @throws as `write`.
   void (*write_with_lines)(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
-                           const std::string& path, const std::vector<map::MapLine>& lines) = nullptr;
+                           const std::string& path,
+                           const std::vector<map::MapLine>& lines) = nullptr;
   /// Opens a file or folder that grows while a world runs; null for formats of one instant.
   /// @throws FileError, InputError.
   std::unique_ptr<ros::Bag> (*open_bag)(const std::string& path) = nullptr;
@@ -51,8 +52,8 @@ const std::vector<MapFormat>& all_formats();
 /// Returns the format called `name`. @throws InputError that suggests the nearest name.
 const MapFormat& format_named(const std::string& name);
 /// Writes a map in the format called `format`. @throws as format_named and MapFormat::write.
-void write_map(const std::string& format, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
-               const std::string& path);
+void write_map(const std::string& format, const map::TerrainMap& map,
+               const std::vector<map::MapLayer>& layers, const std::string& path);
 /// Returns the paths of all files that `format` writes for `path`, which has its extension.
 std::vector<std::string> files_of(const MapFormat& format, const std::string& path);
 /// Checks that `format` could write to `path`, without touching it; the free space of the disk is

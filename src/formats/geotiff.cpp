@@ -9,7 +9,8 @@
 namespace navvy::formats {
 namespace {
 
-void write_geotiff(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+void write_geotiff(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                   const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
   // Rows by rows: nothing is copied whole.
   std::vector<heightfield::MapBand> bands;
@@ -22,7 +23,8 @@ void write_geotiff(const map::TerrainMap& map, const std::vector<map::MapLayer>&
   heightfield::write_geotiff(map.setup(), bands, path);
 #else
   (void)map, (void)layers;
-  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+  throw FileError("cannot write '" + path +
+                  "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }
 

@@ -39,7 +39,8 @@ std::string header_of(const map::MapUpdate& update, const std::vector<MapLayer>&
 
 }  // namespace
 
-bool send_patch(const map::MapUpdate& update, const std::vector<MapLayer>& layers, const PatchSink& sink) {
+bool send_patch(const map::MapUpdate& update, const std::vector<MapLayer>& layers,
+                const PatchSink& sink) {
   const std::string head = header_of(update, layers);
   const auto length = static_cast<std::uint32_t>(head.size());
   std::string begin = "NAVVYMAP";
@@ -52,8 +53,10 @@ bool send_patch(const map::MapUpdate& update, const std::vector<MapLayer>& layer
       const auto width = std::max<std::int64_t>(rect.x1 - rect.x0, 1);
       const int rows = static_cast<int>(std::clamp<std::int64_t>(kPieceValues / width, 1, 256));
       for (int y0 = rect.y0; y0 < rect.y1; y0 += rows) {
-        const std::vector<float> values = update.map.copy(layer, {rect.x0, y0, rect.x1, std::min(y0 + rows, rect.y1)});
-        if (!sink(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float))) return false;
+        const std::vector<float> values =
+            update.map.copy(layer, {rect.x0, y0, rect.x1, std::min(y0 + rows, rect.y1)});
+        if (!sink(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)))
+          return false;
       }
     }
   return true;

@@ -14,11 +14,13 @@ namespace navvy::formats {
 using PatchSink = std::function<bool(const char* bytes, std::size_t count)>;
 
 /// Hands an update to `sink` as a patch (src/map/README.md, "Updates"): the magic "NAVVYMAP", the
-/// length of the header (32 bits, little-endian), the header as JSON, and for each rectangle and each
-/// layer its float32 rows, least y first. Pieces have at most 16 MiB or one row. Returns false when
-/// the sink ended the stream.
-bool send_patch(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers, const PatchSink& sink);
+/// length of the header (32 bits, little-endian), the header as JSON, and for each rectangle and
+/// each layer its float32 rows, least y first. Pieces have at most 16 MiB or one row. Returns false
+/// when the sink ended the stream.
+bool send_patch(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers,
+                const PatchSink& sink);
 /// Returns the whole patch at once.
-std::vector<char> patch_bytes(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers);
+std::vector<char> patch_bytes(const map::MapUpdate& update,
+                              const std::vector<map::MapLayer>& layers);
 
 }  // namespace navvy::formats

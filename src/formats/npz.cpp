@@ -85,7 +85,9 @@ class ZipArchive {
     std::exception_ptr failure;
   };
 
-  [[noreturn]] void fail(const std::string& cause) const { throw FileError("cannot write '" + path_ + "': " + cause); }
+  [[noreturn]] void fail(const std::string& cause) const {
+    throw FileError("cannot write '" + path_ + "': " + cause);
+  }
 
   /// Copies the next bytes of an entry to `data`; returns their number, -1 after an exception.
   static zip_int64_t read(Entry& entry, char* data, zip_uint64_t length) {
@@ -97,7 +99,8 @@ class ZipArchive {
           entry.at = 0;
           if (entry.bytes.empty()) break;
         }
-        const std::size_t count = std::min<std::size_t>(length - done, entry.bytes.size() - entry.at);
+        const std::size_t count =
+            std::min<std::size_t>(length - done, entry.bytes.size() - entry.at);
         std::memcpy(data + done, entry.bytes.data() + entry.at, count);
         entry.at += count;
         done += count;
@@ -146,7 +149,8 @@ std::string header(const map::TerrainMap& map, const std::vector<map::MapLayer>&
   const heightfield::GroundSetup& s = map.setup();
   nlohmann::ordered_json named = nlohmann::ordered_json::object();
   for (const map::MapLayer layer : layers)
-    named[map::info(layer).name] = {{"unit", map::info(layer).unit}, {"meaning", map::info(layer).meaning}};
+    named[map::info(layer).name] = {{"unit", map::info(layer).unit},
+                                    {"meaning", map::info(layer).meaning}};
   nlohmann::ordered_json soils = nlohmann::ordered_json::array();
   for (const auto& soil : s.soils) soils.push_back(soil.name);
   const nlohmann::ordered_json out = {
@@ -177,10 +181,11 @@ std::string header(const map::TerrainMap& map, const std::vector<map::MapLayer>&
 }
 
 /// NumPy's NPZ: an array (ny, nx) of little-endian float32 for each layer, in W, row 0 = least y,
-/// NaN unknown; and `header.json` (format_version, layers with unit and meaning, size, cell, origin,
-/// time, soils, georeference, and for a map with gaps the share of its cells that was filled, and
-/// from how far).
-void write_npz(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+/// NaN unknown; and `header.json` (format_version, layers with unit and meaning, size, cell,
+/// origin, time, soils, georeference, and for a map with gaps the share of its cells that was
+/// filled, and from how far).
+void write_npz(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+               const std::string& path) {
   ZipArchive zip(path);
   // The header first: a reader of the stream knows what comes.
   const std::string head = header(map, layers);

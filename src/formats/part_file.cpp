@@ -11,7 +11,8 @@
 
 namespace navvy::formats {
 
-PartFile::PartFile(const std::string& path) : path_(path), part_(partial_name(path)), file_(nullptr) {
+PartFile::PartFile(const std::string& path)
+    : path_(path), part_(partial_name(path)), file_(nullptr) {
   // Asked first: gigabytes are not written for a place that is then refused.
   require_writable(path);
   file_ = std::fopen(part_.c_str(), "wb");

@@ -16,10 +16,12 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a neighbour is missing.
+/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a
+/// neighbour is missing.
 double shade(const map::TerrainMap& map, map::MapLayer surface, int ix, int iy) {
   const auto z = [&](int x, int y) {
-    return static_cast<double>(map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
+    return static_cast<double>(
+        map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
   };
   const auto slope = [&](double before, double here, double after) {
     // Beside a hole the known side alone.
@@ -28,7 +30,8 @@ double shade(const map::TerrainMap& map, map::MapLayer surface, int ix, int iy) 
     return (after - before) / (2 * map.cell());
   };
   const double here = z(ix, iy);
-  const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)), -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
+  const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)),
+                      -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
   // Its direction in W: x is east, y north.
   const Vec3 sun = Vec3(-1, 1, std::sqrt(2.0)).normalized();
   return here == here ? std::clamp(n.normalized().dot(sun), 0.0, 1.0) : here;
@@ -46,10 +49,13 @@ Colour between(const std::vector<Colour>& stops, double t) {
 
 /// Returns the colours of a layer: dark to bright, and with a meaning where its type has one.
 const std::vector<Colour>& stops_of(map::LayerType type) {
-  static const std::vector<Colour> plain = {{0.15, 0.11, 0.24}, {0.20, 0.29, 0.48}, {0.20, 0.50, 0.50},
-                                            {0.47, 0.68, 0.37}, {0.85, 0.82, 0.47}, {0.98, 0.96, 0.86}};
-  static const std::vector<Colour> good = {{0.72, 0.16, 0.14}, {0.91, 0.71, 0.28}, {0.36, 0.62, 0.34}};
-  static const std::vector<Colour> difference = {{0.16, 0.30, 0.62}, {0.94, 0.94, 0.92}, {0.70, 0.20, 0.15}};
+  static const std::vector<Colour> plain = {{0.15, 0.11, 0.24}, {0.20, 0.29, 0.48},
+                                            {0.20, 0.50, 0.50}, {0.47, 0.68, 0.37},
+                                            {0.85, 0.82, 0.47}, {0.98, 0.96, 0.86}};
+  static const std::vector<Colour> good = {
+      {0.72, 0.16, 0.14}, {0.91, 0.71, 0.28}, {0.36, 0.62, 0.34}};
+  static const std::vector<Colour> difference = {
+      {0.16, 0.30, 0.62}, {0.94, 0.94, 0.92}, {0.70, 0.20, 0.15}};
   if (type == map::LayerType::kShare) return good;
   return type == map::LayerType::kDifference ? difference : plain;
 }
@@ -59,7 +65,8 @@ std::pair<double, double> range_of(map::LayerType type, const std::vector<float>
   if (type == map::LayerType::kShare || type == map::LayerType::kFlag) return {0, 1};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const float v : values)
-    if (v == v) low = std::min(low, static_cast<double>(v)), high = std::max(high, static_cast<double>(v));
+    if (v == v)
+      low = std::min(low, static_cast<double>(v)), high = std::max(high, static_cast<double>(v));
   // A flat layer, or one that is unknown everywhere: one colour in the middle.
   if (!(low < high)) return {low - 0.5, low + 0.5};
   // Zero lies in the middle of a difference.
@@ -67,13 +74,16 @@ std::pair<double, double> range_of(map::LayerType type, const std::vector<float>
   return type == map::LayerType::kDifference ? std::pair{-most, most} : std::pair{low, high};
 }
 
-void require_one(const char* format, const std::vector<map::MapLayer>& layers, const std::string& path, bool fits) {
+void require_one(const char* format, const std::vector<map::MapLayer>& layers,
+                 const std::string& path, bool fits) {
   if (layers.size() == 1 && fits) return;
   std::string found;
-  for (const map::MapLayer layer : layers) found += (found.empty() ? "" : ",") + map::info(layer).name;
-  throw InputError(Fault{Fault::Severity::kError, path, 0, format, found,
-                         fits ? "a picture shows one layer" : "shows a surface: elevation, elevation_start or target",
-                         "ask for one picture a layer, or for a GeoTIFF"});
+  for (const map::MapLayer layer : layers)
+    found += (found.empty() ? "" : ",") + map::info(layer).name;
+  throw InputError(Fault{
+      Fault::Severity::kError, path, 0, format, found,
+      fits ? "a picture shows one layer" : "shows a surface: elevation, elevation_start or target",
+      "ask for one picture a layer, or for a GeoTIFF"});
 }
 
 /// Which line lies over a column: the plan's number, 0 for none; empty where there are none.
@@ -87,8 +97,8 @@ Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& 
     for (int iy = c.y() - 1; iy <= c.y() + 1; ++iy)
       for (int ix = c.x() - 1; ix <= c.x() + 1; ++ix)
         if (map.contains(ix, iy))
-          out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix)] =
-              static_cast<std::uint8_t>(1 + (plan - 1) % 4);
+          out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
+              static_cast<std::size_t>(ix)] = static_cast<std::uint8_t>(1 + (plan - 1) % 4);
   };
   // Later ones over earlier ones; places lie closer than a column or are joined by half columns.
   for (const map::MapLine& line : lines)
@@ -103,7 +113,8 @@ Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& 
 
 /// `colour(ix, iy, out)` says whether the column is known.
 template <class Paint>
-void write_picture(const map::TerrainMap& map, const std::string& path, const Overlay& overlay, const Paint& colour) {
+void write_picture(const map::TerrainMap& map, const std::string& path, const Overlay& overlay,
+                   const Paint& colour) {
   static const std::array<Colour, 4> inks = {Colour{0.85, 0.10, 0.10}, Colour{0.10, 0.35, 0.90},
                                              Colour{0.05, 0.60, 0.25}, Colour{0.60, 0.20, 0.75}};
   // The picture's first row is the northern edge.
@@ -113,18 +124,20 @@ void write_picture(const map::TerrainMap& map, const std::string& path, const Ov
     for (int ix = 0; ix < map.nx(); ++ix) {
       Colour rgb{};
       bool known = colour(ix, iy, rgb);
-      const std::size_t column =
-          static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix);
+      const std::size_t column = static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
+                                 static_cast<std::size_t>(ix);
       if (!overlay.empty() && overlay[column] > 0) rgb = inks[overlay[column] - 1u], known = true;
       for (const double c : rgb)
-        pixels.push_back(known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
+        pixels.push_back(
+            known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
       pixels.push_back(known ? 255 : 0);
     }
   write_file_atomically(path, png_bytes(PixelKind::kRgba, map.nx(), map.ny(), pixels));
 }
 
-void write_hillshade_with_lines(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
-                                const std::string& path, const std::vector<map::MapLine>& lines) {
+void write_hillshade_with_lines(const map::TerrainMap& map,
+                                const std::vector<map::MapLayer>& layers, const std::string& path,
+                                const std::vector<map::MapLine>& lines) {
   require_one("hillshade", layers, path, !layers.empty() && map::info(layers[0]).height());
   write_picture(map, path, overlay_of(map, lines), [&](int ix, int iy, Colour& rgb) {
     const double light = shade(map, layers[0], ix, iy);
@@ -150,11 +163,13 @@ void write_relief_with_lines(const map::TerrainMap& map, const std::vector<map::
   });
 }
 
-void write_hillshade(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+void write_hillshade(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                     const std::string& path) {
   write_hillshade_with_lines(map, layers, path, {});
 }
 
-void write_relief(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+void write_relief(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                  const std::string& path) {
   write_relief_with_lines(map, layers, path, {});
 }
 

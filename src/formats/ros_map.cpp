@@ -22,7 +22,8 @@ std::vector<std::string> bag_files(const std::string& name) {
   return {"metadata.yaml", name + "_0.db3", name + "_0.db3-journal"};
 }
 
-void write_mcap(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+void write_mcap(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                const std::string& path) {
   const std::string part = partial_name(path);
   try {
     const auto bag = ros::make_mcap(part);
@@ -34,7 +35,8 @@ void write_mcap(const map::TerrainMap& map, const std::vector<map::MapLayer>& la
   commit_file(path);
 }
 
-void write_bag(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
+void write_bag(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+               const std::string& path) {
   PartFolder part(path, bag_files(folder_name(path)));
   write(*ros::make_bag_folder(part.place()), map, layers);
   part.commit();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of NumPy arrays as excavation planners of the Terra kind take: one map, number 1, of small whole numbers.
+// A folder of NumPy arrays as excavation planners of the Terra kind take: one map, number 1, of
+// small whole numbers.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -26,22 +27,24 @@ void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
   for (int q = 0; q < n; ++q) {
     if (!std::isfinite(f[static_cast<std::size_t>(q)])) continue;
     const auto meet = [&](int p) {
-      return (f[static_cast<std::size_t>(q)] + static_cast<double>(q) * q - f[static_cast<std::size_t>(p)] -
-              static_cast<double>(p) * p) /
+      return (f[static_cast<std::size_t>(q)] + static_cast<double>(q) * q -
+              f[static_cast<std::size_t>(p)] - static_cast<double>(p) * p) /
              (2.0 * (q - p));
     };
-    while (count > 0 && meet(at[static_cast<std::size_t>(count - 1)]) <= from[static_cast<std::size_t>(count - 1)])
+    while (count > 0 && meet(at[static_cast<std::size_t>(count - 1)]) <=
+                            from[static_cast<std::size_t>(count - 1)])
       --count;
-    from[static_cast<std::size_t>(count)] =
-        count == 0 ? -std::numeric_limits<double>::infinity() : meet(at[static_cast<std::size_t>(count - 1)]);
+    from[static_cast<std::size_t>(count)] = count == 0
+                                                ? -std::numeric_limits<double>::infinity()
+                                                : meet(at[static_cast<std::size_t>(count - 1)]);
     at[static_cast<std::size_t>(count++)] = q;
   }
   for (int i = 0, k = 0; i < n; ++i) {
     while (k + 1 < count && from[static_cast<std::size_t>(k + 1)] < i) ++k;
     const int p = count > 0 ? at[static_cast<std::size_t>(k)] : 0;
-    out[static_cast<std::size_t>(i)] = count == 0
-                                           ? std::numeric_limits<double>::infinity()
-                                           : static_cast<double>(i - p) * (i - p) + f[static_cast<std::size_t>(p)];
+    out[static_cast<std::size_t>(i)] =
+        count == 0 ? std::numeric_limits<double>::infinity()
+                   : static_cast<double>(i - p) * (i - p) + f[static_cast<std::size_t>(p)];
   }
 }
 
@@ -65,7 +68,8 @@ std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int
   pass(nx, ny, 1, width);
   std::vector<float> out;
   out.reserve(square.size());
-  for (const double d : square) out.push_back(std::isfinite(d) ? static_cast<float>(cell * std::sqrt(d)) : -1.0f);
+  for (const double d : square)
+    out.push_back(std::isfinite(d) ? static_cast<float>(cell * std::sqrt(d)) : -1.0f);
   return out;
 }
 
@@ -76,21 +80,27 @@ std::vector<std::string> terra_files(const std::string& name) {
   return out;
 }
 
-void write_terra(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, const std::string& path) {
-  for (const map::MapLayer needed : {map::MapLayer::kTarget, map::MapLayer::kElevation, map::MapLayer::kTraversability})
+void write_terra(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                 const std::string& path) {
+  for (const map::MapLayer needed :
+       {map::MapLayer::kTarget, map::MapLayer::kElevation, map::MapLayer::kTraversability})
     if (!map.has(needed))
       throw InputError(Fault{Fault::Severity::kError, path, 0, "terra", map::info(needed).name,
                              "is needed and was not asked for", "leave --layers out"});
   (void)layers;
   std::vector<std::int8_t> dig, target, occupied, dumpable;
-  const std::vector<float> z = map.copy(map::MapLayer::kElevation), wanted = map.copy(map::MapLayer::kTarget),
+  const std::vector<float> z = map.copy(map::MapLayer::kElevation),
+                           wanted = map.copy(map::MapLayer::kTarget),
                            good = map.copy(map::MapLayer::kTraversability);
-  // What the ground is off its design by less than a twentieth of a column's edge is as good as done.
+  // What the ground is off its design by less than a twentieth of a column's edge is as good as
+  // done.
   const double least = 0.05 * map.cell();
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double rise = static_cast<double>(z[k]) - static_cast<double>(wanted[k]);
     // Comparisons with an unknown height are false: neutral.
-    const std::int8_t aim = rise > least ? std::int8_t{-1} : rise < -least ? std::int8_t{1} : std::int8_t{0};
+    const std::int8_t aim = rise > least    ? std::int8_t{-1}
+                            : rise < -least ? std::int8_t{1}
+                                            : std::int8_t{0};
     target.push_back(aim);
     dig.push_back(aim < 0 ? 1 : 0);
     occupied.push_back(good[k] > 0 ? 0 : 1);
@@ -118,7 +128,8 @@ MapFormat terra_format() {
   return {.name = "terra",
           .extension = "",
           .meaning = "folder of NumPy arrays: target -1/0/1, occupancy, dumpability, distance",
-          .by_default = {map::MapLayer::kTarget, map::MapLayer::kElevation, map::MapLayer::kTraversability},
+          .by_default = {map::MapLayer::kTarget, map::MapLayer::kElevation,
+                         map::MapLayer::kTraversability},
           .write = write_terra,
           .within = terra_files,
           .needs_design = true};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that waits for readers, and one for each of them: how slow a reader is, only its own thread knows.
+// A thread that waits for readers, and one for each of them: how slow a reader is, only its own
+// thread knows.
 #include "link/map_publisher.h"
 
 #include <arpa/inet.h>
@@ -37,7 +38,8 @@ namespace fs = std::filesystem;
 /// How often a waiting thread looks whether it shall end [s].
 constexpr double kGlance = 0.2;
 
-[[noreturn]] void refuse(const std::string& place, const std::string& rule, const std::string& remedy) {
+[[noreturn]] void refuse(const std::string& place, const std::string& rule,
+                         const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
 }
 
@@ -85,7 +87,8 @@ void require_folder(const std::string& place) {
   // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
   const std::size_t colon = place.find(':');
   if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
-    refuse(place, "is no address that is known", "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
+    refuse(place, "is no address that is known",
+           "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
   std::error_code failed;
   const fs::file_status there = fs::status(place, failed);
   if (!fs::exists(there)) return;
@@ -93,8 +96,10 @@ void require_folder(const std::string& place) {
   const fs::directory_iterator entries(place, failed);
   if (failed) refuse(place, "cannot be read: " + failed.message(), "name a new folder");
   if (entries != fs::directory_iterator())
-    refuse(place, "holds '" + entries->path().filename().string() + "' already: patches are numbered from 1",
-           "name a new folder");
+    refuse(
+        place,
+        "holds '" + entries->path().filename().string() + "' already: patches are numbered from 1",
+        "name a new folder");
 }
 
 bool is_address(const std::string& place) { return place.rfind("tcp:", 0) == 0; }
@@ -140,8 +145,8 @@ struct MapPublisher::State {
   bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
   /// Piece by piece; whole or not there. @throws FileError.
   void write_patch(const std::string& path, const map::MapUpdate& update) const;
-  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end, and so does
-  /// `alive`, which is asked while there is nothing to deliver.
+  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false
+  /// to end, and so does `alive`, which is asked while there is nothing to deliver.
   template <class Deliver, class Alive>
   void follow(const Deliver& deliver, const Alive& alive);
 };
@@ -177,7 +182,8 @@ void MapPublisher::State::serve_files() {
   follow(
       [&](const map::MapUpdate& update) {
         char name[40];
-        std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
+        std::snprintf(name, sizeof name, "patch_%09llu.navvymap",
+                      static_cast<unsigned long long>(++number));
         return attempt([&] { write_patch((fs::path(folder) / name).string(), update); });
       },
       [] { return true; });
@@ -194,8 +200,10 @@ void MapPublisher::State::write_patch(const std::string& path, const map::MapUpd
   file.commit();
 }
 
-/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since then [s].
-bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t count, double& waited) const {
+/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since
+/// then [s].
+bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t count,
+                                   double& waited) const {
   Stopwatch lap;
   for (std::size_t at = 0; at < count;) {
     pollfd out{file, POLLOUT, 0};
@@ -259,7 +267,8 @@ void MapPublisher::State::accept_readers() {
       continue;
     }
     if (readers.size() >= kMostReaders) {
-      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) + " are connected");
+      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) +
+           " are connected");
       ::close(file);
       continue;
     }
@@ -275,7 +284,8 @@ void MapPublisher::State::accept_readers() {
   }
 }
 
-MapPublisher::MapPublisher(map::UpdateFeed& feed, const std::string& place, std::vector<map::MapLayer> layers)
+MapPublisher::MapPublisher(map::UpdateFeed& feed, const std::string& place,
+                           std::vector<map::MapLayer> layers)
     : state_(std::make_unique<State>(feed, std::move(layers))) {
   State& s = *state_;
   if (is_address(place)) {
@@ -295,7 +305,8 @@ MapPublisher::~MapPublisher() { finish(); }
 
 void MapPublisher::require_place(const std::string& place) {
   int port = 0;
-  // Taken and let go: what is free now is free in a minute but for a rare race, which the making tells.
+  // Taken and let go: what is free now is free in a minute but for a rare race, which the making
+  // tells.
   if (is_address(place))
     ::close(listening(place, port));
   else

@@ -4,8 +4,8 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "map/map_sources.h"
-#include "sim/terrain_view.h"
 #include "sim/timing.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::link {
 
@@ -33,7 +33,9 @@ PublishedMap::PublishedMap(const PublishOptions& options, const session::Session
   publish();
 }
 
-void PublishedMap::publish() { feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped)); }
+void PublishedMap::publish() {
+  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+}
 
 void PublishedMap::check() const {
   if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);

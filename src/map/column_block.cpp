@@ -21,8 +21,8 @@ class ColumnsSource final : public LayerSource {
     const LayerInfo& row = info(layer);
     const auto put = [&](int ix, int iy, float value) {
       // One NaN for all, so that maps compare bit by bit.
-      out[static_cast<std::size_t>(iy - rect.y0) * stride + static_cast<std::size_t>(ix - rect.x0)] =
-          value == value ? value : kUnknown;
+      out[static_cast<std::size_t>(iy - rect.y0) * stride +
+          static_cast<std::size_t>(ix - rect.x0)] = value == value ? value : kUnknown;
     };
     if (row.of_surround != nullptr) {
       for_each_block(rect, [&](const CellRect& block) {
@@ -47,7 +47,8 @@ class ColumnsSource final : public LayerSource {
     patch.z.reserve(static_cast<std::size_t>(patch.rect.area()));
     for (int iy = patch.rect.y0; iy < patch.rect.y1; ++iy)
       for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
-        patch.z.push_back(site.contains(ix, iy) ? static_cast<float>(view.height(ix, iy)) : kUnknown);
+        patch.z.push_back(site.contains(ix, iy) ? static_cast<float>(view.height(ix, iy))
+                                                : kUnknown);
     return patch;
   }
 
@@ -68,7 +69,8 @@ bool SiteColumns::knows(LayerNeeds needs) const {
 float SiteColumns::target(int ix, int iy) const {
   const std::vector<float>& target = options_->target;
   if (target.empty()) return kUnknown;
-  return target[static_cast<std::size_t>(iy) * static_cast<std::size_t>(view_.nx()) + static_cast<std::size_t>(ix)];
+  return target[static_cast<std::size_t>(iy) * static_cast<std::size_t>(view_.nx()) +
+                static_cast<std::size_t>(ix)];
 }
 
 float SiteColumns::density(int ix, int iy) const {
@@ -79,15 +81,18 @@ float SiteColumns::density(int ix, int iy) const {
 float ColumnBlock::elevation(int ix, int iy) const {
   if (z_.empty()) site_.view().copy_heights(rect_, z_);
   const auto width = static_cast<std::size_t>(rect_.x1 - rect_.x0);
-  return z_[static_cast<std::size_t>(iy - rect_.y0) * width + static_cast<std::size_t>(ix - rect_.x0)];
+  return z_[static_cast<std::size_t>(iy - rect_.y0) * width +
+            static_cast<std::size_t>(ix - rect_.x0)];
 }
 
 TerrainMap make_map(const std::shared_ptr<const SiteColumns>& site, std::uint64_t sequence) {
   const heightfield::TerrainView& view = site->view();
   const MapOptions& options = site->options();
   options.limits.require_valid(view.cell());
-  if (!options.target.empty() && options.target.size() != static_cast<std::size_t>(view.site_rect().area()))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "target", std::to_string(options.target.size()) + " values",
+  if (!options.target.empty() &&
+      options.target.size() != static_cast<std::size_t>(view.site_rect().area()))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "target",
+                           std::to_string(options.target.size()) + " values",
                            "one value for each of the site's " + std::to_string(view.nx()) + " x " +
                                std::to_string(view.ny()) + " columns",
                            "sample the design surface at the column centres, x fastest"});

@@ -61,7 +61,8 @@ class SiteColumns {
 class ColumnBlock {
  public:
   /// Both must outlive the block.
-  ColumnBlock(const SiteColumns& site, const heightfield::CellRect& rect) : site_(site), rect_(rect) {}
+  ColumnBlock(const SiteColumns& site, const heightfield::CellRect& rect)
+      : site_(site), rect_(rect) {}
 
   const SiteColumns& site() const { return site_; }
   /// Returns the height of the surface of a column of the rectangle in W [m].

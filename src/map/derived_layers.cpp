@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums run in one fixed order and in double, so that the bits depend on the columns alone and not on
-// the rectangle that is computed.
+// Sums run in one fixed order and in double, so that the bits depend on the columns alone and not
+// on the rectangle that is computed.
 #include "map/derived_layers.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 namespace navvy::map {
 namespace {
 
-constexpr int kWidestReach = 64;  // columns; a window of 129 x 129 costs a tenth of a millisecond a column
+// Columns; a window of 129 x 129 costs a tenth of a millisecond a column
+constexpr int kWidestReach = 64;
 
 /// NaN is the one number that differs from itself.
 bool known(float value) { return value == value; }
@@ -20,7 +21,8 @@ bool known(float value) { return value == value; }
 /// Height gained per column along one axis; NaN where neither neighbour is known.
 double gradient(float before, float here, float after) {
   const auto z = static_cast<double>(here);
-  if (known(before) && known(after)) return (static_cast<double>(after) - static_cast<double>(before)) / 2;
+  if (known(before) && known(after))
+    return (static_cast<double>(after) - static_cast<double>(before)) / 2;
   if (known(after)) return static_cast<double>(after) - z;
   if (known(before)) return z - static_cast<double>(before);
   return static_cast<double>(kUnknown);
@@ -35,8 +37,9 @@ int TraversabilityLimits::reach(double cell) const {
 void TraversabilityLimits::require_valid(double cell) const {
   const auto check = [](const char* name, double value, double most, const char* remedy) {
     if (std::isfinite(value) && value > 0 && value <= most) return;
-    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("traversability ") + name, std::to_string(value),
-                           "above 0, at most " + std::to_string(most), remedy});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("traversability ") + name,
+                           std::to_string(value), "above 0, at most " + std::to_string(most),
+                           remedy});
   };
   check("slope", slope, kPi / 2, "the steepest slope to drive on, in radians");
   check("step height", step_height, 1e6, "the highest step to drive over, in metres");
@@ -66,8 +69,10 @@ float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
     for (int x = ix - reach; x <= ix + reach; ++x) {
       const float z = patch.at(x, y);
       // A comparison with an unknown neighbour is false.
-      if (x < ix + reach && std::abs(patch.at(x + 1, y) - z) > most) most = std::abs(patch.at(x + 1, y) - z);
-      if (y < iy + reach && std::abs(patch.at(x, y + 1) - z) > most) most = std::abs(patch.at(x, y + 1) - z);
+      if (x < ix + reach && std::abs(patch.at(x + 1, y) - z) > most)
+        most = std::abs(patch.at(x + 1, y) - z);
+      if (y < iy + reach && std::abs(patch.at(x, y + 1) - z) > most)
+        most = std::abs(patch.at(x, y + 1) - z);
     }
   return most;
 }
@@ -95,12 +100,14 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
 }
 
-float traversability(float slope, float step_height, float roughness, const TraversabilityLimits& limits) {
+float traversability(float slope, float step_height, float roughness,
+                     const TraversabilityLimits& limits) {
   // Added in this order always. A good slope does not make up for a step that is too high.
   double sum = 0;
   bool bad = false;
-  for (const auto& [value, limit] : {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
-                                     std::pair{roughness, limits.roughness}}) {
+  for (const auto& [value, limit] :
+       {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
+        std::pair{roughness, limits.roughness}}) {
     if (!known(value)) return kUnknown;
     const double share = static_cast<double>(value) / limit;
     bad = bad || share >= 1;

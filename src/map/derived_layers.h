@@ -20,8 +20,8 @@ struct TraversabilityLimits {
   double step_height = 0.30;
   /// Largest rms roughness [m] (U).
   double roughness = 0.10;
-  /// Half the side of the square over which step height and roughness are computed [m]; at least one
-  /// column.
+  /// Half the side of the square over which step height and roughness are computed [m]; at least
+  /// one column.
   double window = 0.20;
   /// @throws InputError that names the number that is not finite and positive, or a window of more
   /// than 64 columns of `cell` [m].
@@ -54,18 +54,20 @@ Vec2 gradient_at(const ElevationPatch& patch, int ix, int iy);
 float slope_at(const ElevationPatch& patch, int ix, int iy);
 /// Returns the largest |z_a - z_b| of two edge neighbours a, b that both lie in the window [m].
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Returns the rms of the residuals of the least-squares plane through the window [m]; NaN where the
-/// known columns do not determine a plane.
+/// Returns the rms of the residuals of the least-squares plane through the window [m]; NaN where
+/// the known columns do not determine a plane.
 float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach);
 /// Returns the mean of 1 - value / limit of the three; 0 where one of them reaches its limit, NaN
 /// where one is NaN.
-float traversability(float slope, float step_height, float roughness, const TraversabilityLimits& limits);
+float traversability(float slope, float step_height, float roughness,
+                     const TraversabilityLimits& limits);
 
 /// One column and the elevation around it. Computes what several layers share only once.
 class Surround {
  public:
   /// The patch and the limits must outlive it; `reach` is limits.reach(patch.cell).
-  Surround(const ElevationPatch& patch, int ix, int iy, const TraversabilityLimits& limits, int reach)
+  Surround(const ElevationPatch& patch, int ix, int iy, const TraversabilityLimits& limits,
+           int reach)
       : patch_(patch), limits_(limits), ix_(ix), iy_(iy), reach_(reach) {}
 
   const TraversabilityLimits& limits() const { return limits_; }
@@ -97,7 +99,8 @@ void for_each_block(const heightfield::CellRect& rect, const Work& work) {
   constexpr int kBlock = 256;
   for (int y0 = rect.y0; y0 < rect.y1; y0 += kBlock)
     for (int x0 = rect.x0; x0 < rect.x1; x0 += kBlock)
-      work(heightfield::CellRect{x0, y0, std::min(x0 + kBlock, rect.x1), std::min(y0 + kBlock, rect.y1)});
+      work(heightfield::CellRect{x0, y0, std::min(x0 + kBlock, rect.x1),
+                                 std::min(y0 + kBlock, rect.y1)});
 }
 
 /// Calls `work(ix, iy, surround)` for every column of `block`, around which `patch` has a margin of

@@ -34,7 +34,8 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "height of the untouched site",
        .type = LayerType::kHeight,
        .needs = LayerNeeds::kHeights,
-       .of_column = [](Block b, int ix, int iy) { return static_cast<float>(b.site().start_height(ix, iy)); }},
+       .of_column = [](Block b, int ix,
+                       int iy) { return static_cast<float>(b.site().start_height(ix, iy)); }},
       {.layer = kTarget,
        .name = "target",
        .unit = "m",
@@ -49,7 +50,8 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .type = LayerType::kDifference,
        .needs = LayerNeeds::kDesign,
        .from = {kElevation, kTarget},
-       .of_column = [](Block b, int ix, int iy) { return b.elevation(ix, iy) - b.site().target(ix, iy); }},
+       .of_column = [](Block b, int ix,
+                       int iy) { return b.elevation(ix, iy) - b.site().target(ix, iy); }},
       {.layer = kSlope,
        .name = "slope",
        .unit = "rad",
@@ -82,7 +84,9 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .needs = LayerNeeds::kHeights,
        .from = {kSlope, kStepHeight, kRoughness, kElevation},
        .of_surround =
-           [](Surround& s) { return traversability(s.slope(), s.step_height(), s.roughness(), s.limits()); }},
+           [](Surround& s) {
+             return traversability(s.slope(), s.step_height(), s.roughness(), s.limits());
+           }},
       {.layer = kLooseDepth,
        .name = "loose_depth",
        .unit = "m",
@@ -118,15 +122,18 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "1 where the soil may still move",
        .type = LayerType::kFlag,
        .needs = LayerNeeds::kLooseSoil,
-       .of_column = [](Block b, int ix, int iy) { return b.site().loose_depth(ix, iy) > 0 ? 1.0f : 0.0f; }},
+       .of_column = [](Block b, int ix,
+                       int iy) { return b.site().loose_depth(ix, iy) > 0 ? 1.0f : 0.0f; }},
       {.layer = kChange,
        .name = "change",
        .unit = "m",
        .meaning = "elevation minus elevation_start",
        .type = LayerType::kDifference,
        .needs = LayerNeeds::kHeights,
-       .of_column = [](Block b, int ix,
-                       int iy) { return static_cast<float>(b.site().height(ix, iy) - b.site().start_height(ix, iy)); },
+       .of_column =
+           [](Block b, int ix, int iy) {
+             return static_cast<float>(b.site().height(ix, iy) - b.site().start_height(ix, iy));
+           },
        .by_default = false},
       {.layer = kNormalX,
        .name = "normal_x",
@@ -173,8 +180,8 @@ MapLayer layer_named(const std::string& name) {
     if (each.name == name) return each.layer;
     names.push_back(each.name);
   }
-  throw InputError(
-      Fault{Fault::Severity::kError, "", 0, "layer", name, "is not the name of a layer", suggestion(name, names)});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "layer", name,
+                         "is not the name of a layer", suggestion(name, names)});
 }
 
 std::vector<MapLayer> layers_named(const std::string& list) {

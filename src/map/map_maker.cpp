@@ -15,12 +15,14 @@ namespace navvy::map {
 
 using heightfield::CellRect;
 
-MapMaker::MapMaker(MapOptions options) : options_(std::make_shared<const MapOptions>(std::move(options))) {}
+MapMaker::MapMaker(MapOptions options)
+    : options_(std::make_shared<const MapOptions>(std::move(options))) {}
 
-// By size and place: the follower itself tells sites of one size apart, and then names the whole of the new one.
+// By size and place: the follower itself tells sites of one size apart, and then names the whole of
+// the new one.
 bool MapMaker::is_of(const heightfield::TerrainView& view) const {
-  return map_ && map_->nx() == view.nx() && map_->ny() == view.ny() && map_->cell() == view.cell() &&
-         map_->origin() == view.origin();
+  return map_ && map_->nx() == view.nx() && map_->ny() == view.ny() &&
+         map_->cell() == view.cell() && map_->origin() == view.origin();
 }
 
 void MapMaker::start(const heightfield::TerrainView& view) {
@@ -54,7 +56,8 @@ void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
         // No short cut: each of them has to be written.
         for (const LayerInfo* row : marking_)
           differs = set(row->layer, ix, iy, row->of_column(block, ix, iy)) || differs;
-        for (const LayerInfo* row : of_column_) set(row->layer, ix, iy, row->of_column(block, ix, iy));
+        for (const LayerInfo* row : of_column_)
+          set(row->layer, ix, iy, row->of_column(block, ix, iy));
         if (differs) set(MapLayer::kDisturbedAt, ix, iy, now);
       }
   });
@@ -116,8 +119,8 @@ TerrainMap MapMaker::map() {
   return out;
 }
 
-std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer, const CellRect& rect,
-                                const MapOptions& options) {
+std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer,
+                                const CellRect& rect, const MapOptions& options) {
   MapOptions wanted = options;
   wanted.layers = {layer};
   const auto shared = std::make_shared<const MapOptions>(std::move(wanted));

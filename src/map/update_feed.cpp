@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers lock for a moment only.
+// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers
+// lock for a moment only.
 #include "map/update_feed.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ class TileComparison {
   }
   std::int64_t changed(int tx, int ty) {
     constexpr int kSide = LayerTiles::kSide;
-    const CellRect tile = CellRect{tx * kSide, ty * kSide, (tx + 1) * kSide, (ty + 1) * kSide}.cut(b_.rect());
+    const CellRect tile =
+        CellRect{tx * kSide, ty * kSide, (tx + 1) * kSide, (ty + 1) * kSide}.cut(b_.rect());
     bool any = false;
     for (const MapLayer layer : layers_) {
       const bool had = a_.has(layer);
@@ -39,7 +41,8 @@ class TileComparison {
         for (int ix = 0; ix < tile.x1 - tile.x0; ++ix) {
           const auto i = static_cast<std::size_t>(iy * kSide + ix);
           const float u = p != nullptr ? p[i] : kUnknown, v = q != nullptr ? q[i] : kUnknown;
-          if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v)) differs_[i] = true;
+          if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v))
+            differs_[i] = true;
         }
     }
     return any ? std::count(differs_.begin(), differs_.end(), true) : 0;
@@ -78,8 +81,8 @@ UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
   if (restart_) maker_.forget();
   const std::vector<CellRect>& rects = maker_.update(view);
   MapUpdate update{0, number, view.time(), rects, 0, false, maker_.map().numbered(number)};
-  const bool same_site =
-      before && !restart_ && before->map.nx() == update.map.nx() && before->map.ny() == update.map.ny();
+  const bool same_site = before && !restart_ && before->map.nx() == update.map.nx() &&
+                         before->map.ny() == update.map.ny();
   update.since = same_site ? before->sequence : 0;
   update.changed = same_site ? count_changed(before->map, update.map) : update.map.rect().area();
   if (same_site && update.changed == 0) return before;
@@ -117,7 +120,8 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
   if (latest_->since == seen && seen != 0) return latest_;
   MapUpdate out = *latest_;
   // What it missed must be in the list from its first step on.
-  const bool known = seen > 0 && seen < latest_->sequence && !steps_.empty() && steps_.front().sequence <= seen + 1;
+  const bool known = seen > 0 && seen < latest_->sequence && !steps_.empty() &&
+                     steps_.front().sequence <= seen + 1;
   out.since = known ? seen : 0;
   heightfield::RectList all;
   if (!known) all.add(out.map.rect());

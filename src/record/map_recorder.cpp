@@ -12,8 +12,8 @@
 #include "formats/ros/streams.h"
 #include "map/map_maker.h"
 #include "map/map_sources.h"
-#include "sim/terrain_view.h"
 #include "sim/timing.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::record {
 namespace {
@@ -86,14 +86,15 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
     try {
       format = &formats::format_named(record.format);
       if (format->needs_design && !scene.design.any())
-        add({Fault::Severity::kError, "", 0, "", record.format, "needs a design: without one nothing is to be dug",
-             "give the scene a <navvy:design>"},
+        add({Fault::Severity::kError, "", 0, "", record.format,
+             "needs a design: without one nothing is to be dug", "give the scene a <navvy:design>"},
             "format");
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }
     if (record.machine_rate > 0 && (format == nullptr || !is_bag(*format)))
-      add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines", "remove it"},
+      add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines",
+           "remove it"},
           "machine_rate_hz");
     for (const std::string& name : record.layers) try {
         map::layer_named(name);
@@ -111,7 +112,9 @@ struct MapRecorder::Stream {
         label(r.name),
         layers(layers_of(r)),
         maker(std::move(options)) {}
-  double machine_rate() const { return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate; }
+  double machine_rate() const {
+    return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate;
+  }
 
   scene::MapRecord record;
   const formats::MapFormat& format;
@@ -124,7 +127,8 @@ struct MapRecorder::Stream {
   std::vector<std::uint64_t> arrays;
 };
 
-MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : session_(session), folder_(folder) {
+MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
+    : session_(session), folder_(folder) {
   const scene::Scene& scene = session.world().description();
   std::vector<Fault> faults = check_records(scene);
   if (!faults.empty()) throw InputError(std::move(faults));
@@ -134,7 +138,8 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : s
     std::vector<map::MapLayer> layers = layers_of(record);
     layers.push_back(map::MapLayer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
-        record, map::options_for(scene, session.world().ground(), std::move(layers), session.design())));
+        record,
+        map::options_for(scene, session.world().ground(), std::move(layers), session.design())));
     open(*streams_.back());
   }
 }
@@ -156,9 +161,9 @@ void MapRecorder::write_arrays(Stream& stream) {
     if (view.sequence() == stream.arrays[i]) continue;
     stream.arrays[i] = view.sequence();
     const sim::ArrayChannel& channel = view.channel();
-    formats::ros::write_array(*stream.bag,
-                              {channel.name, channel.unit, channel.meaning, channel.frame, element_of(channel.type),
-                               channel.shape, view.time(), view.X_WF(), view.bytes()});
+    formats::ros::write_array(*stream.bag, {channel.name, channel.unit, channel.meaning,
+                                            channel.frame, element_of(channel.type), channel.shape,
+                                            view.time(), view.X_WF(), view.bytes()});
   }
 }
 
@@ -180,7 +185,8 @@ void MapRecorder::observe() {
   for (const auto& stream : streams_) {
     const scene::MapRecord& record = stream->record;
     const auto due = [&](double rate) { return sim::sample_due(world.steps(), world.dt(), rate); };
-    const bool map_due = due(record.rate), machines_due = stream->bag && due(stream->machine_rate());
+    const bool map_due = due(record.rate),
+               machines_due = stream->bag && due(stream->machine_rate());
     const std::int64_t now = formats::ros::stamp(world.time());
     if (stream->bag && (map_due || machines_due)) formats::ros::write_clock(*stream->bag, now);
     if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
@@ -197,7 +203,8 @@ void MapRecorder::observe() {
     const formats::MapFormat& format = stream->format;
     char number[24];
     std::snprintf(number, sizeof number, "_%05llu",
-                  static_cast<unsigned long long>(sim::sample_number(world.steps(), world.dt(), record.rate)));
+                  static_cast<unsigned long long>(
+                      sim::sample_number(world.steps(), world.dt(), record.rate)));
     // All its files are the run's before they are there.
     const std::string name = "maps/" + stream->label + number + format.extension;
     for (const std::string& file : formats::files_of(format, name)) folder_.path(file);

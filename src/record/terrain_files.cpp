@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "map/map_maker.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #endif
@@ -25,7 +25,8 @@ void write_terrain(const sim::World& world, const std::string& path) {
   heightfield::write_geotiff(view, path, more);
 #else
   (void)world;
-  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+  throw FileError("cannot write '" + path +
+                  "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }
 

@@ -27,11 +27,12 @@ TEST(MapPatch, IsSentInPiecesWhereItIsLarge) {
   EXPECT_EQ(sent, patch_bytes(*first, map::testing::kTwo));
   const std::vector<float> slope = first->map.copy(map::MapLayer::kSlope);
   ASSERT_GT(sent.size(), slope.size() * 2 * sizeof(float));
-  EXPECT_EQ(
-      std::memcmp(sent.data() + sent.size() - slope.size() * sizeof(float), slope.data(), slope.size() * sizeof(float)),
-      0);
+  EXPECT_EQ(std::memcmp(sent.data() + sent.size() - slope.size() * sizeof(float), slope.data(),
+                        slope.size() * sizeof(float)),
+            0);
   int until = 3;
-  EXPECT_FALSE(send_patch(*first, map::testing::kTwo, [&](const char*, std::size_t) { return --until > 0; }));
+  EXPECT_FALSE(send_patch(*first, map::testing::kTwo,
+                          [&](const char*, std::size_t) { return --until > 0; }));
   EXPECT_EQ(until, 0) << "ends when it is told to";
 }
 

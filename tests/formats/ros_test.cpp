@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of us; a grid map is
-// asked by the rule that its users ask by. Not square, with a hole and a marked corner.
+// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of
+// us; a grid map is asked by the rule that its users ask by. Not square, with a hole and a marked
+// corner.
 #include "formats/ros/array_message.h"
 #include "formats/ros/streams.h"
 
@@ -128,13 +129,15 @@ json read(const test::Folder& folder, const std::string& bag) {
   // A folder's storage tells types by name only.
   json types;
   for (int i = 0; i < ros::kMessageKinds; ++i)
-    types[ros::type_name(static_cast<ros::MessageKind>(i))] = ros::definition(static_cast<ros::MessageKind>(i));
+    types[ros::type_name(static_cast<ros::MessageKind>(i))] =
+        ros::definition(static_cast<ros::MessageKind>(i));
   heightfield::testing::write_text(folder / "types.json", types.dump());
   heightfield::testing::write_text(folder / "read.py", kRead);
   const Vec2 origin = map::testing::setup().origin;
   const std::string text = heightfield::testing::output_of(
-      "'" + readers() + "' '" + folder / "read.py" + "' '" + bag + "' " + std::to_string(origin.x()) + " " +
-      std::to_string(origin.y()) + " '" + folder / "types.json" + "'");
+      "'" + readers() + "' '" + folder / "read.py" + "' '" + bag + "' " +
+      std::to_string(origin.x()) + " " + std::to_string(origin.y()) + " '" + folder / "types.json" +
+      "'");
   return json::parse(text, nullptr, false);
 }
 
@@ -153,7 +156,8 @@ void expect_map(const json& bag) {
   EXPECT_EQ(cells.at("size")[1], kNy);
   EXPECT_NEAR(cells.at("size")[3].get<double>(), -3.3, 1e-12);
   const json& cloud = bag.at("/terrain/points");
-  EXPECT_EQ(cloud.at("fields"), json({{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"traversability", 12, 7, 1}}));
+  EXPECT_EQ(cloud.at("fields"),
+            json({{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"traversability", 12, 7, 1}}));
   ASSERT_EQ(cloud.at("points").size(), kNx * kNy - 1u);
   std::size_t k = 0, point = 0;
   for (int iy = 0; iy < kNy; ++iy)
@@ -230,7 +234,8 @@ void expect_bodies(const json& bag) {
   for (std::size_t i = 0; i < state.size(); ++i)
     EXPECT_NEAR(bag.at("/ew/odom").at("state")[i].get<double>(), state[i], 1e-12) << i;
   EXPECT_EQ(bag.at("/ew/odom").at("child"), "ew/chassis");
-  EXPECT_EQ(bag.at("/ew/joint_states").at("joints"), json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
+  EXPECT_EQ(bag.at("/ew/joint_states").at("joints"),
+            json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
   EXPECT_EQ(bag.at("/tf").at("frames").size(), 2u);
   EXPECT_EQ(bag.at("/tf").at("frames")[1][0], "map");
   EXPECT_EQ(bag.at("/clock").at("clock"), json({2, 500000001}));
@@ -256,8 +261,15 @@ TEST(RosBag, OfMovingBodiesIsReadByOthers) {
 /// Two samples of a float array of a sensor, and one of labels in W.
 void write_some_arrays(ros::Bag& bag) {
   const std::vector<float> scan = {0.5f, 1, -2, 3, 4, 5.25f};
-  ros::ArrayMessage array{
-      "ew/lidar front/scan", "m", "ranges", "ew/lidar", ros::ArrayElement::kFloat32, {2, 3}, 1.5, {}, {}};
+  ros::ArrayMessage array{"ew/lidar front/scan",
+                          "m",
+                          "ranges",
+                          "ew/lidar",
+                          ros::ArrayElement::kFloat32,
+                          {2, 3},
+                          1.5,
+                          {},
+                          {}};
   array.data = std::as_bytes(std::span(scan));
   array.X_WF = body().X_WB;
   ros::write_array(bag, array);
@@ -265,9 +277,15 @@ void write_some_arrays(ros::Bag& bag) {
   ros::write_array(bag, array);
   const std::vector<std::uint16_t> labels = {7, 65535};
   bag.write("/clock", ros::MessageKind::kClock, 1'750'000'000LL, ros::clock(1'750'000'000LL));
-  ros::write_array(
-      bag,
-      {"labels", "1", "kinds", "world", ros::ArrayElement::kUint16, {2}, 1.75, {}, std::as_bytes(std::span(labels))});
+  ros::write_array(bag, {"labels",
+                         "1",
+                         "kinds",
+                         "world",
+                         ros::ArrayElement::kUint16,
+                         {2},
+                         1.75,
+                         {},
+                         std::as_bytes(std::span(labels))});
   array.shape = {7};
   EXPECT_THROW(ros::write_array(bag, array), Error);
   bag.close();
@@ -309,14 +327,16 @@ TEST(RosBag, OfArraysIsReadByOthers) {
 }
 
 TEST(Bags, OfEachElementTypeHoldItsBytes) {
-  // Without readers: encapsulation, dimensions, length and text of the label, size, stride, offset, count, numbers.
+  // Without readers: encapsulation, dimensions, length and text of the label, size, stride, offset,
+  // count, numbers.
   const std::vector<double> numbers = {1.5, -2};
   const ros::Bytes bytes = ros::multi_array({2}, 8, std::as_bytes(std::span(numbers)));
   ASSERT_EQ(bytes.size(), 4u + 4 + 4 + 8 + 4 + 4 + 4 + 4 + 16);
   EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - 16, numbers.data(), 16), 0);
 }
 
-// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is torn.
+// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is
+// torn.
 const char* const kCount = R"(
 import sqlite3, struct, sys
 if sys.argv[1].endswith('.db3'):
@@ -332,13 +352,15 @@ else:
 )";
 
 TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
-  if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is missing";
+  if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "python3 is missing";
   const test::Folder folder;
   heightfield::testing::write_text(folder / "count.py", kCount);
   const ros::Bytes points = ros::point_cloud(example(), kTwo, 0);
   for (const bool mcap : {true, false}) {
     const std::string file = mcap ? folder / "run.mcap" : folder / "run/run_0.db3";
-    const std::unique_ptr<ros::Bag> bag = mcap ? ros::make_mcap(file) : ros::make_bag_folder(folder / "run");
+    const std::unique_ptr<ros::Bag> bag =
+        mcap ? ros::make_mcap(file) : ros::make_bag_folder(folder / "run");
     rlimit before;
     ::getrlimit(RLIMIT_FSIZE, &before);
     const rlimit little{200000, before.rlim_max};
@@ -347,7 +369,8 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     std::string message;
     int written = 0;
     try {
-      for (; written < 1000; ++written) bag->write("/terrain/points", ros::MessageKind::kPointCloud, written, points);
+      for (; written < 1000; ++written)
+        bag->write("/terrain/points", ros::MessageKind::kPointCloud, written, points);
     } catch (const FileError& error) {
       message = error.what();
     }
@@ -355,8 +378,8 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     ::signal(SIGXFSZ, handler);
     EXPECT_NE(message.find("cannot write '" + file + "': "), std::string::npos) << message;
     EXPECT_GT(written, 10);
-    const std::string counted =
-        heightfield::testing::output_of("/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
+    const std::string counted = heightfield::testing::output_of(
+        "/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
     // SQLite ends the transaction of one time when the next time comes.
     EXPECT_EQ(counted, std::to_string(mcap ? written : written - 1) + "\n") << file;
   }
@@ -370,7 +393,7 @@ std::uint64_t number_at(const std::vector<char>& bytes, std::size_t at) {
   return out;
 }
 
-TEST(Bags, TellTheLeastAndTheGreatestTimeInWhateverOrderTheyCame) {
+TEST(Bags, ReportTheLeastAndTheGreatestTimeInAnyOrder) {
   const test::Folder folder;
   for (const bool mcap : {true, false}) {
     const std::unique_ptr<ros::Bag> bag =
@@ -381,10 +404,11 @@ TEST(Bags, TellTheLeastAndTheGreatestTimeInWhateverOrderTheyCame) {
   }
   const std::vector<char> yaml = read_file(folder / "run/metadata.yaml");
   const std::string metadata(yaml.begin(), yaml.end());
-  for (const char* part : {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
+  for (const char* part :
+       {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
     EXPECT_NE(metadata.find(part), std::string::npos) << part << " in: " << metadata;
-  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its id, the count of
-  // its messages and, before the length of that map, both times.
+  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its
+  // id, the count of its messages and, before the length of that map, both times.
   const std::vector<char> file = read_file(folder / "run.mcap");
   const std::size_t end = file.size() - 8 - 29;
   EXPECT_EQ(number_at(file, end - 8), 4u);

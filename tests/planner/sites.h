@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "control/surface.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "map/grounds.h"
 #include "paths.h"
 #include "scene_io/loader.h"
@@ -17,7 +17,9 @@ namespace navvy::planner::testing {
 using map::testing::centre;
 using map::testing::setup;
 
-inline scene::Machine excavator() { return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf"); }
+inline scene::Machine excavator() {
+  return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
+}
 
 /// Level, 36 m x 24 m about the origin, columns of 0.15 m.
 inline heightfield::Ground level_site() {
@@ -29,11 +31,12 @@ inline heightfield::Ground level_site() {
 
 /// Takes half a metre off every column whose middle lies in the rectangle.
 inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = centre(ground.setup(), ix, iy);
-      if ((p.array() > low.array()).all() && (p.array() < high.array()).all()) ground.take_above(ix, iy, -0.5, taken);
+      if ((p.array() > low.array()).all() && (p.array() < high.array()).all())
+        ground.take_above(ix, iy, -0.5, taken);
     }
 }
 

@@ -35,7 +35,8 @@ TEST(PathFile, GivesBackEachPathItHolds) {
 TEST(PathFile, RefusesWhatIsNoneByFileAndLine) {
   const test::Folder folder;
   const std::string file = folder / "paths.csv";
-  for (const std::string& text : {path_header() + "\ndigger,3,1,0,zero,1,2,0,1\n", path_header() + "\nnothing\n"}) {
+  for (const std::string& text :
+       {path_header() + "\ndigger,3,1,0,zero,1,2,0,1\n", path_header() + "\nnothing\n"}) {
     write_file_atomically(file, text);
     try {
       read_paths(file);
@@ -49,14 +50,16 @@ TEST(PathFile, RefusesWhatIsNoneByFileAndLine) {
 }
 
 TEST(PathFile, IsDrawnOnAHillshadeAndNothingElse) {
-  const map::TerrainMap map = map::testing::map_of(map::testing::setup(), [](double x, double) { return 0.1 * x; });
+  const map::TerrainMap map =
+      map::testing::map_of(map::testing::setup(), [](double x, double) { return 0.1 * x; });
   const test::Folder folder;
   const std::string plain = folder / "plain.png", drawn = folder / "drawn.png";
   formats::write_map("hillshade", map, {map::MapLayer::kElevation}, plain);
   formats::format_named("hillshade").write_with_lines(map, {map::MapLayer::kElevation}, drawn, {});
   EXPECT_EQ(read_file(drawn), read_file(plain));
   formats::format_named("hillshade")
-      .write_with_lines(map, {map::MapLayer::kElevation}, drawn, {{1, {Vec2(0, 3), Vec2(5, 5), Vec2(99, 99)}}});
+      .write_with_lines(map, {map::MapLayer::kElevation}, drawn,
+                        {{1, {Vec2(0, 3), Vec2(5, 5), Vec2(99, 99)}}});
   EXPECT_NE(read_file(drawn), read_file(plain));
   EXPECT_EQ(formats::format_named("npz").write_with_lines, nullptr);
 }

@@ -30,7 +30,8 @@ const ElementInfo& element_info(ArrayElement element) {
 /// "/excavator/height_grid" for "excavator/height_grid": slashes stay.
 std::string topic_of(const std::string& name) {
   std::string out, part;
-  for (std::istringstream parts(name); std::getline(parts, part, '/');) out += "/" + topic_part(part);
+  for (std::istringstream parts(name); std::getline(parts, part, '/');)
+    out += "/" + topic_part(part);
   return out;
 }
 
@@ -55,7 +56,8 @@ void write_array(Bag& bag, const ArrayMessage& array) {
                   {"type", element.name},
                   {"shape",
                    array.shape}}.dump()));
-  if (array.frame != "world") bag.write("/tf", MessageKind::kTf, now, tf({{array.frame, array.X_WF}}, now));
+  if (array.frame != "world")
+    bag.write("/tf", MessageKind::kTf, now, tf({{array.frame, array.X_WF}}, now));
   bag.write(topic, element.kind, now, multi_array(array.shape, element.bytes, array.data));
 }
 

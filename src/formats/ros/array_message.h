@@ -36,10 +36,10 @@ struct ArrayMessage {
 };
 
 /// Appends a sample to a bag:
-/// - `/<name>` as std_msgs UInt8-, UInt16-, Int32-, Float32- or Float64MultiArray with one dimension
-///   per entry of the shape, stamped with the time of the sample;
-/// - before the first sample `/<name>/description` (std_msgs/String), a JSON object with name, unit,
-///   meaning, frame, type and shape;
+/// - `/<name>` as std_msgs UInt8-, UInt16-, Int32-, Float32- or Float64MultiArray with one
+///   dimension per entry of the shape, stamped with the time of the sample;
+/// - before the first sample `/<name>/description` (std_msgs/String), a JSON object with name,
+///   unit, meaning, frame, type and shape;
 /// - `/tf` with the frame as a child of "map", unless the frame is W.
 ///
 /// @throws Error when the data do not fill the shape; FileError.

@@ -39,7 +39,8 @@ class Writer {
     return *this;
   }
   Writer& time(std::int64_t ns) {
-    return *this << static_cast<std::int32_t>(ns / 1'000'000'000) << static_cast<std::uint32_t>(ns % 1'000'000'000);
+    return *this << static_cast<std::int32_t>(ns / 1'000'000'000)
+                 << static_cast<std::uint32_t>(ns % 1'000'000'000);
   }
   Writer& header(std::int64_t ns) { return time(ns) << std::string(kFrame); }
   Writer& vector(const Vec3& v) { return *this << v.x() << v.y() << v.z(); }
@@ -51,7 +52,9 @@ class Writer {
     for (int i = 0; i < 36; ++i) *this << 0.0;
     return *this;
   }
-  Bytes bytes() { return {buffer_.getBuffer(), buffer_.getBuffer() + cdr_.getSerializedDataLength()}; }
+  Bytes bytes() {
+    return {buffer_.getBuffer(), buffer_.getBuffer() + cdr_.getSerializedDataLength()};
+  }
 
  private:
   FastBuffer buffer_;
@@ -65,18 +68,20 @@ Pose at(double x, double y) {
 }
 
 /// A message counts its bytes in 32 bits.
-void require_room(const map::TerrainMap& map, std::size_t layers) {
-  const double bytes =
-      static_cast<double>(map.rect().area()) * 4 * static_cast<double>(std::max<std::size_t>(layers, 1));
+void require_capacity(const map::TerrainMap& map, std::size_t layers) {
+  const double bytes = static_cast<double>(map.rect().area()) * 4 *
+                       static_cast<double>(std::max<std::size_t>(layers, 1));
   if (bytes < 2e9) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "map message", std::to_string(bytes) + " bytes", "at most 2e9",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "map message",
+                         std::to_string(bytes) + " bytes", "at most 2e9",
                          "ask for fewer layers, or for a GeoTIFF"});
 }
 
 }  // namespace
 
-Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, std::int64_t time_ns) {
-  require_room(map, layers.size());
+Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+               std::int64_t time_ns) {
+  require_capacity(map, layers.size());
   const int nx = map.nx(), ny = map.ny();
   const double length_x = nx * map.cell(), length_y = ny * map.cell();
   Writer out;
@@ -92,7 +97,8 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
   const auto rows = static_cast<std::uint32_t>(nx), columns = static_cast<std::uint32_t>(ny);
   std::vector<float> values(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   for (const map::MapLayer layer : layers) {
-    // Its matrix has x along rows and is kept column by column: x runs fastest here too, but both run downwards.
+    // Its matrix has x along rows and is kept column by column: x runs fastest here too, but both
+    // run downwards.
     const std::vector<float> ours = map.copy(layer);
     std::reverse_copy(ours.begin(), ours.end(), values.begin());
     out << std::uint32_t{2};
@@ -106,23 +112,26 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
 }
 
 Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
-  require_room(map, 1);
+  require_capacity(map, 1);
   std::vector<std::int8_t> cells;
   for (const float t : map.copy(map::MapLayer::kTraversability))
-    cells.push_back(t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
-                           : std::int8_t{-1});
+    cells.push_back(
+        t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
+               : std::int8_t{-1});
   Writer out;
-  out.header(time_ns).time(time_ns) << static_cast<float>(map.cell()) << static_cast<std::uint32_t>(map.nx())
-                                    << static_cast<std::uint32_t>(map.ny());
+  out.header(time_ns).time(time_ns)
+      << static_cast<float>(map.cell()) << static_cast<std::uint32_t>(map.nx())
+      << static_cast<std::uint32_t>(map.ny());
   out.pose(at(map.origin().x(), map.origin().y())).sequence(cells);
   return out.bytes();
 }
 
-Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, std::int64_t time_ns) {
+Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                  std::int64_t time_ns) {
   std::vector<map::MapLayer> more;
   for (const map::MapLayer layer : layers)
     if (layer != map::MapLayer::kElevation) more.push_back(layer);
-  require_room(map, 3 + more.size());
+  require_capacity(map, 3 + more.size());
   const std::vector<float> z = map.copy(map::MapLayer::kElevation);
   std::vector<std::vector<float>> values;
   values.reserve(more.size());
@@ -187,7 +196,8 @@ Bytes string_message(const std::string& text) {
   return out.bytes();
 }
 
-Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes, std::span<const std::byte> data) {
+Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes,
+                  std::span<const std::byte> data) {
   Writer out;
   out << static_cast<std::uint32_t>(shape.size());
   std::uint32_t stride = 1;

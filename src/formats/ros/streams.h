@@ -17,7 +17,8 @@ std::int64_t stamp(double time);
 void write_clock(Bag& bag, std::int64_t time_ns);
 
 /// /terrain/grid_map, /terrain/points, and /terrain/occupancy where the layers have traversability.
-void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers, std::int64_t time_ns);
+void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+               std::int64_t time_ns);
 
 /// The state of one machine.
 struct MachineState {
@@ -31,8 +32,8 @@ struct MachineState {
 /// Returns a name with every sign that names of topics do not have replaced by an underscore.
 std::string topic_part(const std::string& name);
 
-/// Appends /tf (every link in the frame "map"), and for each machine /<machine>/odom (its base link)
-/// and /<machine>/joint_states.
+/// Appends /tf (every link in the frame "map"), and for each machine /<machine>/odom (its base
+/// link) and /<machine>/joint_states.
 void write_machines(Bag& bag, const std::vector<MachineState>& machines, std::int64_t time_ns);
 
 }  // namespace navvy::formats::ros
