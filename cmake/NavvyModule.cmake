@@ -89,6 +89,11 @@ endfunction()
 # navvy_define(DEFINITION files...): defines it for these files of the folder only. Every other object stays the same
 # whatever the build includes, so the compiler cache serves one preset with the objects of another.
 function(navvy_define definition)
+  foreach(file IN LISTS ARGN)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+      message(FATAL_ERROR "${definition} is defined for ${file}, which ${CMAKE_CURRENT_SOURCE_DIR} does not hold")
+    endif()
+  endforeach()
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS ${definition})
 endfunction()
 
