@@ -121,7 +121,7 @@ class Stage {
           tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
           continue;
         }
-        for (const terramechanics::BeltPatch& patch : engine_->belt_patches(m, wheel)) belts.push_back(patch);
+        for (const terramechanics::BeltPatch& patch : engine_->tracks()->belt_patches(m, wheel)) belts.push_back(patch);
       }
     const double interval = coupling::kRutInterval * kStep;
     ruts_.press(tyres, interval);

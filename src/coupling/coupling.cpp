@@ -31,7 +31,9 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
     // Both engines number their machines from 0: who asks for one says its number in the scene.
     vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
-    if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
+    // An engine without contacts has no use for obstacles.
+    if (vehicle::ObstacleCapability* obstacles = engine.obstacles(); obstacles && placed.machine.kinematic)
+      placed_.back().mover = obstacles->add_obstacle(placed.machine);
     for (const scene::Wheel& wheel : placed.machine.wheels) has_tracks_ |= wheel.track.has_value();
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
@@ -43,7 +45,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       tools_.push_back(load);
     }
   }
-  engine.set_rock(ground.datum());
+  if (vehicle::RockCapability* rock = engine.rock()) rock->set_rock(ground.datum());
   add_hitches(world, engine, [this](int machine) { return index(machine); });
 }
 
@@ -100,7 +102,7 @@ void Coupling::show_movers() {
     links.clear();
     for (std::size_t l = 0; l < world_.machines[m].machine.links.size(); ++l)
       links.push_back(placed_[m].engine->link(placed_[m].index, static_cast<int>(l)));
-    dynamic_.move(placed_[m].mover, links);
+    dynamic_.obstacles()->move_obstacle(placed_[m].mover, links);
   }
 }
 
@@ -125,8 +127,10 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.force_W = impulse.force_W;
     tool.moment_W = impulse.moment_W;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
-    const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.shell) / dt;
-    tool.rock_W += blend * (rock - tool.rock_W);
+    Vec3 rock_W = Vec3::Zero();
+    if (const vehicle::RockCapability* rock = engine(tool.machine).rock())
+      rock_W = rock->rock_impulse(index(tool.machine), tool.shell) / dt;
+    tool.rock_W += blend * (rock_W - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine)
           .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W, dt);
@@ -159,7 +163,7 @@ void Coupling::press_ruts(double dt) {
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const int wheel = static_cast<int>(w);
       if (machine.wheels[w].track)
-        for (const terramechanics::BeltPatch& patch : engine.belt_patches(placed_[m].index, wheel))
+        for (const terramechanics::BeltPatch& patch : vehicle::track_patches(engine, placed_[m].index, wheel))
           belts.push_back(patch);
       else
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});

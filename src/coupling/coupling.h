@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exchange between machines, soil and ground, once per base step. Alone sees all three.
+// Exchange between machines, soil and ground, once per base step. No other module sees all three.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,19 @@
 
 namespace navvy::coupling {
 
-/// What soil does to one shell of one machine.
+/// Load of the soil on one shell of one machine.
 struct ToolLoad {
   int machine = -1, shell = -1, link = -1, tool = -1;
-  Vec3 force_W = Vec3::Zero();   ///< mean of the last transfer that ended [N]
-  Vec3 moment_W = Vec3::Zero();  ///< about the link's origin [N m]
-  Vec3 smooth_W = Vec3::Zero();  ///< force low-passed near v / (2 cell), for display and control [N]
-  Vec3 rock_W = Vec3::Zero();    ///< force of the rock on it, low-passed likewise [N]
-  soil::ToolImpulse impulse;     ///< of the last step, with the momentum proof
+  /// Mean soil force over the last completed transfer [N].
+  Vec3 force_W = Vec3::Zero();
+  /// Moment about the link's origin [N m].
+  Vec3 moment_W = Vec3::Zero();
+  /// Force low-passed near v / (2 cell), for display and control [N].
+  Vec3 smooth_W = Vec3::Zero();
+  /// Force of the rock, low-passed in the same way [N].
+  Vec3 rock_W = Vec3::Zero();
+  /// Impulse of the last step, with its momentum balance.
+  soil::ToolImpulse impulse;
 
   void visit(Archive& a);
 };
@@ -34,14 +39,16 @@ struct TimeShare {
   double vehicle = 0, soil = 0, ground = 0;
 };
 
-/// Steps engine and soil together.
+/// Steps physics engines and soil together.
 ///
-/// The engine moves the machine to the end of the step; soil answers, over the same interval, with impulses that change
-/// the links' velocities at once, so what soil gives is what the machine takes. Ground under wheels and rigid bodies is
-/// read from the columns of this very step.
+/// The engine moves the machines to the end of the step. The soil answers, over the same interval,
+/// with impulses that change the links' velocities at once, so the machine receives exactly what
+/// the soil gives. Wheels and rigid bodies read the ground from the columns of the current step.
 class Coupling {
  public:
-  /// The references must outlive it. Registers every shell of every dynamic or kinematic machine with the solver.
+  /// Adds the machines to the two engines and every shell to the solver. The references must
+  /// outlive this object.
+  /// @throws InputError for a scene that asks for a capability its engine lacks.
   Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
            heightfield::Ground& ground);
 
@@ -50,28 +57,30 @@ class Coupling {
 
   const std::vector<ToolLoad>& tools() const { return tools_; }
   const TimeShare& time_share() const { return time_share_; }
-  /// Soil carried by a tool [kg]; what a bucket holds inside a bed is the bucket's.
+  /// Returns the soil carried by a tool [kg]. Soil in a bucket inside a bed counts for the bucket.
   double payload(const ToolLoad& tool) const;
-  /// By particle, whether a bucket or a bed holds it: 1 or 0.
+  /// Returns 1 for each particle that a bucket or a bed holds, 0 for the others.
   std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
-  /// The engine that moves machine `m` of the world, and its index there.
+  /// Returns the engine that moves machine `m` of the world, or the machine's index in it.
   vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
   int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
-  /// All that goes on from step to step here; engines, soil and ground are visited by their owner, before this.
-  /// @throws InputError for another scene's tools.
+  /// Visits the state that continues from step to step. Engines, soil and ground are visited by
+  /// their owner, before this. @throws InputError for another scene's tools.
   void visit(Archive& a);
 
  private:
-  /// Where a machine of the scene is moved.
+  /// Engine of a machine of the scene.
   struct PlacedMachine {
     vehicle::Engine* engine = nullptr;  ///< one of the two given
-    int index = 0;                      ///< of the machine in that engine
-    int mover = -1;                     ///< its number in the dynamic engine of what another one moves
+    /// Index of the machine in that engine.
+    int index = 0;
+    /// Number of a kinematic machine among the dynamic engine's obstacles, -1 for others.
+    int mover = -1;
   };
-  /// Tells the dynamic engine where kinematic machines are.
+  /// Moves the dynamic engine's obstacles to the poses of the kinematic machines.
   void show_movers();
-  /// Wheels and belts of machines with masses, which bear on the ground.
+  /// Returns the support areas of wheels and tracks of dynamic machines.
   std::vector<soil::Footing> footings(double dt) const;
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
@@ -85,7 +94,7 @@ class Coupling {
   TrackRuts track_ruts_;
   bool has_tracks_ = false;
   GroundView view_;
-  std::vector<PlacedMachine> placed_;  ///< as in the scene's machines
+  std::vector<PlacedMachine> placed_;  ///< in the order of the scene's machines
   std::vector<ToolLoad> tools_;
   std::uint64_t steps_ = 0;
   TimeShare time_share_;

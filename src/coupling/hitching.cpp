@@ -9,6 +9,8 @@
 namespace navvy::coupling {
 
 void add_hitches(const scene::Scene& scene, vehicle::Engine& engine, const std::function<int(int)>& index) {
+  if (scene.hitches.empty()) return;
+  vehicle::HitchCapability& hitches = vehicle::require_hitches(engine);
   for (const scene::Hitch& hitch : scene.hitches) {
     const int parent = index(hitch.parent), child = index(hitch.child);
     const Vec3 hook = engine.link(parent, hitch.parent_link).X_WL * hitch.hook;
@@ -25,7 +27,7 @@ void add_hitches(const scene::Scene& scene, vehicle::Engine& engine, const std::
                              text.data(), "a hitch that starts closed needs its eye within 0.1 m of the hook",
                              remedy.data()});
     }
-    engine.add_hitch(hitch, parent, child);
+    hitches.add_hitch(hitch, parent, child);
   }
 }
 

@@ -25,7 +25,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
     of.push_back(m);
   }
   if (of.empty()) return out;
-  engine->set_rock(ground.datum());
+  if (vehicle::RockCapability* rock = engine->rock()) rock->set_rock(ground.datum());
   add_hitches(scene, *engine, [&of](int machine) {
     return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) - of.begin());
   });
@@ -47,7 +47,8 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
           tyres.push_back({wheels[w], engine->wheel(machine, wheel)});
           continue;
         }
-        for (const terramechanics::BeltPatch& patch : engine->belt_patches(machine, wheel)) belts.push_back(patch);
+        for (const terramechanics::BeltPatch& patch : vehicle::track_patches(*engine, machine, wheel))
+          belts.push_back(patch);
       }
     }
     const double interval = kRutInterval * dt;

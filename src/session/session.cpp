@@ -33,8 +33,8 @@ constexpr double kLongestRest = 6;
 
 // The world first: everything else looks through handles into it.
 struct Session::State {
-  State(scene::Scene description, device::Device& device)
-      : world(std::move(description), device),
+  State(scene::Scene description, device::Device& device, const vehicle::EngineFactory& make_engine)
+      : world(std::move(description), device, make_engine),
         surface(world),
         device_name(device.info().name),
         // Tools never change in number or order.
@@ -165,8 +165,9 @@ void Session::State::visit(Archive& a) {
   });
 }
 
-Session::Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners)
-    : state_(std::make_unique<State>(std::move(description), device)) {
+Session::Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners,
+                 const vehicle::EngineFactory& make_engine)
+    : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // Reach depends on where the machines stand on this very ground.
@@ -226,7 +227,7 @@ void Session::keep_soil_energy() {
 
 void Session::set(int input, double value) {
   // Channels know their machine; one of none takes nobody from a program.
-  const std::vector<sim::Channel>& inputs = state_->world.inputs();
+  const sim::Inputs& inputs = state_->world.inputs();
   // A value that the world refuses takes no machine from its program.
   if (input >= 0 && static_cast<std::size_t>(input) < inputs.size() && std::isfinite(value))
     state_->take_over(inputs[static_cast<std::size_t>(input)].machine);

@@ -155,22 +155,28 @@ ToolHandle MachineHandle::tool(int index) const {
   return out;
 }
 
-// What belongs to the machine as a whole.
+// Engines without a capability report zeros.
 vehicle::PumpState MachineHandle::pump() const {
-  return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
+  const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
+  return power ? power->pump(parts_->coupling.index(machine_)) : vehicle::PumpState();
 }
 vehicle::EngineState MachineHandle::engine() const {
-  return parts_->coupling.engine(machine_).drive_engine(parts_->coupling.index(machine_));
+  const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
+  return power ? power->drive_engine(parts_->coupling.index(machine_)) : vehicle::EngineState();
 }
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
 }
 vehicle::BaseInput MachineHandle::base() const {
-  return parts_->coupling.engine(machine_).base(parts_->coupling.index(machine_));
+  return vehicle::base_target(parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
 }
 vehicle::Stability MachineHandle::stability() const {
-  return vehicle::stability(description(), parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
+  return vehicle::stability(description(), parts_->coupling.engine(machine_),
+                            parts_->coupling.index(machine_));
 }
-double MachineHandle::work() const { return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_)); }
+double MachineHandle::work() const {
+  const vehicle::AccountCapability* accounts = parts_->coupling.engine(machine_).accounts();
+  return accounts ? accounts->work(parts_->coupling.index(machine_)) : 0;
+}
 
 }  // namespace navvy::sim

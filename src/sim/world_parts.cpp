@@ -16,6 +16,8 @@
 namespace navvy::sim {
 namespace {
 
+constexpr double kHighestRate = 1e5;  // [1/s] of a controller, as scenes may ask for
+constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
 constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
 
 /// The site; what was found in a terrain file goes to the log.
@@ -27,13 +29,25 @@ heightfield::Ground make_site(const scene::Scene& world) {
   return ground;
 }
 
+/// Makes the engine of the dynamic machines: the caller's, or the one built on Bullet.
+std::unique_ptr<vehicle::Engine> make_dynamic(const scene::Scene& world,
+                                              const vehicle::EngineFactory& make_engine) {
+  std::unique_ptr<vehicle::Engine> engine = make_engine
+                                                ? make_engine(world.gravity, world.materials)
+                                                : vehicle::make_bullet_engine(world.gravity, world.materials);
+  if (engine != nullptr) return engine;
+  throw InputError(Fault{Fault::Severity::kError, world.file, 0, "physics engine", "null",
+                         "the factory must return an engine", "return a new vehicle::Engine from it"});
+}
+
 }  // namespace
 
 /// In the order of the members: ground under machines, engines and soil under the exchange that binds them.
-WorldParts::WorldParts(scene::Scene world, device::Device& device)
+WorldParts::WorldParts(scene::Scene world, device::Device& device,
+                       const vehicle::EngineFactory& make_engine)
     : description(std::move(world)),
       ground(make_site(description)),
-      dynamic(vehicle::make_bullet_engine(description.gravity, description.materials)),
+      dynamic(make_dynamic(description, make_engine)),
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
       coupling(description, *dynamic, *kinematic, soil, ground) {
@@ -85,6 +99,47 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
+/// Visits the head first and the ground next: a reader of the ground alone stops there
+/// (sim/snapshot.h). The order of the parts is the order in which a change reaches them in a step.
+void WorldParts::visit(Archive& a) {
+  SnapshotHead head{description.name, dt, steps};
+  a("head", head);
+  // Time is steps x dt, so a run continues with the snapshot's step, whatever control rate set it,
+  // if the step is stable here. No control rate makes it shorter than half the longest step or its
+  // own period.
+  const double least = std::min(0.5 * longest_step, 1 / kHighestRate);
+  a.require(head.dt >= least * (1 - kRounding) && head.dt <= longest_step * (1 + kRounding), "head/dt",
+            "the snapshot has another base step than this scene can have; load it with the same solver settings");
+  if (a.loading()) {
+    steps = head.steps;
+    dt = head.dt;
+  }
+  a("ground", ground);
+  a("soil", soil);
+  a("dynamic_machines", *dynamic);
+  a("kinematic_machines", *kinematic);
+  a("coupling", coupling);
+  // Scenes without encoders keep the hash that they had before encoders existed. Scenes with
+  // different encoders differ in their start.
+  if (has_encoders())
+    a.section("encoders", 1, [&] {
+      for (std::size_t m = 0; m < encoders.size(); ++m) a.item(m, [&] { a("machine", encoders[m]); });
+    });
+  // Always present, so that a world without samplers notices the samplers of a snapshot.
+  a.section("samplers", 2, [&] {
+    a.constant("count", samplers.size(),
+               "the snapshot has another number of samplers than the world; add the same samplers, then load");
+    for (std::size_t i = 0; i < samplers.size(); ++i) a.item(i, [&] { samplers[i]->visit(a); });
+    a("arrays", arrays);
+  });
+}
+
 void WorldParts::wake(const scene::AwakeSoil& awake) { soil.wake(awake_columns(awake, ground), awake.bottom); }
+
+void require_hitch(const scene::Scene& scene, int hitch) {
+  if (hitch >= 0 && hitch < static_cast<int>(scene.hitches.size())) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", std::to_string(hitch), "the scene has no such hitch",
+                         "add <navvy:hitch> to the scene"});
+}
 
 }  // namespace navvy::sim

@@ -61,7 +61,7 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engin
       out.push_back({foot_of(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
       continue;
     }
-    const std::vector<terramechanics::BeltPatch> patches = engine.belt_patches(index, static_cast<int>(w));
+    const std::vector<terramechanics::BeltPatch> patches = track_patches(engine, index, static_cast<int>(w));
     double load = 0;
     for (const terramechanics::BeltPatch& patch : patches) load += patch.load;
     for (const terramechanics::BeltPatch& patch : patches)

@@ -41,8 +41,8 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
     EXPECT_EQ(std::erase_if(list, holds), count);
     return list;
   };
-  EXPECT_EQ(without(names(exact.inputs()), "/pose/", 7), names(rolling.inputs()));
-  EXPECT_EQ(names(exact.outputs()), without(names(rolling.outputs()), "/stability/", 2));
+  EXPECT_EQ(without(names(exact.inputs().channels()), "/pose/", 7), names(rolling.inputs().channels()));
+  EXPECT_EQ(names(exact.outputs().channels()), without(names(rolling.outputs().channels()), "/stability/", 2));
   for (World* world : {&exact, &rolling}) {
     world->set("robot/spin_left/velocity", 4);
     world->set("robot/spin_right/velocity", 4);

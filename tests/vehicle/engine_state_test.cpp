@@ -34,7 +34,7 @@ class EngineState : public ::testing::TestWithParam<std::string> {
     auto engine = engine_of(GetParam());
     engine->add_machine(testing::ew180(), Pose::Identity());
     engine->add_machine(testing::robot(), make_pose(0, 6, 0));
-    engine->set_rock(-0.5);
+    if (RockCapability* rock = engine->rock()) rock->set_rock(-0.5);
     return engine;
   }
 };

@@ -80,8 +80,8 @@ TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
                 "w r / (i g)");
     // 3 %: the loaded radius is 12 mm less than 525, the tyres slip a little.
     EXPECT_NEAR(rig.speed(), expected, 0.03 * expected);
-    EXPECT_NEAR(rig.engine->drive_engine(0).speed, 300, 0.01 * 300);
-    EXPECT_EQ(rig.engine->drive_engine(0).gear, gear);
+    EXPECT_NEAR(rig.engine->power()->drive_engine(0).speed, 300, 0.01 * 300);
+    EXPECT_EQ(rig.engine->power()->drive_engine(0).gear, gear);
   }
 }
 
@@ -96,8 +96,8 @@ TEST(PowerTrain, PullsWithTorqueTimesRatioTimesEfficiencyByRadius) {
   // The load on a rear tyre is some 5 kN: 12 mm of 525.
   print_value("drawbar pull at idle, the clutch slipping [N]", force, std::to_string(torque / 0.513), "i g eta T / r");
   EXPECT_NEAR(force, torque / 0.513, 0.03 * torque / 0.513);
-  EXPECT_EQ(rig.engine->drive_engine(0).speed, 100) << "it is not stalled";
-  EXPECT_NEAR(rig.engine->drive_engine(0).torque, 150, 1e-9);
+  EXPECT_EQ(rig.engine->power()->drive_engine(0).speed, 100) << "it is not stalled";
+  EXPECT_NEAR(rig.engine->power()->drive_engine(0).torque, 150, 1e-9);
 }
 
 TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
@@ -106,7 +106,7 @@ TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
   const double rated = scene::rated_point(diesel()).speed * scene::rated_point(diesel()).torque;
   double most = 0;
   run(*rig.engine, flat(), 8, kStep, [&](double) {
-    const EngineState state = rig.engine->drive_engine(0);
+    const EngineState state = rig.engine->power()->drive_engine(0);
     most = std::max(most, state.power);
     EXPECT_GE(state.speed, 100);
     // 1 %: the torque was told for the speed at the step's start.
@@ -137,7 +137,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   rig.engine->set_drive(0, {3, 0, false});
   int changes = 0, last = 1;
   run(*rig.engine, slope(angle), 10, kStep, [&](double) {
-    const int gear = rig.engine->drive_engine(0).gear;
+    const int gear = rig.engine->power()->drive_engine(0).gear;
     changes += gear != last;
     last = gear;
   });
@@ -148,7 +148,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   Rig level(cart_with(diesel()));
   level.engine->set_drive(0, {3, 0, false});
   run(*level.engine, flat(), 8, kStep);
-  EXPECT_EQ(level.engine->drive_engine(0).gear, 2);
+  EXPECT_EQ(level.engine->power()->drive_engine(0).gear, 2);
   EXPECT_NEAR(level.speed(), 3, 0.1);
 }
 
@@ -159,7 +159,7 @@ TEST(PowerTrain, TurnsRoundToGoBack) {
   rig.engine->set_drive(0, {-1.5, 0, false});
   run(*rig.engine, flat(), 8, kStep);
   EXPECT_NEAR(rig.speed(), -1.5, 0.06);
-  EXPECT_GE(rig.engine->drive_engine(0).speed, 100);
+  EXPECT_GE(rig.engine->power()->drive_engine(0).speed, 100);
 }
 
 TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
@@ -172,7 +172,7 @@ TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
     EXPECT_GT(right.spin, 1.1 * left.spin) << "in a turn to the left";
     EXPECT_GT(left.shaft_torque, 0);
     EXPECT_NEAR(left.shaft_torque, right.shaft_torque, 0.01 * right.shaft_torque);
-    const EngineState engine = rig.engine->drive_engine(0);
+    const EngineState engine = rig.engine->power()->drive_engine(0);
     const GearedEngine gears(about, false);
     const double ratio = gears.ratio(engine.gear);
     EXPECT_NEAR(engine.speed, ratio * rig.cage(), 0.01 * engine.speed);
@@ -197,13 +197,13 @@ TEST(PowerTrain, ASourceOfSpeedTurnsTheCageAsTold) {
   rig.engine->set_drive(0, {1.5, 0.2, false});
   run(*rig.engine, flat(), 4, kStep);
   EXPECT_NEAR(rig.cage() * 0.525, 1.5, 1e-3 * 1.5) << "by the unloaded radius";
-  EXPECT_NEAR(rig.engine->drive_engine(0).speed, 20 * rig.cage(), 1e-3 * 20 * rig.cage());
+  EXPECT_NEAR(rig.engine->power()->drive_engine(0).speed, 20 * rig.cage(), 1e-3 * 20 * rig.cage());
   // Held, it gives its largest torque and turns no further.
   Rig tied(cart_with(source()));
   tied.engine->set_drive(0, {1.5, 0, false});
   run(*tied.engine, flat(), 6, kStep, [&](double) { tied.tie(); });
   EXPECT_NEAR(tied.torque(), 20 * 0.9 * 150, 1);
-  EXPECT_NEAR(tied.engine->drive_engine(0).torque, 150, 0.1);
+  EXPECT_NEAR(tied.engine->power()->drive_engine(0).torque, 150, 0.1);
   EXPECT_NEAR(tied.speed(), 0, 0.02);
 }
 
@@ -218,7 +218,7 @@ TEST(PowerTrain, ResumesEqual) {
     load_saved(saved(*whole.engine), *resumed.engine);
     EXPECT_EQ(testing::digest(*resumed.engine), testing::digest(*whole.engine));
     EXPECT_EQ(resumed.torque(), whole.torque());
-    EXPECT_EQ(resumed.engine->drive_engine(0).torque, whole.engine->drive_engine(0).torque);
+    EXPECT_EQ(resumed.engine->power()->drive_engine(0).torque, whole.engine->power()->drive_engine(0).torque);
     run(*whole.engine, flat(), 1.5, kStep);
     run(*resumed.engine, flat(), 1.5, kStep);
     EXPECT_EQ(testing::digest(*resumed.engine), testing::digest(*whole.engine));

@@ -134,7 +134,7 @@ TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
   for (const std::string& name : {digger.machine.arm.boom, digger.machine.arm.stick, digger.machine.arm.bucket})
     digger.turn(name, -3);
   double most = 0;
-  run(*digger.engine, flat(), 1, kStep, [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
+  run(*digger.engine, flat(), 1, kStep, [&](double) { most = std::max(most, digger.engine->power()->pump(0).flow); });
   const double flow = digger.machine.pump.flow;
   print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, gated at 1 %",
               "vehicles/ew180/SOURCE.md");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Belts against bodies: what a crawler meets beside the ground.
+// Contacts of crawler tracks with bodies.
 #pragma once
 
 #include <vector>
@@ -9,31 +9,32 @@
 
 namespace navvy::vehicle {
 
-/// Finds where the belts of crawlers reach into the collision shapes of others, standing or moving, and pushes both
-/// apart by the belt's law.
+/// Finds where the tracks of crawlers penetrate the collision shapes of other machines, fixed or
+/// moving, and pushes both apart by the track's law.
 ///
-/// A belt is a row of discs on each of its two lines. Costs a search for each disc and body whose boxes meet, and one
-/// look at its box where nothing is near.
+/// A track is a row of discs on each of its two lines. Costs a search for each disc and body whose
+/// boxes overlap, and one box test per track with nothing near.
 class BeltBodies {
  public:
-  /// Adds the forces [N] of this step on the belt of `wheel` (which has a track) and on the bodies that it meets.
+  /// Adds the forces [N] of this step on the track of `wheel` (which has one) and on the bodies
+  /// that it touches.
   void push(BulletMachine& own, std::size_t machine, std::size_t wheel, const MetBodies& bodies,
             btCollisionWorld& world, double dt);
 
  private:
-  /// By machine and wheel. Discs by station and line.
+  /// Discs of a track, by station and line.
   struct Belt {
     std::vector<terramechanics::BeltStation> stations;
     std::vector<Disc> discs;
     double width = 0;  // [m]
   };
   Belt& belt(std::size_t machine, std::size_t wheel, const scene::Wheel& about, const Vec3& p_sprocket);
-  /// Whose boxes meet the belt's, in near_.
+  /// Collects the bodies whose boxes overlap the track's box in near_.
   void look_round(const BulletMachine& own, const Belt& belt, const Pose& X_WC, const MetBodies& bodies);
   void touch(Belt& belt, const Pose& X_WC, const scene::Wheel& about, btCollisionWorld& world);
 
-  std::vector<const MetBody*> near_;                // of this belt
-  std::vector<terramechanics::BeltTouch> touches_;  // likewise; bodies by their place in near_
+  std::vector<const MetBody*> near_;  // bodies near the present track
+  std::vector<terramechanics::BeltTouch> touches_;  // contacts of the present track; bodies by their index in near_
   std::vector<std::vector<Belt>> belts_;
 };
 

@@ -69,7 +69,13 @@ class OverlapFilter final : public btOverlapFilterCallback {
   const std::vector<Coupled>& hitches_;
 };
 
-class BulletEngine final : public Engine {
+class BulletEngine final : public Engine,
+                           private ObstacleCapability,
+                           private HitchCapability,
+                           private RockCapability,
+                           private TrackCapability,
+                           private PowerCapability,
+                           private AccountCapability {
  public:
   BulletEngine(const Vec3& gravity, const scene::Materials& materials)
       : gravity_(gravity),
@@ -124,13 +130,13 @@ class BulletEngine final : public Engine {
   }
   int machine_count() const override { return static_cast<int>(machines_.size()); }
 
-  int add_mover(const scene::Machine& machine) override {
+  int add_obstacle(const scene::Machine& machine) override {
     require_room(machine);
     movers_.emplace_back(machine);
     for (const auto& body : movers_.back().bodies()) add_shapes(*body);
     return static_cast<int>(movers_.size()) - 1;
   }
-  void move(int mover, const std::vector<LinkState>& links) override {
+  void move_obstacle(int mover, const std::vector<LinkState>& links) override {
     Mover& one = movers_.at(static_cast<std::size_t>(mover));
     one.move(links);
     // Where it has come to rest the world would not look again.
@@ -213,6 +219,13 @@ class BulletEngine final : public Engine {
   double work(int machine) const override { return at(machine).work(); }
   Vec3 ground_impulse(int machine) const override { return at(machine).ground_impulse(); }
   Vec3 external_impulse(int machine) const override { return at(machine).external_impulse(); }
+
+  ObstacleCapability* obstacles() override { return this; }
+  HitchCapability* hitches() override { return this; }
+  RockCapability* rock() override { return this; }
+  const TrackCapability* tracks() const override { return this; }
+  const PowerCapability* power() const override { return this; }
+  const AccountCapability* accounts() const override { return this; }
 
   void visit(Archive& a) override {
     a.section("bullet", kVersion, [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tyres against bodies: what a wheel meets beside the ground.
+// Contacts of tyres with bodies.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,22 @@
 
 namespace navvy::vehicle {
 
-/// Finds where the tyres of each machine reach into the collision shapes of the others, standing or moving, and pushes
-/// both apart by the tyre's law; belts of crawlers likewise, by theirs (BeltBodies).
+/// Finds where the tyres of each machine penetrate the collision shapes of the others, fixed or
+/// moving, and pushes both apart by the tyre's law; tracks of crawlers likewise, by theirs
+/// (BeltBodies).
 ///
-/// A track is a disc with a round tread, as wide as the tyre (or half of a single one): the distance of the disc from
-/// a shape is exact up to half the width. Costs one search for each disc and body whose boxes meet.
+/// A contact strip is a disc with a round tread, as wide as the tyre (or half of a single one). The
+/// distance of the disc from a shape is exact up to half the width. Costs one search for each disc
+/// and body whose boxes overlap.
 class TyreBodies {
  public:
   using Machines = MetBodies::Machines;
 
-  /// Adds the forces [N] of this step to the trees of wheels and bodies: after the ground's, before gravity. Bodies of
-  /// `movers` take none.
+  /// Adds the forces [N] of this step to the trees of wheels and bodies. Call it after the ground's
+  /// forces and before gravity. Bodies of `movers` receive none.
   void push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world, double dt);
 
-  /// Stretch of the tread on bodies, and the forces of the last step. A machine alone meets nobody and has none.
+  /// Visits the bristles on bodies and the forces of the last step. A machine alone has none.
   void visit(Archive& a, Machines& machines, const std::vector<Mover>& movers);
 
  private:
@@ -37,9 +39,9 @@ class TyreBodies {
   void touch(const BulletMachine& own, Disc& disc, double friction, btCollisionWorld& world);
   void push_track(BulletMachine& own, std::size_t wheel, std::size_t track, double dt);
 
-  MetBodies bodies_;            // of this step
-  std::vector<Touch> touches_;  // of this track
-  /// Of a wheel's tracks: by machine and wheel.
+  MetBodies bodies_;  // bodies of this step
+  std::vector<Touch> touches_;  // contacts of the present strip
+  /// Discs of a wheel's contact strips, by machine and wheel.
   std::vector<std::vector<std::optional<Disc>>> discs_;
   BeltBodies belts_;
 };

@@ -36,7 +36,7 @@ struct Body {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-class KinematicEngine final : public Engine {
+class KinematicEngine final : public Engine, private PlacementCapability {
  public:
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
     if (machine.links.empty()) {
@@ -93,7 +93,15 @@ class KinematicEngine final : public Engine {
     body.goal = input;
     body.left = input.duration;
   }
-  BaseInput base(int machine) const override { return at(machine).placed ? at(machine).goal : Engine::base(machine); }
+  BaseInput base(int machine) const override {
+    const Body& body = at(machine);
+    if (body.placed) return body.goal;
+    BaseInput out;
+    out.p_W = body.links[0].X_WL.translation();
+    out.angles = fixed_angles(body.links[0].X_WL.linear());
+    return out;
+  }
+  PlacementCapability* placement() override { return this; }
   // Nothing pushes it: impulses and forces are swallowed.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void apply_impulse_of_step(int, int, const Vec3&, const Vec3&, const Vec3&, double) override {}
@@ -145,9 +153,6 @@ class KinematicEngine final : public Engine {
   }
   /// Nothing can move it.
   Mat6 inverse_mass(int, int) const override { return Mat6::Zero(); }
-  Vec3 momentum(int) const override { return Vec3::Zero(); }
-  double work(int) const override { return 0; }
-  Vec3 ground_impulse(int) const override { return Vec3::Zero(); }
 
   void visit(Archive& a) override {
     a.section("kinematic", kVersion, [&] {
