@@ -12,7 +12,8 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
+// [Hz] about v / (2 cell) at 0.6 m/s and 0.1 m.
+constexpr double kForceCutoff = 3.0;
 
 }  // namespace
 
@@ -28,7 +29,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
       view_(ground, ground.setup().soils, &ruts_) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    // Both engines number their machines from 0: who asks for one says its number in the scene.
+    // Both engines number their machines from 0: store the index of each machine of the scene.
     vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
     // An engine without contacts has no use for obstacles.
@@ -54,7 +55,7 @@ double Coupling::payload(const ToolLoad& tool) const {
   const auto machine = [&](const ToolLoad& t) -> const scene::Machine& {
     return world_.machines[static_cast<std::size_t>(t.machine)].machine;
   };
-  std::vector<soil::PlacedTool> buckets;  // that may reach into a bed
+  std::vector<soil::PlacedTool> buckets;  // buckets that may be inside the bed
   if (machine(tool).is_bed(tool.shell))
     for (const ToolLoad& other : tools_)
       if (other.tool != tool.tool && machine(other).is_bucket(other.shell))
@@ -66,7 +67,7 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
   std::vector<soil::PlacedTool> containers;
   for (const ToolLoad& tool : tools_) {
     const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
-    // Soil before a blade lies on the ground, whatever the blade's hull says.
+    // Soil ahead of a blade is on the ground, even inside the blade's convex hull.
     if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
       containers.push_back({tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
   }
@@ -139,13 +140,13 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
 
 std::vector<soil::Footing> Coupling::footings(double dt) const {
   std::vector<soil::Footing> out;
-  // Tyres as ruts number them.
+  // Index of the tyre in Ruts.
   std::size_t tyre = 0;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
-      // What moves as it is told stands on nothing.
+      // Kinematic machines have no weight on the ground.
       if (machine.kinematic) continue;
       add_footings(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
     }
@@ -154,7 +155,7 @@ std::vector<soil::Footing> Coupling::footings(double dt) const {
 }
 
 void Coupling::press_ruts(double dt) {
-  // All at once: what one wheel does not bear another may.
+  // Press all at once: what one wheel leaves another may bear.
   std::vector<LoadedTyre> tyres;
   std::vector<terramechanics::BeltPatch> belts;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -175,7 +176,8 @@ void Coupling::press_ruts(double dt) {
 }
 
 void ToolLoad::visit(Archive& a) {
-  // Which shell it is, the scene says. All of the last step is what outputs show until the next one.
+  // The scene determines which shell it is. Outputs show the values of the last step until the next
+  // one.
   a("force_W", force_W);
   a("moment_W", moment_W);
   a("smooth_W", smooth_W);

@@ -11,7 +11,8 @@ namespace {
 void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel, soil::Footing footing,
                std::vector<soil::Footing>& footings) {
   const Pose& X = wheel.X_WWheel;
-  // Round in every direction of its way: however the machine leans, its lowest point is plumb below the axle.
+  // A tyre is round in every direction of travel: however the machine leans, its lowest point is
+  // below the axle.
   footing.ahead_W = Vec3(X.linear()(0, 0), X.linear()(1, 0), 0).normalized();
   footing.left_W = X.linear().col(1);
   footing.radius = tyre.radius;
@@ -27,7 +28,8 @@ void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel, soil:
   footings.push_back(footing);
 }
 
-/// One for the idler, one for the run from the first roller to the last, one for the sprocket.
+/// Appends one area for the idler, one for the run from the first roller to the last, one for the
+/// sprocket.
 void add_belt(const scene::Wheel& wheel, const vehicle::LinkState& carrier, const Vec3& p_WSprocket,
               soil::Footing footing, std::vector<soil::Footing>& footings) {
   const scene::Track& track = *wheel.track;

@@ -10,7 +10,8 @@
 namespace navvy::coupling {
 namespace {
 
-// A strip begins so many widths away at most: beyond the other tyre of a pair, and a second pair beside it.
+// Largest distance to the start of a strip in widths: beyond the other tyre of a pair, and a second
+// pair beside it.
 constexpr double kFarthest = 4;
 
 }  // namespace
@@ -41,7 +42,8 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
     const Vec2 p = start + i * step;
     const Vec2i column = ground_.column_at(p.x(), p.y());
     if (!ground_.contains(column.x(), column.y())) break;
-    // Askew to the columns a step may stay in one of them, which then lies in the strip twice.
+    // A strip at an angle to the columns may hit one column in two successive steps; it then counts
+    // twice.
     if (!borne(column.x(), column.y())) out.push_back({column, std::min(left / cell, 1.0)});
     if (!out.empty()) left -= cell;
   }
@@ -51,7 +53,7 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
 void PushedSoil::spread(const heightfield::Layer& layer, const std::vector<Strip>& strip) {
   double all = 0;
   for (const Strip& one : strip) all += one.share;
-  // By what is left of the mass and of the shares, so that the last one takes the rest.
+  // Divide the remaining mass by the remaining shares, so that the last column takes the rest.
   std::int64_t left = layer.mass;
   for (const Strip& one : strip) {
     heightfield::Layer part = layer;
@@ -70,7 +72,8 @@ void PushedSoil::lay_down(const std::function<bool(int, int)>& borne) {
     const Place& from = load.place;
     const double pressed = ground_.height(from.ix, from.iy);
     const std::vector<Strip> to_left = strip(from, 1, borne), to_right = strip(from, -1, borne);
-    // The part of the column that lies left of the middle goes left; all to one side where the other has no room.
+    // The part of the column left of the middle line goes left. All goes to one side if the other
+    // has no space.
     double share = std::clamp(0.5 + from.left / ground_.cell(), 0.0, 1.0);
     if (to_left.empty()) share = 0;
     if (to_right.empty()) share = 1;

@@ -28,7 +28,8 @@ Vec2 carry_shear(const Vec2& before, const Vec2& slip, double length, double bel
   const double carried = std::abs(belt_speed) * dt / length;
   shear = (shear + dt * slip + carried * before) / (1 + carried);
   if (shear.norm() > most) shear *= most / shear.norm();
-  // Over the segment it grows evenly. Where nothing comes in, all of it is sheared alike.
+  // Shear grows linearly along the segment. If the track does not move, the whole segment is
+  // sheared alike.
   const double rolls = 1 - std::exp(-std::abs(belt_speed) / kBeltRest);
   return shear - 0.5 * rolls * (shear - before);
 }

@@ -9,7 +9,7 @@
 namespace navvy::terramechanics {
 namespace {
 
-// Each round halves the error of the sinkage: eight leave 4e-3 of the first guess, a millimetre at most.
+// Each round halves the error of the sinkage: eight leave 4e-3 of the first guess, at most 1 mm.
 constexpr int kRounds = 8;
 
 }  // namespace
@@ -25,7 +25,8 @@ TyrePatch tyre_patch(const scene::Wheel& tyre, const scene::Soil& soil, double l
   patch.radius = tyre.radius;
   patch.width = tyre.width;
   if (!(load > 0)) return patch;
-  // The stiffness is the pair's, so the whole load gives the deflection and half of it the pressure.
+  // The stiffness is the pair's, so the whole load gives the deflection and half of it the
+  // pressure.
   const double share = tyre.twin_spacing > 0 ? 0.5 * load : load;
   patch.deflection = load / tyre.stiffness;
   for (int round = 0; round < kRounds; ++round) {
@@ -34,7 +35,8 @@ TyrePatch tyre_patch(const scene::Wheel& tyre, const scene::Soil& soil, double l
     patch.pressure = share / (length * tyre.width);
     patch.sinkage = 0.5 * (patch.sinkage + plate_sinkage(soil, patch.pressure, tyre.width));
   }
-  // Where the round tread leaves the ground; the length of the mean pressure lies between it and the flat part.
+  // Half length to where the round tread leaves the ground. The length of the mean pressure is
+  // between this and the flat part.
   patch.half_length = 0.5 * chord_length(tyre.radius, patch.deflection + patch.sinkage);
   return patch;
 }

@@ -67,7 +67,7 @@ void BeltBodies::push(BulletMachine& own, std::size_t machine, std::size_t wheel
       terramechanics::belt_body_force(about, path.stations, motion, touches_, dt, at.body_shear);
   double pressed = 0;
   for (std::size_t t = 0; t < touches_.size(); ++t) {
-    // To both, at one place: nothing is lost between them.
+    // Apply to both at one point, so that no momentum is lost.
     const Vec3& p_W = touches_[t].at.p_W;
     own.tree().add_force(at.carrier_link, force.f_W[t], Vec3::Zero(), p_W);
     near_[touches_[t].body]->push(-force.f_W[t], p_W);

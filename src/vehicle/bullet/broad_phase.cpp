@@ -21,7 +21,7 @@ void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   active_.clear();
   pairs_.clear();
   for (const int i : order_) {
-    // What ends before this one begins meets nobody further on.
+    // A box that ends before this one begins overlaps no later one.
     std::erase_if(active_, [&](int j) { return m_pHandles[j].m_aabbMax.x() < low(i); });
     for (const int j : active_)
       if ((is_active(i) || is_active(j)) && aabbOverlap(&m_pHandles[i], &m_pHandles[j]))

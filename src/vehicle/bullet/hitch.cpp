@@ -10,9 +10,9 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kClosing = 0.2;  // share of what parts them that is closed in a step,
-constexpr double kSlowly = 0.5;   // no faster than [m/s]
-constexpr int kBall = 3;          // first row of the ball's stops
+constexpr double kClosing = 0.2;  // share of the distance that is closed in a step,
+constexpr double kSlowly = 0.5;  // at most [m/s]
+constexpr int kBall = 3;  // first row of the ball's stops
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void HitchRows::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBo
   for (int s = 0; s < 3; ++s) {
     const auto& stop = stops[static_cast<std::size_t>(s)];
     if (!stop) continue;
-    // The stop opens as the child turns about its axis, so the parent about the other way.
+    // The stop opens as the child turns about its axis, so the parent turns the other way.
     const Vec3 axis = parent.X_WL.linear() * stop->axis;
     aim(kBall + s, Vec3::Zero(), -axis, at, from);
     add_stop(kBall + s, stop->gap, axis.dot(child.w_WL - parent.w_WL), rows, data, info);

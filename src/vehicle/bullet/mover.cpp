@@ -13,7 +13,7 @@ Mover::Mover(const scene::Machine& machine) {
     body.name = machine.name;
     body.fixed_base = true;
     body.links = {machine.links[l]};
-    // What stands for ever needs neither, but its tree asks for both.
+    // A fixed body needs neither, but its tree requires both.
     body.links[0].mass = 1;
     body.links[0].p_LCom = Vec3::Zero();
     body.links[0].inertia = Mat3::Identity();

@@ -28,7 +28,7 @@ namespace {
   throw InputError(fault);
 }
 
-/// Convex hull of the vertices of an OBJ file, whether faces use them or not.
+/// Returns the convex hull of the vertices of an OBJ file, whether faces use them or not.
 std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   const scene::Geometry& g = collision.geometry;
   auto hull = std::make_unique<btConvexHullShape>();
@@ -40,7 +40,7 @@ std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   return hull;
 }
 
-/// The triangles of a mesh that never moves, from both sides. The shape reads them from `keep`.
+/// Returns the triangles of a mesh that never moves, two-sided. The shape reads them from `keep`.
 std::unique_ptr<btCollisionShape> make_triangles(const scene::Collision& collision,
                                                  std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   const scene::Geometry& g = collision.geometry;
@@ -79,7 +79,8 @@ std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, 
   refuse(collision, "plane", "no body collides as a plane: in a scene it is the rock under the ground");
 }
 
-/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual 0.8.
+/// Friction of a shell's steel against bodies without a material (U): about 0.5 on a stone with the
+/// usual 0.8.
 constexpr double kSteelFriction = 0.6;
 
 }  // namespace

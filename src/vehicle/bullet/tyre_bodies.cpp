@@ -19,7 +19,7 @@ Disc& TyreBodies::disc(std::size_t machine, std::size_t wheel, const scene::Whee
   if (discs_.size() <= machine) discs_.resize(machine + 1);
   if (discs_[machine].size() <= wheel) discs_[machine].resize(wheel + 1);
   std::optional<Disc>& out = discs_[machine][wheel];
-  // As wide as the track and as large as the tyre.
+  // As wide as the contact strip and as large as the tyre.
   if (!out) {
     const double half = std::min(about.twin_spacing > 0 ? 0.5 * about.width : 0.25 * about.width, 0.45 * about.radius);
     out.emplace(about.radius, half);
@@ -47,7 +47,7 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
   for (auto one = touches_.begin(); one != touches_.end(); ++one) {
     Vec2* bristle = one == deepest ? &at.body_bristle[track] : nullptr;
     const Vec3 f = terramechanics::tyre_body_force(own.wheels().about(wheel), motion, one->at, dt, bristle);
-    // To both, at one place: nothing is lost between them.
+    // Apply to both at one point, so that no momentum is lost.
     own.tree().add_force(at.wheel_link, f, Vec3::Zero(), one->at.p_W);
     one->body->push(-f, one->at.p_W);
     at.body_W += f;

@@ -10,11 +10,13 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kDwell = 1;        // [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
-constexpr double kSpare = 1.25;     // tuned: same
+constexpr double kDwell = 1;  // [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
+constexpr double kSpare = 1.25;  // tuned: same
 constexpr double kAboveIdle = 1.1;  // [-] tuned: paper/ackermann changes up and back at 1
-constexpr double kDroop = 0.04;     // [-] above the governed speed, over which torque falls to nothing (U)
-constexpr double kDragFrom = 1.25;  // [-] of idle: below, the governor begins to carry the engine itself
+// [-] Range above the governed speed in which the torque falls to zero (U).
+constexpr double kDroop = 0.04;
+// [-] Share of idle speed below which the governor supplies the engine's own drag.
+constexpr double kDragFrom = 1.25;
 
 bool sources(const scene::DriveEngine& engine) { return engine.kind == scene::DriveEngine::Kind::kSpeedSource; }
 
@@ -65,10 +67,10 @@ double GearedEngine::hold(int gear, double cage) const {
 
 bool GearedEngine::fits(int gear, double cage) const {
   const double shaft = ratio(gear) * cage;
-  // A gear that was just put in shall not have to be left at once.
+  // A gear that was just engaged should not have to be left at once.
   const double least = about_.curve.front().speed * (gear > gear_ ? kAboveIdle : 1);
   const double most = about_.curve.back().speed * (gear < gear_ ? 1 : 1 + kDroop);
-  // The first gear may slip, the last one race: there is none beyond.
+  // The first gear may slip and the last one overspeed: there are no others beyond.
   return (gear == 1 || shaft >= least) && (gear == count() || shaft <= most);
 }
 
@@ -79,8 +81,8 @@ void GearedEngine::shift(int command, double cage, double torque, double dt) {
   if (command > 0 || sources(about_)) {
     next = std::clamp(command, 1, count());
   } else if (held_ >= kDwell || !fits(gear_, cage)) {
-    // Upwards it is enough to give what there is now: while the machine is slower than asked, more is asked for than it
-    // takes to keep its speed.
+    // To shift up, the present torque is enough: while the machine is slower than commanded, the
+    // governor asks for more than it needs to keep its speed.
     const double up = kSpare * std::min(std::abs(torque), has(gear_));
     double most = -1;
     for (int gear = count(); gear > 0; --gear) {
@@ -97,7 +99,7 @@ GearedEngine::Bounds GearedEngine::bounds(double cage, double pump_power) const 
   const double r = ratio();
   if (sources(about_)) return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
   const double speed = engine_speed(r * cage);
-  // Of the curve's torque what the pump leaves.
+  // The pump takes its part of the curve's torque.
   const double torque = std::max(0.0, full_torque(speed) - pump_power / speed);
   return {-hold(gear_, cage), r * about_.efficiency * torque};
 }
