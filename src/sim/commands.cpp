@@ -13,11 +13,11 @@ namespace {
 void require_machine(int machine, const scene::Scene& scene) {
   if (machine >= 0 && machine < static_cast<int>(scene.machines.size())) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(machine),
-                         "the handle is of no machine of this world", "take handles from the same world"});
+                         "the handle belongs to no machine of this world", "take handles from the same world"});
 }
 void require_finite(const std::string& what, double value) {
   if (std::isfinite(value)) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, what, std::to_string(value), "must be finite", ""});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, what, std::to_string(value), "must be a finite number", "send a number"});
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput
   const auto& joints = parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.joints;
   if (joint.index() < 0 || joint.index() >= static_cast<int>(joints.size()))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(joint.index()),
-                           "the handle is of no joint of this machine", "take handles from the same world"});
+                           "the handle belongs to no joint of this machine", "take handles from the same world"});
   require_finite("command of joint '" + joints[static_cast<std::size_t>(joint.index())].name + "'", input.target);
 }
 
@@ -40,26 +40,26 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::DriveI
   if (input.gear < 0 || input.gear > gears)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "gear of " + machine.name(), std::to_string(input.gear),
                            gears == 0 ? "its drive has no gears" : "its gears are 1 to " + std::to_string(gears),
-                           "give one of them, or 0: it chooses"});
+                           "give one of them, or 0 for automatic"});
 }
 
 // Angles may exceed a turn; a position must be one that a site can have.
 void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const {
   require_machine(machine.index(), parts_->description);
   for (int i = 0; i < 3; ++i) {
-    require_finite("place of the base", input.p_W[i]);
+    require_finite("position of the base", input.p_W[i]);
     require_finite("angle of the base", input.angles[i]);
     if (std::abs(input.p_W[i]) > kFarthest)
-      throw InputError(Fault{Fault::Severity::kError, "", 0, "place of the base", std::to_string(input.p_W[i]),
-                             "no site lies farther than 1000 km from the origin", "give metres in the world"});
+      throw InputError(Fault{Fault::Severity::kError, "", 0, "position of the base", std::to_string(input.p_W[i]),
+                             "a site is at most 1000 km from the origin", "give a position in metres in W"});
   }
   if (!(input.duration >= 0) || !std::isfinite(input.duration))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "duration of the base's way", std::to_string(input.duration),
-                           "must be 0 or more seconds", ""});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "duration of the base's motion", std::to_string(input.duration),
+                           "must be 0 or more seconds", "give 0 to move within one step"});
   const scene::Machine& built = machine.description();
   if (!built.kinematic || built.fixed_base)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
-                           built.kinematic ? "its base is held in place" : "forces move this machine",
+                           built.kinematic ? "its base is fixed" : "forces move this machine",
                            "set <navvy:engine>kinematic</navvy:engine>, and leave its base free"});
 }
 

@@ -28,7 +28,8 @@ heightfield::CellRect awake_columns(const scene::AwakeSoil& awake, const heightf
 }
 
 void check_awake(const scene::Scene& scene, const heightfield::Ground& ground) {
-  // Eight particles a cell, as soil wakes [docs/exchange.md]; thin columns give less, so none is refused for rounding.
+  // Eight particles per cell, as activated soil has [docs/exchange.md]. Thin columns give fewer, so
+  // rounding refuses no scene.
   const double each = std::pow(ground.cell() / 2, 3);
   const double most = scene.solver.max_particles;
   double particles = 0, columns = 0;

@@ -19,23 +19,24 @@
 namespace navvy::sim {
 namespace {
 
-constexpr double kTouching = 0.02;  // [m] shapes are boxes here, and machines may stand side by side
-constexpr double kSettling = 1;     // [s]
-constexpr double kFalling = 1;      // [m/s] downwards: it has not landed
+// [m] shapes are boxes here, and machines may stand side by side.
+constexpr double kTouching = 0.02;
+constexpr double kSettling = 1;  // [s]
+constexpr double kFalling = 1;  // [m/s] downwards: it has not landed
 constexpr double kTipped = radians(45);
 
 struct LinkBox {
   geometry::OrientedBox box;
   const scene::Link* link = nullptr;
-  bool as_told = false, stands = false;  // of a kinematic machine; a base that is held
+  bool as_told = false, stands = false;  // kinematic machine; fixed base
 };
 
-/// What moves as told goes through its like and through what stands.
+/// Kinematic machines pass through each other and through fixed ones.
 bool may_meet(const LinkBox& a, const LinkBox& b) {
   return !(a.as_told && (b.as_told || b.stands)) && !(b.as_told && a.stands);
 }
 
-/// Hook and eye reach into each other, and so do the bodies around them.
+/// Hook and eye overlap, and so do the bodies around them.
 bool are_hitched(const scene::Scene& scene, int a, int b) {
   return std::any_of(scene.hitches.begin(), scene.hitches.end(), [&](const scene::Hitch& hitch) {
     return hitch.closed && ((hitch.parent == a && hitch.child == b) || (hitch.parent == b && hitch.child == a));
@@ -77,7 +78,7 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
       if (are_hitched(scene, static_cast<int>(a), static_cast<int>(b))) continue;
-      // The deepest of a pair: mended, the others are as a rule.
+      // Report the deepest overlap of a pair: correcting it usually corrects the others.
       double deepest = kTouching;
       const scene::Link *of_a = nullptr, *of_b = nullptr;
       for (const LinkBox& one : boxes[a])
@@ -101,7 +102,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];
     if (placed.machine.kinematic) continue;
-    // What is put on the ground by its middle is not below it for the rounding of a height.
+    // A part placed exactly on the ground is not below it by rounding.
     double deepest = kTouching;
     std::string what;
     const auto look = [&](const Vec3& p, const std::string& name) {
@@ -109,7 +110,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
       if (depth > deepest) deepest = depth, what = name;
     };
     for (const LinkBox& one : boxes_of(placed, X_WB.at(m)))
-      // What stands may have its foot in the ground.
+      // A fixed machine may have its foot in the ground.
       if (!placed.machine.fixed_base || one.link != &placed.machine.links[0])
         look(one.box.X_WO.translation(), "link '" + one.link->name + "'");
     std::vector<double> q;
@@ -123,15 +124,16 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
     }
     if (what.empty()) continue;
     faults.push_back(error(scene, placed, text("%.2f m", deepest),
-                           "its " + what + " starts with its middle that far below the ground",
-                           "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
+                           "its " + what + " starts with its centre that far below the ground",
+                           "raise it by its <pose>, or set <navvy:on_ground>true</navvy:on_ground>"));
   }
   return faults;
 }
 
 namespace {
 
-/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
+/// Returns a comparison of the design with this site, so that a wrong unit or position shows. A
+/// design that cannot be built is an error elsewhere.
 std::string told_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
@@ -166,7 +168,7 @@ StartCheck check_start(const scene::Scene& scene) {
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);
     const bool falls = !buried.empty();
     for (Fault& fault : buried) out.faults.push_back(std::move(fault));
-    // What falls is named, and need not fall through the ground to be told of again: nothing stands then.
+    // Report a machine inside the ground once: settling would only let it fall.
     if (falls) return out;
     for (const coupling::Settled& one : coupling::settle(scene, ground, kSettling)) {
       out.standing.push_back(one.stability);
@@ -174,7 +176,7 @@ StartCheck check_start(const scene::Scene& scene) {
     }
     for (std::size_t m = 0; m < out.standing.size(); ++m) {
       const vehicle::Stability& stands = out.standing[m];
-      // What is in the air has no ground to tip on yet.
+      // A machine in the air has no ground to tip on yet.
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
       out.faults.push_back(error(
@@ -182,7 +184,7 @@ StartCheck check_start(const scene::Scene& scene) {
           std::string("the machine tips over within its first second") +
               (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its feet"
                                  : ""),
-          "put it on flatter ground, or turn it along the slope"));
+          "place it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

@@ -46,7 +46,7 @@ void World::watch(const std::string& link) {
   // Names of parts contain "::" and no slash, so the first slash ends the machine's name.
   const std::size_t slash = link.find('/');
   if (slash == std::string::npos)
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "watch", link, "must name a machine and a link of it",
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "watch", link, "must be a machine and one of its links",
                            "e.g. excavator/boom"});
   const MachineHandle of = machines().at(link.substr(0, slash));
   add_link(of.link(link.substr(slash + 1)), of.name(), parts_->outputs);

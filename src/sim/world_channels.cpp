@@ -39,7 +39,7 @@ void add_link(const LinkHandle& link, const std::string& machine, Outputs& outpu
   add_pose_channels(link, prefix, "link '" + link.name() + "'", outputs);
   for (int i = 0; i < 3; ++i)
     outputs.add(
-        {prefix + "angular_velocity/" + kAxisNames[i], "rad/s", "of link '" + link.name() + "', world axes"},
+        {prefix + "angular_velocity/" + kAxisNames[i], "rad/s", "angular velocity of link '" + link.name() + "', world axes"},
         [link, i] { return link.angular_velocity()[i]; });
 }
 

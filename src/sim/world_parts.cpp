@@ -17,12 +17,12 @@ namespace navvy::sim {
 namespace {
 
 constexpr double kHighestRate = 1e5;  // [1/s] of a controller, as scenes may ask for
-constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
+constexpr double kRounding = 1e-8;  // of a step that is the quotient of two times
 constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
 
-/// The site; what was found in a terrain file goes to the log.
+/// Builds the ground and logs the report on a terrain file.
 heightfield::Ground make_site(const scene::Scene& world) {
-  // A map may have gaps or an odd datum: worth a line to the user, no fault.
+  // A map may have gaps or an unusual datum: worth a line to the user, but no fault.
   std::string report;
   heightfield::Ground ground = heightfield::make_ground(world, &report);
   if (!report.empty()) log_info(report);
@@ -42,7 +42,8 @@ std::unique_ptr<vehicle::Engine> make_dynamic(const scene::Scene& world,
 
 }  // namespace
 
-/// In the order of the members: ground under machines, engines and soil under the exchange that binds them.
+/// Follows the order of the members: ground under machines, engines and soil under the coupling
+/// that joins them.
 WorldParts::WorldParts(scene::Scene world, device::Device& device,
                        const vehicle::EngineFactory& make_engine)
     : description(std::move(world)),
@@ -53,7 +54,7 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
       coupling(description, *dynamic, *kinematic, soil, ground) {
   start = start_of(description, ground);
   start_hash = hash_of_start(start);
-  // The step of everything is what waves in the stiffest soil and the fastest tool allow.
+  // The base step is limited by waves in the stiffest soil and by the fastest tool.
   longest_step = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
   const double rate = description.solver.control_rate;
   dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
@@ -61,12 +62,12 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
     throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
                            "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
-  // Chance is by machine, so that one more encoder leaves those of other machines as they were.
+  // One seed per machine, so that another encoder does not change those of other machines.
   Random seeds(description.seed);
   for (int m = 0; m < static_cast<int>(description.machines.size()); ++m)
     encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine, coupling.engine(m),
                           coupling.index(m), seeds.next());
-  // Soil that starts awake before loads are filled in: beds stand where machines stand now.
+  // Activate soil before filling loads in: beds are where machines stand now.
   check_awake(description, ground);
   for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
@@ -85,12 +86,12 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
   // Only the first bed is loaded; buckets start empty.
   if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
-  // Filled where the bed is: a dumper on a slope starts with its load against the low side.
+  // Fill at the bed's pose: a dumper on a slope starts with its load against the low side.
   const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
   try {
     soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
   } catch (const InputError& error) {
-    // The solver knows no file: the message gets the place in the scene that asked for the load.
+    // The solver does not know the file; add the line of the scene that asked for the load.
     Fault fault = error.faults().front();
     fault.file = description.file;
     fault.line = placed.line;

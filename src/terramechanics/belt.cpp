@@ -168,7 +168,7 @@ double rut_depth(const Step& step, const std::vector<Meeting>& met, const BeltSt
 void BeltContact::visit(Archive& a) {
   a.ranged("load", load, 0.0, 1e12);
   a("shear", shear);
-  a.require(shear.allFinite(), "shear", "soil under a belt is sheared by no number");
+  a.require(shear.allFinite(), "shear", "the shear under a track must be finite");
 }
 
 BeltState BeltState::of(const scene::Track& track) {

@@ -216,7 +216,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
 void TyreState::visit(Archive& a) {
   a("bristle", bristle);
   a("sheared", sheared);
-  for (const double one : sheared) a.require(one >= 0 && one < 1e6, "sheared", "a tyre has sheared its soil by no way");
+  for (const double one : sheared) a.require(one >= 0 && one < 1e6, "sheared", "the shear under a tyre must be finite and not negative");
 }
 
 void TyreForce::visit(Archive& a) {

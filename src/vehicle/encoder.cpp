@@ -54,7 +54,7 @@ void JointEncoder::visit(Archive& a) {
   // The bounds keep all derived counts within 64 bits.
   constexpr auto kMost = static_cast<std::int64_t>(kMostCounts);
   a("position", position_);
-  a.require(std::isfinite(position_), "position", "an encoder's joint has no finite place");
+  a.require(std::isfinite(position_), "position", "the position of an encoder's joint must be finite");
   a.ranged("turned", turned_, -kMostCounts, kMostCounts);
   a.ranged("edges", edges_, -kMost, kMost);
   a("counter", counter_);

@@ -19,15 +19,15 @@ BaseInput base_target(Engine& engine, int machine) {
 PlacementCapability& require_placement(Engine& engine, int machine) {
   if (PlacementCapability* placement = engine.placement()) return *placement;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
-                         "forces move this machine: it cannot be put anywhere",
+                         "forces move this machine, so its base cannot be placed",
                          "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
 }
 
 HitchCapability& require_hitches(Engine& engine) {
   if (HitchCapability* hitches = engine.hitches()) return *hitches;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "",
-                         "a hitch joins machines that forces move",
-                         "set <navvy:engine>dynamic</navvy:engine>, or move it by its pose"});
+                         "this physics engine cannot couple machines: a hitch needs dynamic machines",
+                         "set <navvy:engine>dynamic</navvy:engine>, or place the machine by its pose"});
 }
 
 std::vector<terramechanics::BeltPatch> track_patches(const Engine& engine, int machine, int wheel) {

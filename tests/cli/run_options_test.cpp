@@ -112,7 +112,7 @@ TEST_F(RunOptions, ASnapshotOfAnotherSceneIsToldByBothNames) {
     EXPECT_EQ(run(words), 2);
     expect_told("'block_collapse'");
     expect_told("bucket_path");
-    expect_told("--resume-anyway lets parameters of one scene differ");
+    expect_told("--resume-anyway allows other parameters, not another scene");
   }
 }
 

@@ -74,9 +74,9 @@ TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
 TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsSeen) {
   const auto session = make("trench.sdf", {}, 0.5), target = make("trench.sdf", {}, 0);
   EXPECT_EQ(test::flip_every_byte(*session, *target, kStride, kShortStride), "");
-  // A brake that is off is no part of the hash: one that is on is, by the place it holds.
+  // A brake that is off is not hashed; a set one is, by its held position.
   std::set<std::string> with_brakes = kReasons;
-  with_brakes.insert("hashed by the place it holds, while it is on");
+  with_brakes.insert("hashed by the held position while it is set");
   EXPECT_EQ(reasons(*session), with_brakes);
 }
 

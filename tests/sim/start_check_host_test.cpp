@@ -45,7 +45,7 @@ void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>
 
 TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
   expect_one(faults_of(stone("-0.35", "")),
-             {"w.sdf:", "include[stone]", "0.35 m", "link 'rock' starts with its middle that far below the ground",
+             {"w.sdf:", "include[stone]", "0.35 m", "link 'rock' starts with its centre that far below the ground",
               "raise it by its <pose>"});
 }
 

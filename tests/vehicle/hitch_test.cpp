@@ -130,7 +130,7 @@ TEST(Hitch, LetsGoAndTakesUpAgain) {
     engine->hitches()->set_hitch(0, true);
     FAIL() << "an eye out of reach was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("farther from the hook"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("within 0.1 m of the hook"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(engine->hitches()->hitch(0).closed);
 }

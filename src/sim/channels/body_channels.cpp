@@ -22,26 +22,26 @@ void add_base_channels(const MachineChannels& out) {
   };
   const char* angles[] = {"roll", "pitch", "yaw"};
   for (int i = 0; i < 3; ++i)
-    change(kAxisNames[i], "m", "of the base link in the world; takes it from the drive",
+    change(kAxisNames[i], "m", "position of the base link in the world; overrides the drive",
            [i](vehicle::BaseInput& command) -> double& { return command.p_W[i]; });
   for (int i = 0; i < 3; ++i)
-    change(angles[i], "rad", "fixed-axis, of the base link; takes it from the drive",
+    change(angles[i], "rad", "fixed-axis angle of the base link; overrides the drive",
            [i](vehicle::BaseInput& command) -> double& { return command.angles[i]; });
-  change("duration", "s", "it gets to a new place evenly within this time, 0: in a step",
+  change("duration", "s", "time of the motion to a new pose at constant velocity, 0: one step",
          [](vehicle::BaseInput& command) -> double& { return command.duration; });
 }
 
 void add_pose_channels(const LinkHandle& link, const std::string& prefix, const std::string& link_name,
                        Outputs& outputs) {
   for (int i = 0; i < 3; ++i) {
-    outputs.add({prefix + "pose/" + kAxisNames[i], "m", "of " + link_name + " in the world"},
+    outputs.add({prefix + "pose/" + kAxisNames[i], "m", "position of " + link_name + " in the world"},
                 [link, i] { return link.pose().translation()[i]; });
-    outputs.add({prefix + "velocity/" + kAxisNames[i], "m/s", "of " + link_name + "'s origin"},
+    outputs.add({prefix + "velocity/" + kAxisNames[i], "m/s", "velocity of " + link_name + "'s origin"},
                 [link, i] { return link.velocity()[i]; });
   }
   // Fixed-axis angles, yaw about z of W last. Not unwrapped: yaw jumps by a turn.
-  const char* angles[][2] = {{"pose/roll", "fixed-axis roll"},
-                             {"pose/pitch", "fixed-axis pitch, positive nose down"},
+  const char* angles[][2] = {{"pose/roll", "fixed-axis roll angle"},
+                             {"pose/pitch", "fixed-axis pitch angle, positive nose down"},
                              {"pose/yaw", "heading, counter-clockwise from x"}};
   for (int i = 0; i < 3; ++i)
     outputs.add({prefix + angles[i][0], "rad", angles[i][1]},
@@ -63,19 +63,19 @@ void add_stability_channels(const MachineChannels& out) {
   const MachineHandle machine = out.machine;
   if (!machine.stability().free) return;
   const std::string base = out.prefix + "stability/";
-  out.outputs.add({base + "tilt", "rad", "of the base link's z axis from the vertical"},
+  out.outputs.add({base + "tilt", "rad", "angle of the base link's z axis from the vertical"},
                   [machine] { return machine.stability().tilt; });
   out.outputs.add({base + "margin", "m",
-                   "of the centre of mass, without soil, from the nearest edge between its feet; negative outside"},
+                   "distance of the centre of mass, without soil, inside the nearest edge of its feet; negative outside"},
                   [machine] { return machine.stability().margin; });
   if (machine.description().joint_index(machine.description().arm.bucket) < 0) return;
   out.outputs.add({base + "tipping_load", "kg",
-                   "on the bucket's pin, that tips it over its weakest edge; 1e6 where none can"},
+                   "load on the bucket's pin that tips it over its weakest edge; 1e6 if none can"},
                   [machine] { return machine.stability().tipping_load; });
-  out.outputs.add({base + "tipping_heading", "rad", "towards that edge, from ahead, positive to the left"},
+  out.outputs.add({base + "tipping_heading", "rad", "direction of that edge from ahead, positive to the left"},
                   [machine] { return machine.stability().tipping_heading; });
   out.outputs.add({base + "loaded_margin", "m",
-                   "as margin, of the point where the ground bears it: with soil and loads"},
+                   "as margin, for the centre of pressure on the ground: with soil and loads"},
                   [machine] { return machine.stability().loaded_margin; });
 }
 

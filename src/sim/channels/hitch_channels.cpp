@@ -13,14 +13,14 @@ void add_hitch_channels(const ChannelLists& out) {
   for (std::size_t i = 0; i < hitches.size(); ++i) {
     const int hitch = static_cast<int>(i);
     const std::string base = world.machines().at(hitches[i].child).name() + "/" + hitches[i].name + "/";
-    out.inputs.add({base + "closed", "1", "0 lets go, 1 takes the eye up where it is within 0.1 m of the hook"},
+    out.inputs.add({base + "closed", "1", "0 opens, 1 closes if the eye is within 0.1 m of the hook"},
                    [&world, hitch](double closed) { world.commands().set_hitch(hitch, closed != 0); });
-    out.outputs.add({base + "closed", "1", "1 while it hangs on the hook"},
+    out.outputs.add({base + "closed", "1", "1 while it is closed"},
                     [&world, hitch] { return world.machines().hitch(hitch).closed ? 1.0 : 0.0; });
-    out.outputs.add({base + "apart", "m", "of the eye from the hook"},
+    out.outputs.add({base + "apart", "m", "distance of the eye from the hook"},
                     [&world, hitch] { return world.machines().hitch(hitch).apart; });
     for (int a = 0; a < 3; ++a)
-      out.outputs.add({base + "force_" + kAxisNames[a], "N", "of what hangs on what draws it, world axes"},
+      out.outputs.add({base + "force_" + kAxisNames[a], "N", "force of the towed machine on the towing one, world axes"},
                       [&world, hitch, a] { return world.machines().hitch(hitch).force[a]; });
   }
 }

@@ -10,9 +10,9 @@ void add_pump_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   // Kinematic machines take no oil.
   if (!built.has_pump || built.kinematic) return;
-  out.outputs.add({out.prefix + "pump/flow", "m3/s", "oil that the cylinders took in the last step"},
+  out.outputs.add({out.prefix + "pump/flow", "m3/s", "oil flow into the cylinders in the last step"},
                   [machine = out.machine] { return machine.pump().flow; });
-  out.outputs.add({out.prefix + "pump/pressure", "Pa", "of the heaviest load it moves, smoothed"},
+  out.outputs.add({out.prefix + "pump/pressure", "Pa", "pressure of the heaviest load that moves, smoothed"},
                   [machine = out.machine] { return machine.pump().pressure; });
 }
 

@@ -40,7 +40,7 @@ std::function<void(double)> joint_input(World& world, const JointHandle& handle,
     std::array<char, 128> text{};
     std::snprintf(text.data(), text.size(), ": %.6g %s is beyond the joint's limits, %.6g to %.6g %s", target,
                   unit.c_str(), range.lower, range.upper, unit.c_str());
-    log_warning("input " + name + text.data() + ": it goes to the limit (said once an input)");
+    log_warning("input " + name + text.data() + "; the limit is used (logged once per input)");
   };
 }
 
@@ -55,11 +55,11 @@ void add_motion(const MachineChannels& out, const Joint& joint, const JointHandl
       {"effort", linear ? "N" : "N m", JointMode::kEffort, {-joint.effort, joint.effort}}};
   const std::string base = out.prefix + joint.name + "/";
   for (const JointChannel& each : channels)
-    out.inputs.add({base + each.name, each.unit, "target; choosing it selects this mode", out.machine.index()},
+    out.inputs.add({base + each.name, each.unit, "target; setting it selects this mode", out.machine.index()},
                    joint_input(out.world, handle, each, base + each.name));
   out.outputs.add({base + "position", channels[0].unit, "joint position"}, [handle] { return handle.position(); });
   out.outputs.add({base + "velocity", channels[1].unit, "joint velocity"}, [handle] { return handle.velocity(); });
-  out.outputs.add({base + "effort", channels[2].unit, "as applied in the last step"},
+  out.outputs.add({base + "effort", channels[2].unit, "effort applied in the last step"},
                   [handle] { return handle.effort(); });
 }
 
@@ -75,15 +75,15 @@ void add_joint_channels(const MachineChannels& out) {
     add_motion(out, joint, handle);
     const std::string base = out.prefix + joint.name + "/";
     if (joint.brake > 0) {
-      out.inputs.add({base + "brake", "1", "1 holds the joint whatever it is told, 0 lets go", out.machine.index()},
+      out.inputs.add({base + "brake", "1", "1 holds the joint against any command, 0 releases it", out.machine.index()},
                      [&world = out.world, handle](double on) { world.commands().set_brake(handle, on != 0); });
-      out.outputs.add({base + "brake", "1", "1 while its brake is on"},
+      out.outputs.add({base + "brake", "1", "1 while its brake is set"},
                       [handle] { return handle.state().braked ? 1.0 : 0.0; });
     }
     // Zeros on other joints would suggest a cylinder without load.
     if (std::any_of(built.cylinders.begin(), built.cylinders.end(),
                     [&](const scene::Cylinder& c) { return c.joint == joint.name; }))
-      out.outputs.add({base + "cylinder_force", "N", "of the cylinder on this joint"},
+      out.outputs.add({base + "cylinder_force", "N", "force of the cylinder on this joint"},
                       [handle] { return handle.state().cylinder_force; });
   }
 }

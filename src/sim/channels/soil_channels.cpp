@@ -5,7 +5,7 @@
 namespace navvy::sim {
 
 void add_soil_channels(const ChannelLists& out) {
-  out.outputs.add({"soil/particles", "1", "awake particles"},
+  out.outputs.add({"soil/particles", "1", "number of active particles"},
                   [&world = out.world] { return static_cast<double>(world.soil().counts().particles); });
 }
 

@@ -80,7 +80,7 @@ void TreeBody::build(const scene::Machine& machine) {
     mass_[i] = link.mass;
     inertia_[i] = link.inertia;
     if (!(link.mass > 0) || !(moments[i].minCoeff() > 0))
-      refuse("link[" + link.name + "]", std::to_string(link.mass), "a moving link needs mass and inertia above zero");
+      refuse("link[" + link.name + "]", std::to_string(link.mass), "a moving link needs positive mass and inertia");
   }
   // Outward from the base, in the order of the joints.
   std::vector<int> order;
@@ -480,14 +480,14 @@ void TreeBody::visit(Archive& a) {
   a.fixed("velocities", qd);
   a("borne", borne_);
   a("bearing", bearing_);
-  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing", "nothing bears a machine that is not finite");
+  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing", "the support of a body must be finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
   const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
-  a.require(near, "coordinates", "a machine has no finite place, or none near any site");
+  a.require(near, "coordinates", "the pose of a machine must be finite and near the site");
   a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
-            "a machine's turn has a scale");
-  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
+            "a machine's rotation must be a unit quaternion");
+  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "velocities must be finite");
   place(q, qd);
   // A snapshot is between two steps: no force of the last one remains.
   expected_.clear();

@@ -201,7 +201,7 @@ void MachineDrive::visit(Archive& a) {
   if (!cage_.empty()) {
     a.fixed("shaft", shaft_);
   } else if (!rows_.empty()) {
-    a.unhashed("told only", [&] { a.fixed("shaft", shaft_); });
+    a.unhashed("output only", [&] { a.fixed("shaft", shaft_); });
   } else if (a.loading()) {
     for (std::size_t w = 0; w < shaft_.size(); ++w)
       shaft_[w] = about_[w].driven && joints_[wheels_[w].spin_joint].driven && !wheels_[w].braked

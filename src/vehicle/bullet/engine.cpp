@@ -174,7 +174,7 @@ class BulletEngine final : public Engine,
   }
 
   void step(double dt, const GroundQuery& ground) override {
-    if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    if (!(dt > 0)) throw SimulationError("vehicle: the step must be positive, it is " + std::to_string(dt));
     for (const Coupled& hitch : hitches_) hitch.keep_awake();
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all,
     // then positions.
@@ -196,11 +196,11 @@ class BulletEngine final : public Engine,
       // Stop a broken run here, where step and machine are known, before its numbers spread.
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
-        throw SimulationError("vehicle: machine '" + machine->scene().name + "' has no finite place any more");
+        throw SimulationError("vehicle: machine '" + machine->scene().name + "' has no finite pose");
       if (!machine->tree().fixed_base() && p.z() < ground.height(p.x(), p.y()) - kLost)
         throw SimulationError("vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
                               std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
-                              " m; it needs wheels or collision shapes that hold it, above the ground at the start");
+                              " m; it needs wheels or collision shapes that start above the ground");
     }
     forget_contacts();
   }
@@ -235,7 +235,7 @@ class BulletEngine final : public Engine,
 
   void visit(Archive& a) override {
     a.section("bullet", kVersion, [&] {
-      a.constant("machines", machines_.size(), "the snapshot holds another number of machines than the scene");
+      a.constant("machines", machines_.size(), "the snapshot has another number of machines than the scene");
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
       tyre_bodies_.visit(a, machines_, movers_);
       for (std::size_t h = 0; h < hitches_.size(); ++h) a.item(h, [&] { hitches_[h].rows->visit(a); });

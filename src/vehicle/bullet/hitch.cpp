@@ -32,7 +32,7 @@ void HitchRows::set(bool closed) {
     if (apart > kHitchReach)
       throw InputError(
           Fault{Fault::Severity::kError, "", 0, "hitch '" + hitch_.name + "'", std::to_string(apart) + " m",
-                "the eye is farther from the hook than the 0.1 m that it takes", "drive the hook there first"});
+                "the hitch closes when the eye is within 0.1 m of the hook", "drive the hook to the eye first"});
   }
   closed_ = closed;
   if (!closed_) force_.setZero();

@@ -13,7 +13,7 @@ Hydraulics::Hydraulics(const scene::Machine& machine) : machine_(machine), of_jo
   for (const scene::Cylinder& cylinder : machine.cylinders) {
     cylinders_.push_back({CylinderMap(machine, cylinder), {}, {}});
     int& slot = of_joint_[static_cast<std::size_t>(cylinders_.back().map.joint())];
-    if (slot >= 0) refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "one cylinder a joint: use count");
+    if (slot >= 0) refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "only one cylinder per joint; for several side by side set count");
     slot = count() - 1;
   }
 }

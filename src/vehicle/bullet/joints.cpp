@@ -197,9 +197,9 @@ void Actuator::visit(Archive& a) {
   a("driven", driven);
   a("effort", effort);
   if (has_brake) {
-    a.unhashed("hashed by the place it holds, while it is on", [&] { a("braked", braked); });
+    a.unhashed("hashed by the held position while it is set", [&] { a("braked", braked); });
     if (braked) a("held", held);
-    a.require(std::isfinite(held), "held", "a brake holds its joint at no place");
+    a.require(std::isfinite(held), "held", "the position that a brake holds must be finite");
   }
   // The drive turns a wheel without its servo, whose limits then stay those of its last use. Other
   // joints set theirs in every step.

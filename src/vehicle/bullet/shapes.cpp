@@ -76,7 +76,7 @@ std::unique_ptr<btCollisionShape> make_shape(const scene::Collision& collision, 
     case Kind::kPlane:
       break;
   }
-  refuse(collision, "plane", "no body collides as a plane: in a scene it is the rock under the ground");
+  refuse(collision, "plane", "a link cannot collide as a plane; a plane in a scene is the rock under the ground");
 }
 
 /// Friction of a shell's steel against bodies without a material (U): about 0.5 on a stone with the

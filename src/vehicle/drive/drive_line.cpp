@@ -154,7 +154,7 @@ void DriveLine::visit(Archive& a) {
   a.constant("governors", groups_.size(), "the drive has another number of governors than the scene's");
   for (std::size_t g = 0; g < groups_.size(); ++g) a.item(g, [&] { a("governor", groups_[g].governor); });
   if (engine_) a("engine", *engine_);
-  if (engine_ || powertrain_.engine_power > 0) a.unhashed("told only", [&] { a("engine_state", state_); });
+  if (engine_ || powertrain_.engine_power > 0) a.unhashed("output only", [&] { a("engine_state", state_); });
 }
 
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine) {

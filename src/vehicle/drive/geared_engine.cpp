@@ -25,7 +25,7 @@ bool sources(const scene::DriveEngine& engine) { return engine.kind == scene::Dr
 GearedEngine::GearedEngine(scene::DriveEngine about, bool drives_pump) : about_(std::move(about)), held_(kDwell) {
   if (about_.gears.empty() || (!sources(about_) && about_.curve.size() < 2))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "engine", "",
-                           "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
+                           "needs at least one gear and, unless it is a speed source, two points of its torque curve", ""});
   if (sources(about_)) return;
   slowest_ = drives_pump ? scene::rated_point(about_).speed : about_.curve.front().speed;
 }

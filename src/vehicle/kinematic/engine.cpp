@@ -112,7 +112,7 @@ class KinematicEngine final : public Engine, private PlacementCapability {
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
   void step(double dt, const GroundQuery& ground) override {
-    if (!(dt > 0)) throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    if (!(dt > 0)) throw SimulationError("vehicle: the step must be positive, it is " + std::to_string(dt));
     for (Body& body : bodies_) {
       // Joints first: a drive may then command its wheels' joints for the next step.
       move_joints(body, dt);
@@ -160,7 +160,7 @@ class KinematicEngine final : public Engine, private PlacementCapability {
 
   void visit(Archive& a) override {
     a.section("kinematic", kVersion, [&] {
-      a.constant("machines", bodies_.size(), "the snapshot holds another number of kinematic machines than the scene");
+      a.constant("machines", bodies_.size(), "the snapshot has another number of kinematic machines than the scene");
       for (std::size_t b = 0; b < bodies_.size(); ++b) a.item(b, [&] { visit_body(bodies_[b], a); });
     });
   }
@@ -185,21 +185,21 @@ class KinematicEngine final : public Engine, private PlacementCapability {
     a("goal", body.goal);
     a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
     a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() && body.goal.p_W.norm() < limits::kFarthest,
-              "goal", "a machine is on its way to no finite place, or to none near any site");
+              "goal", "the target of a base must be finite and near the site");
     a.require(body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
-              "a machine has no finite place, or none near any site");
+              "the pose of a machine must be finite and near the site");
     // Poses of all links follow from base and joints.
     if (a.loading()) update_links(body);
   }
 
   static void visit_brake(Body& body, std::size_t j, Archive& a) {
     if (!(body.machine.joints[j].brake > 0)) return;
-    a.unhashed("hashed while it is on", [&] { a.ranged("braked", body.braked[j], 0, 1); });
+    a.unhashed("hashed while it is set", [&] { a.ranged("braked", body.braked[j], 0, 1); });
     if (body.braked[j] == 0) return;
     // Hash which brake is set. Without a set brake the hash is that of a machine without brakes.
     int which = static_cast<int>(j) + 1;
     a("on", which);
-    a.require(which == static_cast<int>(j) + 1, "on", "another joint's brake");
+    a.require(which == static_cast<int>(j) + 1, "on", "the snapshot has another joint's brake set");
   }
   /// Returns the speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: that of
   /// its cylinder at the present position, if it has one, at most the joint's own.

@@ -93,7 +93,7 @@ class ParticleEngine final : public vehicle::Engine {
 
   void visit(Archive& a) override {
     a.section("particle", 1, [&] {
-      a.constant("machines", bodies_.size(), "the snapshot holds another number of machines than the scene");
+      a.constant("machines", bodies_.size(), "the snapshot has another number of machines than the scene");
       for (std::size_t b = 0; b < bodies_.size(); ++b) a.item(b, [&] { bodies_[b].visit(a); });
     });
   }
