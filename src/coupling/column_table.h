@@ -32,7 +32,8 @@ class ColumnTable {
     const auto place = static_cast<std::ptrdiff_t>(strip.before(bit));
     if ((strip.mask & bit) == 0) {
       // Grow by a few entries: doubling would leave a third unused.
-      if (strip.values.size() == strip.values.capacity()) strip.values.reserve(strip.values.size() + kMoreRoom);
+      if (strip.values.size() == strip.values.capacity())
+        strip.values.reserve(strip.values.size() + kMoreClearance);
       strip.values.emplace(strip.values.begin() + place);
       strip.mask |= bit;
       ++size_;
@@ -73,13 +74,15 @@ class ColumnTable {
 
  private:
   static constexpr int kStrip = 32;  // columns, one bit each
-  static constexpr std::size_t kMoreRoom = 4;
+  static constexpr std::size_t kMoreClearance = 4;
 
   struct Strip {
     std::uint32_t mask = 0;  // columns that have a value
-    std::vector<T> values;  // their values, in the same order
+    std::vector<T> values;   // their values, in the same order
 
-    std::size_t before(std::uint32_t bit) const { return static_cast<std::size_t>(std::popcount(mask & (bit - 1))); }
+    std::size_t before(std::uint32_t bit) const {
+      return static_cast<std::size_t>(std::popcount(mask & (bit - 1)));
+    }
   };
 
   std::int64_t strips_x() const { return (static_cast<std::int64_t>(nx_) + kStrip - 1) / kStrip; }

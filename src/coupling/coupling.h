@@ -10,10 +10,10 @@
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/solver.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling {
 
@@ -49,8 +49,8 @@ class Coupling {
   /// Adds the machines to the two engines and every shell to the solver. The references must
   /// outlive this object.
   /// @throws InputError for a scene that asks for a capability its engine lacks.
-  Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
-           heightfield::Ground& ground);
+  Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
+           vehicle::PhysicsEngine& kinematic, soil::Solver& solver, heightfield::Ground& ground);
 
   /// Advances everything by dt [s].
   void step(double dt);
@@ -62,7 +62,9 @@ class Coupling {
   /// Returns 1 for each particle that a bucket or a bed holds, 0 for the others.
   std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// Returns the engine that moves machine `m` of the world, or the machine's index in it.
-  vehicle::Engine& engine(int m) const { return *placed_[static_cast<std::size_t>(m)].engine; }
+  vehicle::PhysicsEngine& engine(int m) const {
+    return *placed_[static_cast<std::size_t>(m)].engine;
+  }
   int index(int m) const { return placed_[static_cast<std::size_t>(m)].index; }
 
   /// Visits the state that continues from step to step. Engines, soil and ground are visited by
@@ -72,7 +74,7 @@ class Coupling {
  private:
   /// Engine of a machine of the scene.
   struct PlacedMachine {
-    vehicle::Engine* engine = nullptr;  ///< one of the two given
+    vehicle::PhysicsEngine* engine = nullptr;  ///< one of the two given
     /// Index of the machine in that engine.
     int index = 0;
     /// Number of a kinematic machine among the dynamic engine's obstacles, -1 for others.
@@ -81,13 +83,13 @@ class Coupling {
   /// Moves the dynamic engine's obstacles to the poses of the kinematic machines.
   void show_movers();
   /// Returns the support areas of wheels and tracks of dynamic machines.
-  std::vector<soil::Footing> footings(double dt) const;
+  std::vector<soil::SupportArea> support_areas(double dt) const;
   void press_ruts(double dt);
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
   const scene::Scene& world_;
-  vehicle::Engine& dynamic_;
-  vehicle::Engine& kinematic_;
+  vehicle::PhysicsEngine& dynamic_;
+  vehicle::PhysicsEngine& kinematic_;
   soil::Solver& solver_;
   heightfield::Ground& ground_;
   Ruts ruts_;

@@ -22,24 +22,27 @@ namespace navvy::coupling {
 class GroundView final : public terramechanics::GroundQuery {
  public:
   /// Wraps `terrain`. Its soil indices refer to `soils`.
-  GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils, const Ruts* ruts = nullptr)
+  GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils,
+             const Ruts* ruts = nullptr)
       : terrain_(terrain), soils_(soils), ruts_(ruts) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
   double highest(const Vec2& low, const Vec2& high) const override {
     // Heights between column centres are bounded by the surrounding columns.
-    const Vec2i first = terrain_.column_at(low.x(), low.y()), last = terrain_.column_at(high.x(), high.y());
+    const Vec2i first = terrain_.column_at(low.x(), low.y()),
+                last = terrain_.column_at(high.x(), high.y());
     return terrain_.highest({first.x() - 1, first.y() - 1, last.x() + 2, last.y() + 2});
   }
   Vec3 normal(double x, double y) const override { return terrain_.normal(x, y); }
   terramechanics::GroundLattice lattice() const override {
     return {terrain_.origin() + Vec2::Constant(0.5 * terrain_.cell()), terrain_.cell()};
   }
-  terramechanics::Sinking sinking(double x, double y) const override {
-    return ruts_ != nullptr ? ruts_->sinking(x, y) : terramechanics::Sinking{};
+  terramechanics::Sinkage sinking(double x, double y) const override {
+    return ruts_ != nullptr ? ruts_->sinking(x, y) : terramechanics::Sinkage{};
   }
   terramechanics::SoilState soil(double x, double y) const override {
     const Vec2i c = terrain_.column_at(x, y);
-    const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1), iy = std::clamp(c.y(), 0, terrain_.ny() - 1);
+    const int ix = std::clamp(c.x(), 0, terrain_.nx() - 1),
+              iy = std::clamp(c.y(), 0, terrain_.ny() - 1);
     return {&soils_[terrain_.surface_soil(ix, iy)], terrain_.specific_volume(ix, iy)};
   }
 

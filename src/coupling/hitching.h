@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "scene/scene.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling {
 
@@ -13,6 +13,7 @@ namespace navvy::coupling {
 /// indices. `index` maps a machine of the scene to its index in the engine.
 /// @throws InputError with file and line for a closed hitch whose eye is out of the hook's reach,
 /// and for an engine that cannot couple machines.
-void add_hitches(const scene::Scene& scene, vehicle::Engine& engine, const std::function<int(int)>& index);
+void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
+                 const std::function<int(int)>& index);
 
 }  // namespace navvy::coupling

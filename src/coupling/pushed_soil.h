@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::coupling {
 
@@ -47,13 +47,13 @@ class PushedSoil {
   /// Lays all soil down in the order in which it was taken. Columns for which `borne` is true
   /// receive none. Soil without a target, between the tyre and the site's edge, is compacted into
   /// the column it came from.
-  void lay_down(const std::function<bool(int ix, int iy)>& borne);
+  void deposit_down(const std::function<bool(int ix, int iy)>& borne);
 
  private:
   struct Load {
     Place place;
     /// Soil layers, bottom first.
-    std::vector<heightfield::Layer> layers;
+    std::vector<heightfield::SoilLayer> layers;
   };
   /// Column of the strip and the share of it [-] inside the strip.
   struct Strip {
@@ -61,8 +61,9 @@ class PushedSoil {
     double share;
   };
   /// Returns the strip on one side: `sign` 1 left, -1 right. Empty if there is no space.
-  std::vector<Strip> strip(const Place& from, double sign, const std::function<bool(int, int)>& borne) const;
-  void spread(const heightfield::Layer& layer, const std::vector<Strip>& strip);
+  std::vector<Strip> strip(const Place& from, double sign,
+                           const std::function<bool(int, int)>& borne) const;
+  void spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip);
 
   heightfield::Ground& ground_;
   std::vector<Load> loads_;

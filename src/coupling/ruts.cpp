@@ -36,15 +36,17 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   if (!(drop > 0)) return;
   const double after = before + drop;
   memory.sinking.depth += drop;
-  memory.sinking.work +=
-      (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
+  memory.sinking.work += (terramechanics::plate_work(soil, after, width) -
+                          terramechanics::plate_work(soil, before, width)) /
+                         softer;
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
   ground_.compact_to(ix, iy, height - drop);
   memory.borne.height = ground_.height(ix, iy);
 }
 
-void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval) {
+void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+                           double interval) {
   const double now = wheel.force_W.z() - wheel.body_W.z();
   if (!std::isfinite(interval)) {
     *this = {now, wheel.slip};
@@ -67,14 +69,15 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
   // Nothing can be laid down under a track or another tyre.
-  pushed_.lay_down([this](int ix, int iy) {
-    return ground_.held(ix, iy) || under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
+  pushed_.deposit_down([this](int ix, int iy) {
+    return ground_.held(ix, iy) ||
+           under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
   });
   ground_.hold(std::exchange(under_, {}));
 }
 
-void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing,
-                       double interval) {
+void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+                       const Bearing& bearing, double interval) {
   const Pose& X = wheel.X_WWheel;
   // A tyre in the air presses nothing, whatever its earlier load.
   if (!(wheel.force_W.z() - wheel.body_W.z() > 0)) return;
@@ -92,7 +95,8 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
       0.5 * terramechanics::chord_length(tyre.radius, press.patch.deflection + press.patch.sinkage);
   // The patch is a rectangle in the horizontal plane along the wheel's heading.
   const Vec2 along = Vec2(X.linear()(0, 0), X.linear()(1, 0)).normalized();
-  const Vec2 rolled = std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
+  const Vec2 rolled =
+      std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
     // Below the axle in the machine's frame, which is not vertical on a slope.
@@ -120,19 +124,20 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
       // Ahead and behind no deeper than the tread: a step there would be a wall for the tyre to
       // climb.
-      const double tread = terramechanics::plate_pressure(press.soil, patch.tread_depth(x) / press.softer, patch.width);
+      const double tread = terramechanics::plate_pressure(
+          press.soil, patch.tread_depth(x) / press.softer, patch.width);
       const double off = d.dot(across), outside = std::abs(aside) + 0.5 * patch.width;
-      press_column(
-          {ix, iy, across, aside + off, outside, patch.width, PushedSoil::covered(off, patch.width, ground_.cell())},
-          std::min(patch.pressure, tread), press);
+      press_column({ix, iy, across, aside + off, outside, patch.width,
+                    PushedSoil::covered(off, patch.width, ground_.cell())},
+                   std::min(patch.pressure, tread), press);
     }
 }
 
-terramechanics::Sinking Ruts::sinking(double x, double y) const {
+terramechanics::Sinkage Ruts::sinking(double x, double y) const {
   const Vec2i c = ground_.column_at(x, y);
   if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return {};
   const Memory* memory = memory_.find(c.x(), c.y());
-  return memory != nullptr ? memory->sinking : terramechanics::Sinking{};
+  return memory != nullptr ? memory->sinking : terramechanics::Sinkage{};
 }
 
 void Ruts::Memory::visit(Archive& a) {

@@ -11,11 +11,11 @@
 #include "coupling/column_table.h"
 #include "coupling/pushed_soil.h"
 #include "coupling/rut_memory.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
 #include "terramechanics/tyre_patch.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling {
 
@@ -42,17 +42,19 @@ constexpr int kRutInterval = 8;
 class Ruts {
  public:
   /// Starts without ruts. The ground must outlive this object.
-  explicit Ruts(heightfield::Ground& ground) : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
+  explicit Ruts(heightfield::Ground& ground)
+      : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
 
   /// Presses the contact patches of all wheels of the world where they are and where they roll
   /// within `interval` [s], the time until the next call. Pass the wheels in the same order each
   /// time. Each wheel presses with the part of its `force_W` that the ground bears; tyres of a twin
   /// pair carry half each. Columns under tyres are held until the next call. With an infinite
   /// interval loads are not averaged.
-  void press(const std::vector<LoadedTyre>& tyres, double interval = std::numeric_limits<double>::infinity());
+  void press(const std::vector<LoadedTyre>& tyres,
+             double interval = std::numeric_limits<double>::infinity());
 
   /// Returns the compaction of the column at x, y since a tyre arrived on it; zero without a tyre.
-  terramechanics::Sinking sinking(double x, double y) const;
+  terramechanics::Sinkage sinking(double x, double y) const;
 
   /// Returns the load history of a column and creates it if it is new. The reference is valid until
   /// the next call.
@@ -67,7 +69,7 @@ class Ruts {
   struct Memory {
     RutMemory borne;
     /// Compaction since the tyre that stands on the column arrived.
-    terramechanics::Sinking sinking;
+    terramechanics::Sinkage sinking;
     void visit(Archive& a);
   };
   /// Low-pass filtered load of a wheel on the ground.
@@ -84,7 +86,8 @@ class Ruts {
     /// Factor of the sinkage by slip.
     double softer;
   };
-  void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing, double interval);
+  void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+                   const Bearing& bearing, double interval);
   /// Presses the patch of one tyre with its middle at `center`, along the unit vector `along`,
   /// `aside` [m] left of the wheel's middle.
   void press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "vehicle/machine_state.h"
 

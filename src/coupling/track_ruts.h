@@ -6,8 +6,8 @@
 
 #include "coupling/pushed_soil.h"
 #include "coupling/ruts.h"
-#include "heightfield/ground.h"
-#include "terramechanics/belt.h"
+#include "heightfield/layered_ground.h"
+#include "terramechanics/track.h"
 
 namespace navvy::coupling {
 
@@ -24,12 +24,13 @@ class TrackRuts {
  public:
   /// Starts without loads. The ground and `ruts`, which store the history, must outlive this
   /// object.
-  TrackRuts(heightfield::Ground& ground, Ruts& ruts) : ground_(ground), ruts_(ruts), pushed_(ground) {}
+  TrackRuts(heightfield::Ground& ground, Ruts& ruts)
+      : ground_(ground), ruts_(ruts), pushed_(ground) {}
 
   /// Presses all patches of the world. No column sinks by more than `most` [m] per call. Columns
   /// under tracks are held until the next call; columns under tyres stay held unless the tracks are
   /// `alone`.
-  void press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone);
+  void press(const std::vector<terramechanics::TrackPatch>& patches, double most, bool alone);
 
  private:
   /// Presses one column with `pressure` [Pa] of a plate as wide as the track, by the law of its own

@@ -31,7 +31,8 @@ constexpr ElementType element_type() {
   else if constexpr (std::is_same_v<T, float>)
     return ElementType::kFloat32;
   else {
-    static_assert(std::is_same_v<T, double>, "an array holds uint8, uint16, int32, float or double");
+    static_assert(std::is_same_v<T, double>,
+                  "an array holds uint8, uint16, int32, float or double");
     return ElementType::kFloat64;
   }
 }

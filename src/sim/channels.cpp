@@ -27,8 +27,9 @@ void Inputs::set(int input, double value) {
   require_index("input", input, size());
   // A NaN would pass through a servo into every body and show only steps later, without a name.
   if (!std::isfinite(value))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, channels()[static_cast<std::size_t>(input)].name,
-                           std::to_string(value), "an input must be a finite number", "send a number"});
+    throw InputError(Fault{Fault::Severity::kError, "", 0,
+                           channels()[static_cast<std::size_t>(input)].name, std::to_string(value),
+                           "an input must be a finite number", "send a number"});
   function(input)(value);
 }
 

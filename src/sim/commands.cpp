@@ -13,34 +13,40 @@ namespace {
 void require_machine(int machine, const scene::Scene& scene) {
   if (machine >= 0 && machine < static_cast<int>(scene.machines.size())) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(machine),
-                         "the handle belongs to no machine of this world", "take handles from the same world"});
+                         "the handle belongs to no machine of this world",
+                         "take handles from the same world"});
 }
 void require_finite(const std::string& what, double value) {
   if (std::isfinite(value)) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, what, std::to_string(value), "must be a finite number", "send a number"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, what, std::to_string(value),
+                         "must be a finite number", "send a number"});
 }
 
 }  // namespace
 
 void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput& input) const {
   require_machine(joint.machine(), parts_->description);
-  const auto& joints = parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.joints;
+  const auto& joints =
+      parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.joints;
   if (joint.index() < 0 || joint.index() >= static_cast<int>(joints.size()))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "command", std::to_string(joint.index()),
-                           "the handle belongs to no joint of this machine", "take handles from the same world"});
-  require_finite("command of joint '" + joints[static_cast<std::size_t>(joint.index())].name + "'", input.target);
+                           "the handle belongs to no joint of this machine",
+                           "take handles from the same world"});
+  require_finite("command of joint '" + joints[static_cast<std::size_t>(joint.index())].name + "'",
+                 input.target);
 }
 
 void Commands::require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const {
   require_machine(machine.index(), parts_->description);
   require_finite("speed of the drive", input.speed);
   require_finite("steering of the drive", input.steer);
-  const scene::DriveEngine* engine = scene::drive_engine(machine.description().drive);
+  const scene::CombustionEngine* engine = scene::drive_engine(machine.description().drive);
   const int gears = engine == nullptr ? 0 : static_cast<int>(engine->gears.size());
   if (input.gear < 0 || input.gear > gears)
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "gear of " + machine.name(), std::to_string(input.gear),
-                           gears == 0 ? "its drive has no gears" : "its gears are 1 to " + std::to_string(gears),
-                           "give one of them, or 0 for automatic"});
+    throw InputError(Fault{
+        Fault::Severity::kError, "", 0, "gear of " + machine.name(), std::to_string(input.gear),
+        gears == 0 ? "its drive has no gears" : "its gears are 1 to " + std::to_string(gears),
+        "give one of them, or 0 for automatic"});
 }
 
 // Angles may exceed a turn; a position must be one that a site can have.
@@ -50,12 +56,14 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseIn
     require_finite("position of the base", input.p_W[i]);
     require_finite("angle of the base", input.angles[i]);
     if (std::abs(input.p_W[i]) > kFarthest)
-      throw InputError(Fault{Fault::Severity::kError, "", 0, "position of the base", std::to_string(input.p_W[i]),
-                             "a site is at most 1000 km from the origin", "give a position in metres in W"});
+      throw InputError(Fault{
+          Fault::Severity::kError, "", 0, "position of the base", std::to_string(input.p_W[i]),
+          "a site is at most 1000 km from the origin", "give a position in metres in W"});
   }
   if (!(input.duration >= 0) || !std::isfinite(input.duration))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "duration of the base's motion", std::to_string(input.duration),
-                           "must be 0 or more seconds", "give 0 to move within one step"});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "duration of the base's motion",
+                           std::to_string(input.duration), "must be 0 or more seconds",
+                           "give 0 to move within one step"});
   const scene::Machine& built = machine.description();
   if (!built.kinematic || built.fixed_base)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
@@ -65,9 +73,11 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseIn
 
 void Commands::require_brake(const JointHandle& joint) const {
   require_valid(joint, vehicle::JointInput{});
-  const scene::Machine& machine = parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine;
+  const scene::Machine& machine =
+      parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine;
   if (!(machine.joints[static_cast<std::size_t>(joint.index())].brake > 0))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "brake", joint.name(), "this joint has no brake",
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "brake", joint.name(),
+                           "this joint has no brake",
                            "give it <navvy:brake> in the machine's file"});
 }
 

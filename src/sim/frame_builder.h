@@ -10,7 +10,7 @@
 
 namespace navvy::sim {
 
-class PlateRoom;
+class ParticleClipper;
 
 /// Fills frames of one world. Keeps the dense ground between calls and rewrites only what changed.
 ///
@@ -41,7 +41,7 @@ class FrameBuilder {
   // Columns of the site that are drawn, and the changes among them.
   heightfield::CellRect window_;
   heightfield::ChangeFollower changes_;
-  std::unique_ptr<PlateRoom> plates_;
+  std::unique_ptr<ParticleClipper> plates_;
 };
 
 }  // namespace navvy::sim

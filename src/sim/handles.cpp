@@ -129,8 +129,9 @@ JointHandle MachineHandle::joint(int index) const {
 
 // Wheels by the name of their spin joint.
 WheelHandle MachineHandle::wheel(const std::string& name) const {
-  return wheel(index_of("wheel", description().wheels, name,
-                        [](const scene::Wheel& wheel) -> const std::string& { return wheel.joint; }));
+  return wheel(
+      index_of("wheel", description().wheels, name,
+               [](const scene::Wheel& wheel) -> const std::string& { return wheel.joint; }));
 }
 WheelHandle MachineHandle::wheel(int index) const {
   WheelHandle out;
@@ -163,9 +164,10 @@ vehicle::PumpState MachineHandle::pump() const {
   const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
   return power ? power->pump(parts_->coupling.index(machine_)) : vehicle::PumpState();
 }
-vehicle::EngineState MachineHandle::engine() const {
+vehicle::CombustionEngineState MachineHandle::engine() const {
   const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
-  return power ? power->drive_engine(parts_->coupling.index(machine_)) : vehicle::EngineState();
+  return power ? power->drive_engine(parts_->coupling.index(machine_))
+               : vehicle::CombustionEngineState();
 }
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));

@@ -14,12 +14,12 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "sim/world_figures.h"
+#include "sim/world_measurements.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
 // Forward declared: a client reads through handles and includes no engine.
-class Engine;
+class PhysicsEngine;
 class JointEncoder;
 }  // namespace navvy::vehicle
 
@@ -43,7 +43,7 @@ class LinkHandle {
  private:
   friend class MachineHandle;
   const scene::Link* link_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
@@ -70,7 +70,7 @@ class JointHandle {
  private:
   friend class MachineHandle;
   const scene::Joint* joint_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   const vehicle::JointEncoder* encoder_ = nullptr;
   int machine_ = -1, body_ = -1, index_ = -1;
 };
@@ -87,7 +87,7 @@ class WheelHandle {
  private:
   friend class MachineHandle;
   const scene::Wheel* wheel_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
@@ -114,7 +114,7 @@ class ToolHandle {
   /// Returns the soil inside [kg]; for a bed without the soil in a bucket inside it. Costs a pass
   /// over the particles.
   double payload() const;
-  /// Returns the momentum balance of the last step, see world_figures.h. `scale` is 0 without
+  /// Returns the momentum balance of the last step, see world_measurements.h. `scale` is 0 without
   /// contact.
   MomentumBalance momentum_balance() const;
 
@@ -151,7 +151,7 @@ class MachineHandle {
   vehicle::PumpState pump() const;
   /// Returns speed [rad/s], torque [N m], power [W] and gear of its combustion engine after the
   /// last step; zeros for a drive without one.
-  vehicle::EngineState engine() const;
+  vehicle::CombustionEngineState engine() const;
   /// Returns the command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;
   /// Returns the target pose of a kinematic machine's base; for other machines the present pose.

@@ -10,8 +10,9 @@ namespace navvy::sim {
 int Machines::count() const { return static_cast<int>(parts_->description.machines.size()); }
 
 MachineHandle Machines::at(const std::string& name) const {
-  return at(index_of("machine", parts_->description.machines, name,
-                     [](const scene::MachineInWorld& one) -> const std::string& { return one.name; }));
+  return at(
+      index_of("machine", parts_->description.machines, name,
+               [](const scene::MachineInWorld& one) -> const std::string& { return one.name; }));
 }
 
 // Checked here, so that reading through a handle needs no check.

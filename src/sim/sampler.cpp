@@ -18,7 +18,8 @@ void Publisher::require_new(const std::string& name) const {
   const bool declared = std::any_of(new_numbers_.begin(), new_numbers_.end(), called) ||
                         std::any_of(new_arrays_.begin(), new_arrays_.end(), called);
   if (!declared && outputs_.find(name) < 0 && arrays_.find(name) < 0) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "output", name, "there is already an output of this name",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "output", name,
+                         "there is already an output of this name",
                          "begin the name with the sampler's own"});
 }
 
@@ -27,7 +28,8 @@ void Publisher::require(int array, ElementType type) const {
   const ArrayChannel& channel = arrays_.view(array).channel();
   if (channel.type == type) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, name_of(type),
-                         std::string("it was declared as ") + name_of(channel.type), "fill it with that type"});
+                         std::string("it was declared as ") + name_of(channel.type),
+                         "fill it with that type"});
 }
 
 int Publisher::declare(Channel channel) {
@@ -62,7 +64,8 @@ void Publisher::commit() {
 /// compared before.
 void Publisher::visit(Archive& a) {
   a.constant("count", numbers_.size(),
-             "the snapshot has a sampler with another number of outputs; add the same samplers, then load");
+             "the snapshot has a sampler with another number of outputs; add the same samplers, "
+             "then load");
   for (std::size_t i = 0; i < numbers_.size(); ++i) a.item(i, [&] { a("value", *numbers_[i]); });
 }
 
@@ -74,12 +77,15 @@ SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, Arr
       publisher_(outputs, arrays, rate_) {
   if (!std::isfinite(rate_) || rate_ < 0)
     throw InputError(Fault{Fault::Severity::kError, "", 0, name_, std::to_string(rate_),
-                           "the rate must be a finite number of samples per second, not negative", "give 0 to sample after every step"});
+                           "the rate must be a finite number of samples per second, not negative",
+                           "give 0 to sample after every step"});
   sampler_->declare(publisher_);
   publisher_.commit();
 }
 
-bool SamplerSlot::due(std::uint64_t step, double dt) const { return rate_ == 0 || sample_due(step, dt, rate_); }
+bool SamplerSlot::due(std::uint64_t step, double dt) const {
+  return rate_ == 0 || sample_due(step, dt, rate_);
+}
 
 void SamplerSlot::sample(const World& world, double time) {
   // The world's time, so that all samples of one step have the same stamp.

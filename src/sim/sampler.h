@@ -24,7 +24,8 @@ class Publisher {
  public:
   /// Refers to both lists, which must outlive it. `rate` [1/s] is written into every array's
   /// channel.
-  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate) : outputs_(outputs), arrays_(arrays), rate_(rate) {}
+  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate)
+      : outputs_(outputs), arrays_(arrays), rate_(rate) {}
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 

@@ -9,7 +9,7 @@
 #include "core/log.h"
 #include "core/saved_state.h"
 #include "core/sealed.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 
 namespace navvy::sim {
 namespace {
@@ -22,7 +22,8 @@ void require_scene(Archive& a, const std::string& scene) {
   if (a.loading() && found != scene)
     throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "scene", found,
                            "the snapshot is of this scene, but the run's scene is '" + scene + "'",
-                           "resume the scene it was taken from; --resume-anyway allows other parameters, not another scene"});
+                           "resume the scene it was taken from; --resume-anyway allows other "
+                           "parameters, not another scene"});
 }
 
 }  // namespace
@@ -67,10 +68,12 @@ void SnapshotStart::visit(Archive& a) {
     if (!a.loading() || found == here) return;
     const std::string differences = scene::differences(found, here);
     if (!anyway)
-      throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
-                             "the scene's parameters differ from the snapshot's: " + differences,
-                             "resume the scene it was taken from, or pass --resume-anyway to `navvy run`"});
-    log_warning("resuming although the scene's parameters differ from the snapshot's: " + differences);
+      throw InputError(
+          Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
+                "the scene's parameters differ from the snapshot's: " + differences,
+                "resume the scene it was taken from, or pass --resume-anyway to `navvy run`"});
+    log_warning("resuming although the scene's parameters differ from the snapshot's: " +
+                differences);
   });
 }
 
@@ -91,7 +94,8 @@ struct Front {
 
 }  // namespace
 
-heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file, SnapshotHead* head) {
+heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
+                                SnapshotHead* head) {
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
     Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/archive.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 

@@ -14,7 +14,7 @@ SoilCounts SoilView::counts() const {
   out.particles = stats.particles;
   out.particles_peak = stats.particles_peak;
   out.rebins = stats.rebins;
-  out.woken_columns = stats.wakes;
+  out.activated_columns = stats.wakes;
   out.deposited_blocks = stats.deposits;
   out.shell_crossings = stats.shell_crossings;
   return out;
@@ -24,20 +24,22 @@ MassLedger SoilView::mass_ledger() const {
   // Sum the error before moving the parts out.
   soil::Ledger sums = parts_->soil.ledger();
   const std::int64_t error = sums.error();
-  return {std::move(sums.columns), std::move(sums.particles), std::move(sums.left_site), std::move(sums.inserted),
-          error};
+  return {std::move(sums.columns), std::move(sums.particles), std::move(sums.left_site),
+          std::move(sums.inserted), error};
 }
 
 std::optional<SoilEnergy> SoilView::energy() const {
   const soil::EnergyAccount* account = parts_->soil.energy();
   if (account == nullptr) return std::nullopt;
   SoilEnergy out;
-  soil::tell_energy(*account, [&](const char* name, double joule) { out.push_back({name, joule}); });
+  soil::report_energy(*account, [&](const char* name, double joule) {
+    out.push_back({name, joule});
+  });
   return out;
 }
 
-std::vector<LooseSoil> SoilView::loose_soil() const {
-  std::vector<LooseSoil> out;
+std::vector<ActiveParticle> SoilView::loose_soil() const {
+  std::vector<ActiveParticle> out;
   // Ordered by the particles' ids, so that sums over the result are bit-identical.
   for (const soil::Particle& p : parts_->soil.particles()) {
     // Particles know their block; the grid knows where the block is on the site.
@@ -47,6 +49,8 @@ std::vector<LooseSoil> SoilView::loose_soil() const {
   return out;
 }
 
-std::vector<std::pair<std::string, double>> SoilView::stage_times() const { return parts_->soil.stage_times(); }
+std::vector<std::pair<std::string, double>> SoilView::stage_times() const {
+  return parts_->soil.stage_times();
+}
 
 }  // namespace navvy::sim

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "sim/world_figures.h"
+#include "sim/world_measurements.h"
 
 namespace navvy::sim {
 
 struct WorldParts;
 
-/// Reads the soil of a world, as plain values (sim/world_figures.h).
+/// Reads the soil of a world, as plain values (sim/world_measurements.h).
 ///
 /// A view of two words: copy it freely, as long as its world lives. Every function returns a copy.
 class SoilView {
@@ -29,7 +29,7 @@ class SoilView {
   std::optional<SoilEnergy> energy() const;
   /// Returns the active soil, one entry per particle, in a repeatable order. Costs a pass over the
   /// particles.
-  std::vector<LooseSoil> loose_soil() const;
+  std::vector<ActiveParticle> loose_soil() const;
   /// Returns the wall time of the soil's stages [s]: "p2g", "grid", "exchange", ...
   std::vector<std::pair<std::string, double>> stage_times() const;
 

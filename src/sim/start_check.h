@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "vehicle/machine_state.h"
 

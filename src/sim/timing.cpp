@@ -20,7 +20,8 @@ double base_step(double longest, double period) {
 std::uint64_t samples_through(std::uint64_t step, double dt, double rate) {
   // Half a step further on, the next step becomes the nearer one. Use products, since a sum of
   // periods would drift.
-  return static_cast<std::uint64_t>(std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));
+  return static_cast<std::uint64_t>(
+      std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));
 }
 
 std::uint64_t sample_number(std::uint64_t step, double dt, double rate) {

@@ -46,8 +46,8 @@ void World::watch(const std::string& link) {
   // Names of parts contain "::" and no slash, so the first slash ends the machine's name.
   const std::size_t slash = link.find('/');
   if (slash == std::string::npos)
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "watch", link, "must be a machine and one of its links",
-                           "e.g. excavator/boom"});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "watch", link,
+                           "must be a machine and one of its links", "e.g. excavator/boom"});
   const MachineHandle of = machines().at(link.substr(0, slash));
   add_link(of.link(link.substr(slash + 1)), of.name(), parts_->outputs);
 }
@@ -56,7 +56,8 @@ const ArrayOutputs& World::arrays() const { return parts_->arrays; }
 
 void World::add(std::unique_ptr<Sampler> sampler) {
   // Each slot has its own address: outputs keep pointers to its numbers.
-  parts_->samplers.push_back(std::make_unique<SamplerSlot>(std::move(sampler), parts_->outputs, parts_->arrays));
+  parts_->samplers.push_back(
+      std::make_unique<SamplerSlot>(std::move(sampler), parts_->outputs, parts_->arrays));
   // Recorders write their first row at the start, so readers must find a value then.
   parts_->samplers.back()->sample(*this, time());
 }
@@ -64,7 +65,7 @@ void World::add(std::unique_ptr<Sampler> sampler) {
 const heightfield::Ground& World::ground() const { return parts_->ground; }
 
 void World::keep_soil_energy() {
-  if (parts_->soil.energy() == nullptr) parts_->soil.keep_energy(true);
+  if (parts_->soil.energy() == nullptr) parts_->soil.record_energy(true);
 }
 
 WallTimes World::wall_times() const {

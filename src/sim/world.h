@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
@@ -19,8 +19,8 @@
 #include "sim/machines.h"
 #include "sim/sampler.h"
 #include "sim/soil_view.h"
-#include "sim/world_figures.h"
 #include "sim/world_hashes.h"
+#include "sim/world_measurements.h"
 #include "vehicle/engine_factory.h"
 
 namespace navvy::device {
@@ -39,7 +39,8 @@ namespace navvy::sim {
 class World {
  public:
   /// Builds the ground from the scene (reads the heightmap file if it names one) and places the
-  /// machines on it. `make_engine` makes the physics engine of the dynamic machines; Bullet without.
+  /// machines on it. `make_engine` makes the physics engine of the dynamic machines; Bullet
+  /// without.
   /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
   World(scene::Scene description, device::Device& device,
         const vehicle::EngineFactory& make_engine = {});
@@ -70,9 +71,9 @@ class World {
   const Inputs& inputs() const;
   /// Numbers to read by name. Samplers and `watch` append to the list.
   const Outputs& outputs() const;
-  /// Appends pose, velocity and angular velocity of a link to the outputs. `link` is "machine/link":
-  /// "excavator/boom" adds "excavator/boom/pose/x" to "/yaw", "/velocity/x", "/angular_velocity/x".
-  /// Has no effect on a link that is watched already.
+  /// Appends pose, velocity and angular velocity of a link to the outputs. `link` is
+  /// "machine/link": "excavator/boom" adds "excavator/boom/pose/x" to "/yaw", "/velocity/x",
+  /// "/angular_velocity/x". Has no effect on a link that is watched already.
   /// @throws InputError for an unknown machine or link; the message names the nearest one.
   void watch(const std::string& link);
   /// Arrays that samplers publish, with time stamp, shape, unit and frame. Read them in place.
@@ -116,9 +117,15 @@ class World {
   MachineHandle machine(int index) const { return machines().at(index); }
   std::vector<ToolHandle> tools() const { return machines().tools(); }
   vehicle::HitchState hitch(int hitch) const { return machines().hitch(hitch); }
-  void command(const JointHandle& joint, const vehicle::JointInput& input) { commands().set(joint, input); }
-  void command(const MachineHandle& machine, const vehicle::DriveInput& input) { commands().set(machine, input); }
-  void command(const MachineHandle& machine, const vehicle::BaseInput& input) { commands().set(machine, input); }
+  void command(const JointHandle& joint, const vehicle::JointInput& input) {
+    commands().set(joint, input);
+  }
+  void command(const MachineHandle& machine, const vehicle::DriveInput& input) {
+    commands().set(machine, input);
+  }
+  void command(const MachineHandle& machine, const vehicle::BaseInput& input) {
+    commands().set(machine, input);
+  }
   void brake(const JointHandle& joint, bool on) { commands().set_brake(joint, on); }
   void couple(int hitch, bool closed) { commands().set_hitch(hitch, closed); }
   void require_valid(const JointHandle& joint, const vehicle::JointInput& input) {
@@ -134,8 +141,10 @@ class World {
   SoilCounts soil_counts() const { return soil().counts(); }
   MassLedger mass_ledger() const { return soil().mass_ledger(); }
   std::optional<SoilEnergy> soil_energy() const { return soil().energy(); }
-  std::vector<LooseSoil> loose_soil() const { return soil().loose_soil(); }
-  std::vector<std::pair<std::string, double>> soil_stage_times() const { return soil().stage_times(); }
+  std::vector<ActiveParticle> loose_soil() const { return soil().loose_soil(); }
+  std::vector<std::pair<std::string, double>> soil_stage_times() const {
+    return soil().stage_times();
+  }
   std::uint64_t start_hash() const { return hashes().start(); }
   std::string state_hash() const { return hashes().state(); }
   std::vector<std::pair<std::string, std::string>> hash_parts() const { return hashes().parts(); }

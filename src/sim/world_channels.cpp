@@ -38,17 +38,19 @@ void add_link(const LinkHandle& link, const std::string& machine, Outputs& outpu
   if (outputs.find(prefix + "pose/x") >= 0) return;
   add_pose_channels(link, prefix, "link '" + link.name() + "'", outputs);
   for (int i = 0; i < 3; ++i)
-    outputs.add(
-        {prefix + "angular_velocity/" + kAxisNames[i], "rad/s", "angular velocity of link '" + link.name() + "', world axes"},
-        [link, i] { return link.angular_velocity()[i]; });
+    outputs.add({prefix + "angular_velocity/" + kAxisNames[i], "rad/s",
+                 "angular velocity of link '" + link.name() + "', world axes"},
+                [link, i] { return link.angular_velocity()[i]; });
 }
 
 std::string channel_list(const World& world) {
   std::string out;
   // One line per channel: a long meaning is cut.
   char line[512];
-  const auto add = [&](const std::string& name, const std::string& unit, const std::string& meaning) {
-    std::snprintf(line, sizeof line, "  %-44s [%s]  %s\n", name.c_str(), unit.c_str(), meaning.c_str());
+  const auto add = [&](const std::string& name, const std::string& unit,
+                       const std::string& meaning) {
+    std::snprintf(line, sizeof line, "  %-44s [%s]  %s\n", name.c_str(), unit.c_str(),
+                  meaning.c_str());
     out += line;
   };
   out += "inputs:\n";

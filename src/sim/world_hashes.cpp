@@ -20,7 +20,9 @@ std::string WorldHashes::state() const {
 std::vector<std::pair<std::string, std::string>> WorldHashes::parts() const {
   std::vector<std::pair<std::string, std::string>> out;
   // Each part starts a sum of its own.
-  const auto add = [&out](const char* name, const auto& part) { out.emplace_back(name, hash_of(part).hex()); };
+  const auto add = [&out](const char* name, const auto& part) {
+    out.emplace_back(name, hash_of(part).hex());
+  };
   StateHash start;
   start.value(parts_->start_hash);
   out.emplace_back("start", start.hex());

@@ -8,17 +8,17 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "heightfield/make_ground.h"
 #include "sim/snapshot.h"
+#include "sim/start_placing.h"
 #include "sim/timing.h"
 
 namespace navvy::sim {
 namespace {
 
 constexpr double kHighestRate = 1e5;  // [1/s] of a controller, as scenes may ask for
-constexpr double kRounding = 1e-8;  // of a step that is the quotient of two times
-constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
+constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
+constexpr double kToolSpeed = 2.0;    // [m/s] fastest tip for which the base step must be stable
 
 /// Builds the ground and logs the report on a terrain file.
 heightfield::Ground make_site(const scene::Scene& world) {
@@ -30,14 +30,15 @@ heightfield::Ground make_site(const scene::Scene& world) {
 }
 
 /// Makes the engine of the dynamic machines: the caller's, or the one built on Bullet.
-std::unique_ptr<vehicle::Engine> make_dynamic(const scene::Scene& world,
-                                              const vehicle::EngineFactory& make_engine) {
-  std::unique_ptr<vehicle::Engine> engine = make_engine
-                                                ? make_engine(world.gravity, world.materials)
-                                                : vehicle::make_bullet_engine(world.gravity, world.materials);
+std::unique_ptr<vehicle::PhysicsEngine> make_dynamic(const scene::Scene& world,
+                                                     const vehicle::EngineFactory& make_engine) {
+  std::unique_ptr<vehicle::PhysicsEngine> engine =
+      make_engine ? make_engine(world.gravity, world.materials)
+                  : vehicle::make_bullet_engine(world.gravity, world.materials);
   if (engine != nullptr) return engine;
   throw InputError(Fault{Fault::Severity::kError, world.file, 0, "physics engine", "null",
-                         "the factory must return an engine", "return a new vehicle::Engine from it"});
+                         "the factory must return an engine",
+                         "return a new vehicle::Engine from it"});
 }
 
 }  // namespace
@@ -59,17 +60,17 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
   const double rate = description.solver.control_rate;
   dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
   if (!(dt > 0) || !std::isfinite(dt))
-    throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
-                           "the base step must be positive and finite",
+    throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver",
+                           std::to_string(dt), "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
   // One seed per machine, so that another encoder does not change those of other machines.
   Random seeds(description.seed);
   for (int m = 0; m < static_cast<int>(description.machines.size()); ++m)
-    encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine, coupling.engine(m),
-                          coupling.index(m), seeds.next());
+    encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine,
+                          coupling.engine(m), coupling.index(m), seeds.next());
   // Activate soil before filling loads in: beds are where machines stand now.
-  check_awake(description, ground);
-  for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+  check_active(description, ground);
+  for (const scene::ActiveSoil& active : description.ground.active) wake(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
 }
 
@@ -79,17 +80,21 @@ void WorldParts::advance_encoders() {
 }
 
 bool WorldParts::has_encoders() const {
-  return std::any_of(encoders.begin(), encoders.end(), [](const vehicle::Encoders& e) { return e.size() > 0; });
+  return std::any_of(encoders.begin(), encoders.end(),
+                     [](const vehicle::Encoders& e) { return e.size() > 0; });
 }
 
 void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
-  const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
+  const scene::MachineInWorld& placed =
+      description.machines[static_cast<std::size_t>(tool.machine)];
   // Only the first bed is loaded; buckets start empty.
   if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
   // Fill at the bed's pose: a dumper on a slope starts with its load against the low side.
-  const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
+  const Pose X_WL =
+      coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
   try {
-    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
+    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)),
+              placed.load.mass);
   } catch (const InputError& error) {
     // The solver does not know the file; add the line of the scene that asked for the load.
     Fault fault = error.faults().front();
@@ -109,8 +114,10 @@ void WorldParts::visit(Archive& a) {
   // if the step is stable here. No control rate makes it shorter than half the longest step or its
   // own period.
   const double least = std::min(0.5 * longest_step, 1 / kHighestRate);
-  a.require(head.dt >= least * (1 - kRounding) && head.dt <= longest_step * (1 + kRounding), "head/dt",
-            "the snapshot has another base step than this scene can have; load it with the same solver settings");
+  a.require(head.dt >= least * (1 - kRounding) && head.dt <= longest_step * (1 + kRounding),
+            "head/dt",
+            "the snapshot has another base step than this scene can have; load it with the same "
+            "solver settings");
   if (a.loading()) {
     steps = head.steps;
     dt = head.dt;
@@ -124,23 +131,27 @@ void WorldParts::visit(Archive& a) {
   // different encoders differ in their start.
   if (has_encoders())
     a.section("encoders", 1, [&] {
-      for (std::size_t m = 0; m < encoders.size(); ++m) a.item(m, [&] { a("machine", encoders[m]); });
+      for (std::size_t m = 0; m < encoders.size(); ++m)
+        a.item(m, [&] { a("machine", encoders[m]); });
     });
   // Always present, so that a world without samplers notices the samplers of a snapshot.
   a.section("samplers", 2, [&] {
     a.constant("count", samplers.size(),
-               "the snapshot has another number of samplers than the world; add the same samplers, then load");
+               "the snapshot has another number of samplers than the world; add the same samplers, "
+               "then load");
     for (std::size_t i = 0; i < samplers.size(); ++i) a.item(i, [&] { samplers[i]->visit(a); });
     a("arrays", arrays);
   });
 }
 
-void WorldParts::wake(const scene::AwakeSoil& awake) { soil.wake(awake_columns(awake, ground), awake.bottom); }
+void WorldParts::wake(const scene::ActiveSoil& active) {
+  soil.wake(active_columns(active, ground), active.bottom);
+}
 
 void require_hitch(const scene::Scene& scene, int hitch) {
   if (hitch >= 0 && hitch < static_cast<int>(scene.hitches.size())) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", std::to_string(hitch), "the scene has no such hitch",
-                         "add <navvy:hitch> to the scene"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", std::to_string(hitch),
+                         "the scene has no such hitch", "add <navvy:hitch> to the scene"});
 }
 
 }  // namespace navvy::sim

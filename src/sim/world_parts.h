@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coupling/coupling.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
@@ -16,7 +16,7 @@
 #include "sim/sampler.h"
 #include "soil/solver.h"
 #include "vehicle/encoder.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::device {
 class Device;
@@ -50,7 +50,7 @@ struct WorldParts {
   scene::Scene description;
   heightfield::Ground ground;
   /// Physics engines of dynamic and of kinematic machines.
-  std::unique_ptr<vehicle::Engine> dynamic, kinematic;
+  std::unique_ptr<vehicle::PhysicsEngine> dynamic, kinematic;
   /// Soil solver, which changes `ground` as particles become active and come to rest.
   soil::Solver soil;
   /// Steps the four above and maps machines to engines.
@@ -76,7 +76,7 @@ struct WorldParts {
   /// Fills the machine's bed with the load that the scene gives it.
   void fill_bed(const coupling::ToolLoad& tool);
   /// Turns a rectangle of the ground into particles.
-  void wake(const scene::AwakeSoil& awake);
+  void wake(const scene::ActiveSoil& active);
 };
 
 /// Checks the index of a hitch. @throws InputError for an index that is no hitch of the scene.

@@ -22,7 +22,8 @@ constexpr double kNoFriction = 1e-6;
 
 BearingFactors BearingFactors::of(double tan_phi) {
   const double phi = std::atan(std::max(tan_phi, 0.0));
-  const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi), lean = std::cos(0.25 * kPi + 0.5 * phi);
+  const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi),
+               lean = std::cos(0.25 * kPi + 0.5 * phi);
   BearingFactors out;
   out.q = a * a / (2 * lean * lean);
   out.c = tan_phi > kNoFriction ? (out.q - 1) / tan_phi : 1.5 * kPi + 1;
@@ -33,18 +34,21 @@ BearingFactors BearingFactors::of(double tan_phi) {
 double bearing_capacity(const SoilState& ground, double width, double depth) {
   if (ground.soil == nullptr) return 0;
   const double swell = ground.soil->swell;
-  const double loose = swell > 1 ? std::clamp((ground.volume_ratio - 1) / (swell - 1), 0.0, 1.0) : 0.0;
+  const double loose =
+      swell > 1 ? std::clamp((ground.volume_ratio - 1) / (swell - 1), 0.0, 1.0) : 0.0;
   const double share = 1 - loose * (1 - kLocal);
   const ShearStrength strength = surface_strength(ground);
   const BearingFactors n = BearingFactors::of(share * strength.slope);
   const double weight = ground.density() * kGravity;
-  return share * strength.cohesion * n.c + weight * std::max(depth, 0.0) * n.q + 0.5 * weight * width * n.gamma;
+  return share * strength.cohesion * n.c + weight * std::max(depth, 0.0) * n.q +
+         0.5 * weight * width * n.gamma;
 }
 
 double pushed_depth(const SoilState& ground, double width, double from, double to) {
   if (ground.soil == nullptr || !(to > from)) return 0;
   const auto flown = [&](double z) {
-    return std::max(0.0, z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
+    return std::max(0.0,
+                    z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
   };
   // With n < 1 the ground may bear the plate again at a greater depth: soil that has flowed does
   // not return.
@@ -64,7 +68,8 @@ PassivePressure passive_pressure(const SoilState& ground) {
   const BearingFactors n = BearingFactors::of(tan_phi);
   const double k_c = (n.c - tan_phi) * cos2;
   // Limit without friction: 2 N / tan phi -> 4 (Nq + 1).
-  const double k_gamma = ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
+  const double k_gamma =
+      ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
   return {kLocal * strength.cohesion * k_c, ground.density() * kGravity * k_gamma};
 }
 
@@ -76,7 +81,8 @@ double passive_resistance(const SoilState& ground, double width, double depth) {
   return width * depth * (p.cohesive + 0.5 * depth * p.by_depth);
 }
 
-double bulldozing(const SoilState& ground, double width, double radius, double depth, double advance) {
+double bulldozing(const SoilState& ground, double width, double radius, double depth,
+                  double advance) {
   if (ground.soil == nullptr || !(depth > 0)) return 0;
   if (!(advance >= 0 && std::isfinite(advance))) return passive_resistance(ground, width, depth);
   // Soil at the surface is pushed farthest. A rim that slips over it pushes none at any depth.

@@ -53,6 +53,7 @@ double passive_resistance(const SoilState& ground, double width, double depth);
 /// theta - sin theta) until it is below the axle. It resists by the share 1 - exp(-j / K)
 /// [Janosi 1961]. A rim that spins in place pushes nothing ahead, a locked rim mobilises the full
 /// resistance.
-double bulldozing(const SoilState& ground, double width, double radius, double depth, double advance);
+double bulldozing(const SoilState& ground, double width, double radius, double depth,
+                  double advance);
 
 }  // namespace navvy::terramechanics

@@ -26,7 +26,7 @@ struct SoilState {
 
 /// Compaction of the ground since the tyre that stands on it arrived. A rolling tyre repeats it on
 /// every new square metre. Zero where the ground already bore as much.
-struct Sinking {
+struct Sinkage {
   /// Work per area [J/m2].
   double work = 0;
   double depth = 0;  ///< [m]
@@ -73,7 +73,7 @@ class GroundQuery {
   }
 
   /// Returns the compaction here since the tyre that stands on it arrived; zero by default.
-  virtual Sinking sinking(double x, double y) const {
+  virtual Sinkage sinking(double x, double y) const {
     (void)x, (void)y;
     return {};
   }

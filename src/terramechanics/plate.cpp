@@ -12,7 +12,9 @@ constexpr double kMostSlip = 1.6;
 
 }  // namespace
 
-double plate_modulus(const scene::Soil& soil, double width) { return soil.bekker_kc / width + soil.bekker_kphi; }
+double plate_modulus(const scene::Soil& soil, double width) {
+  return soil.bekker_kc / width + soil.bekker_kphi;
+}
 
 double plate_pressure(const scene::Soil& soil, double sinkage, double width) {
   return sinkage > 0 ? plate_modulus(soil, width) * std::pow(sinkage, soil.bekker_n) : 0;

@@ -18,7 +18,8 @@ ShearStrength surface_strength(const SoilState& ground) {
   const scene::Soil& soil = *ground.soil;
   // Soil without swell is as strong loose as in bank state. Soil with swell loses cohesion by the
   // law in [docs/soil.md, cohesion].
-  const double swollen = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
+  const double swollen =
+      soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
   const double loose = std::min(soil.loose_cohesion, soil.residual_cohesion);
   return {soil.cohesion + swollen * (loose - soil.cohesion), std::tan(soil.friction_angle)};
 }
@@ -27,7 +28,8 @@ double mobilised_share(double displacement, double janosi_k) {
   return 1 - std::exp(-std::abs(displacement) / janosi_k);
 }
 
-double shear_stress(const ShearStrength& strength, double pressure, double displacement, double janosi_k) {
+double shear_stress(const ShearStrength& strength, double pressure, double displacement,
+                    double janosi_k) {
   // The result has the displacement's sign, and is zero without displacement.
   return std::copysign(strength.cohesion + pressure * strength.slope, displacement) *
          mobilised_share(displacement, janosi_k);

@@ -36,6 +36,7 @@ double mobilised_share(double displacement, double janosi_k);
 
 /// Returns the shear stress [Pa] under `pressure` [Pa] after `displacement` [m], with the
 /// displacement's sign.
-double shear_stress(const ShearStrength& strength, double pressure, double displacement, double janosi_k);
+double shear_stress(const ShearStrength& strength, double pressure, double displacement,
+                    double janosi_k);
 
 }  // namespace navvy::terramechanics

@@ -70,7 +70,7 @@ double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double p
 /// Each contact strip is a disc that senses the ground by rays over +-60 degrees of its lower half,
 /// so it also rolls over edges and steps. Longitudinal and lateral force share one limit. The force
 /// never pushes the tyre off the ground faster than 0.25 m/s.
-TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
-                     TyreState& state);
+TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground,
+                     double dt, TyreState& state);
 
 }  // namespace navvy::terramechanics

@@ -29,7 +29,7 @@ struct BodyTouch {
 ///
 /// Never pulls. Contacts with light bodies are softer, since an explicit step must not throw the
 /// body away.
-Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch, double dt,
-                     Vec2* bristle);
+Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch,
+                     double dt, Vec2* bristle);
 
 }  // namespace navvy::terramechanics

@@ -14,7 +14,9 @@ constexpr int kRounds = 8;
 
 }  // namespace
 
-double chord_length(double radius, double depth) { return 2 * std::sqrt(std::max(0.0, 2 * radius * depth)); }
+double chord_length(double radius, double depth) {
+  return 2 * std::sqrt(std::max(0.0, 2 * radius * depth));
+}
 
 double TyrePatch::tread_depth(double ahead) const {
   return std::clamp(sinkage + deflection - ahead * ahead / (2 * radius), 0.0, sinkage);

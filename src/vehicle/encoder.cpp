@@ -54,7 +54,8 @@ void JointEncoder::visit(Archive& a) {
   // The bounds keep all derived counts within 64 bits.
   constexpr auto kMost = static_cast<std::int64_t>(kMostCounts);
   a("position", position_);
-  a.require(std::isfinite(position_), "position", "the position of an encoder's joint must be finite");
+  a.require(std::isfinite(position_), "position",
+            "the position of an encoder's joint must be finite");
   a.ranged("turned", turned_, -kMostCounts, kMostCounts);
   a.ranged("edges", edges_, -kMost, kMost);
   a("counter", counter_);
@@ -63,17 +64,19 @@ void JointEncoder::visit(Archive& a) {
   a("dice", dice_);
 }
 
-Encoders::Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed) {
+Encoders::Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+                   std::uint64_t seed) {
   Random seeds(seed);
   for (const scene::Encoder& about : machine.encoders) {
     const int joint = machine.joint_index(about.joint);
     // The loader refuses such an encoder; in a scene built in code it never counts.
     joints_.push_back(joint);
-    encoders_.emplace_back(about, joint < 0 ? 0.0 : engine.joint(index, joint).position, seeds.next());
+    encoders_.emplace_back(about, joint < 0 ? 0.0 : engine.joint(index, joint).position,
+                           seeds.next());
   }
 }
 
-void Encoders::advance(const Engine& engine, int index) {
+void Encoders::advance(const PhysicsEngine& engine, int index) {
   for (std::size_t e = 0; e < encoders_.size(); ++e)
     if (joints_[e] >= 0) encoders_[e].advance(engine.joint(index, joints_[e]).position);
 }

@@ -10,7 +10,7 @@
 #include "core/archive.h"
 #include "core/random.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -46,8 +46,8 @@ class JointEncoder {
   std::int64_t lost_of(std::int64_t edges);
 
   scene::Encoder about_;
-  double position_ = 0;  // [rad] at the last call
-  double turned_ = 0;  // [counts] since the start, with fractions
+  double position_ = 0;     // [rad] at the last call
+  double turned_ = 0;       // [counts] since the start, with fractions
   std::int64_t edges_ = 0;  // whole counts of turned_
   // Counts that were not missed, modulo 2^64. The low bits are the register.
   std::uint64_t counter_ = 0;
@@ -60,10 +60,11 @@ class Encoders {
  public:
   /// Reads the start positions of machine `index` of the engine. `seed` belongs to this machine
   /// alone.
-  Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed);
+  Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+           std::uint64_t seed);
 
   /// Updates all encoders. Call it after every step of the engine.
-  void advance(const Engine& engine, int index);
+  void advance(const PhysicsEngine& engine, int index);
   std::size_t size() const { return encoders_.size(); }
   /// Returns an encoder. Its address never changes.
   JointEncoder& operator[](std::size_t i) { return encoders_[i]; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Optional abilities of a physics engine, one small interface each. An engine returns null for an
-// ability that it lacks (vehicle/engine.h); whoever needs it reports that to the user.
+// ability that it lacks (vehicle/physics_engine.h); whoever needs it reports that to the user.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 #include "core/math.h"
 #include "scene/hitch.h"
 #include "scene/machine.h"
-#include "terramechanics/belt.h"
+#include "terramechanics/track.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
@@ -75,7 +75,7 @@ class RockCapability {
 class TrackCapability {
  public:
   /// Returns the contact patches of a track in the last step; empty for a wheel without a track.
-  virtual std::vector<terramechanics::BeltPatch> belt_patches(int machine, int wheel) const = 0;
+  virtual std::vector<terramechanics::TrackPatch> track_patches(int machine, int wheel) const = 0;
 
  protected:
   ~TrackCapability() = default;
@@ -88,7 +88,7 @@ class PowerCapability {
   virtual PumpState pump(int machine) const = 0;
   /// Returns the state of the combustion engine after the last step; zeros for a drive that neither
   /// has gears nor shares its engine with the pump.
-  virtual EngineState drive_engine(int machine) const = 0;
+  virtual CombustionEngineState drive_engine(int machine) const = 0;
 
  protected:
   ~PowerCapability() = default;

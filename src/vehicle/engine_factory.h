@@ -10,11 +10,11 @@
 
 namespace navvy::vehicle {
 
-class Engine;
+class PhysicsEngine;
 
 /// Makes an empty physics engine for `gravity` [m/s2, axes of W] and the contact materials of a
 /// scene. The world adds machines to it afterwards.
-using EngineFactory =
-    std::function<std::unique_ptr<Engine>(const Vec3& gravity, const scene::Materials& materials)>;
+using EngineFactory = std::function<std::unique_ptr<PhysicsEngine>(
+    const Vec3& gravity, const scene::Materials& materials)>;
 
 }  // namespace navvy::vehicle

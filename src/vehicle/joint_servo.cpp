@@ -20,14 +20,18 @@ constexpr double kLeastShare = 0.01;
 
 }  // namespace
 
-double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const {
+double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
+                                double dt) const {
   double wanted = input_.target;
   // Share of the speed available here and now, which differs between up and down.
-  if (input_.mode == JointMode::kOpening) wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
+  if (input_.mode == JointMode::kOpening)
+    wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
   if (input_.mode == JointMode::kPosition) {
     // A target beyond a stop is the stop: the servo brakes for it as for any other position.
-    const double target = joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
-    const double error = target - q, speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
+    const double target =
+        joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
+    const double error = target - q,
+                 speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
     // Available deceleration: that of the closing valve, plus half of what the effort does to the
     // load.
     double brake = 0.4 * speed_limit / kValveTime;
@@ -35,20 +39,25 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
     if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
     // Far away the speed from which it can still stop, close by proportional to the error, and
     // stable in a long step.
-    const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error), std::sqrt(2 * brake * std::abs(error)));
+    const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error),
+                                  std::sqrt(2 * brake * std::abs(error)));
     wanted = std::copysign(speed, error);
   }
   return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
 }
 
-double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt) {
+double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
+                        double dt) {
   flows_ = false;
   if (!has_valve()) return 0;
   wanted_ = wanted_speed(joint, limits, q, dt);
   // Against a load that it cannot move, the valve opens from the actual flow, of which it got a
   // share.
-  const double from = saturated_ ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive) : velocity_;
-  const double fastest = std::max(limits.speed_positive, limits.speed_negative), slew = dt / kValveTime * fastest;
+  const double from = saturated_
+                          ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive)
+                          : velocity_;
+  const double fastest = std::max(limits.speed_positive, limits.speed_negative),
+               slew = dt / kValveTime * fastest;
   // The spool needs its own time, whatever is asked.
   velocity_ = std::clamp(wanted_, from - slew, from + slew);
   // A smaller opening is holding: hardly any oil, and no load for the pump.
@@ -56,8 +65,8 @@ double JointServo::open(const scene::Joint& joint, const JointLimits& limits, do
   return velocity_;
 }
 
-JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
-                                      double share, double dt) {
+JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits,
+                                      double q, double qd, double share, double dt) {
   Demand out;
   if (!has_valve()) {
     // Only the friction of the bearing holds it.
@@ -88,16 +97,18 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   return out;
 }
 
-void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
-                        double dt) {
+void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q,
+                        double qd, double dt) {
   (void)q;
   // At a limit the load moves the joint, and the valve follows the actual flow.
-  saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
+  saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high ||
+                               effort <= kSaturated * demand.effort_low);
   // Stalled: full effort in the commanded direction, and less than a tenth of the speed that its
   // oil allows.
   const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
   const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);
-  const bool stuck = saturated_ && asked && effort * wanted_ > 0 && qd * wanted_ < 0.1 * share_ * wanted_ * wanted_;
+  const bool stuck = saturated_ && asked && effort * wanted_ > 0 &&
+                     qd * wanted_ < 0.1 * share_ * wanted_ * wanted_;
   stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
 }
 

@@ -4,14 +4,14 @@
 #pragma once
 
 #include "core/archive.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
 /// Present limits of a joint, as magnitudes.
 struct JointLimits {
   double effort_positive = 1e9, effort_negative = 1e9;  ///< [N m|N]
-  double speed_positive = 1e9, speed_negative = 1e9;  ///< [rad/s|m/s]
+  double speed_positive = 1e9, speed_negative = 1e9;    ///< [rad/s|m/s]
   /// Inertia of everything that moves with the joint [kg m2|kg]; 0: unknown.
   double inertia = 0;
 
@@ -45,9 +45,11 @@ class JointServo {
   /// holds nor stalls.
   bool flows() const { return flows_; }
   /// Returns the motion of this step with `share` of the oil that the valve passes.
-  Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double share, double dt);
+  Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
+                double share, double dt);
   /// Records the result of the step: the effort applied and the velocity reached.
-  void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd, double dt);
+  void settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
+              double dt);
   /// Closes the valve at once and clears the held position, for a joint held by its brake.
   void rest();
   bool stalled() const { return stall_time_ > kStallTime; }
@@ -56,8 +58,11 @@ class JointServo {
 
  private:
   static constexpr double kStallTime = 0.05;  // [s] Shorter stalls are the solver's own settling.
-  bool has_valve() const { return input_.mode != JointMode::kFree && input_.mode != JointMode::kEffort; }
-  double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const;
+  bool has_valve() const {
+    return input_.mode != JointMode::kFree && input_.mode != JointMode::kEffort;
+  }
+  double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
+                      double dt) const;
 
   JointInput input_;
   // Valve position, as the velocity asked for in the last step.

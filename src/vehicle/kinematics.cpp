@@ -13,7 +13,8 @@ using JointType = scene::Joint::Type;
 
 Pose joint_motion(const scene::Joint& joint, double q) {
   Pose X = Pose::Identity();
-  if (joint.type == JointType::kRevolute) X.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
+  if (joint.type == JointType::kRevolute)
+    X.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
   if (joint.type == JointType::kPrismatic) X.translation() = q * joint.axis.normalized();
   return X;
 }
@@ -22,7 +23,8 @@ const scene::Link& link_of(const scene::Machine& machine, int index) {
   return machine.links[static_cast<std::size_t>(index)];
 }
 
-[[noreturn]] void refuse(const scene::Cylinder& cylinder, const std::string& value, const std::string& rule) {
+[[noreturn]] void refuse(const scene::Cylinder& cylinder, const std::string& value,
+                         const std::string& rule) {
   Fault fault;
   fault.element = "cylinder[" + cylinder.name + "]";
   fault.value = value;
@@ -39,7 +41,8 @@ Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double
   return X_PC0 * joint.X_LcJ * joint_motion(joint, q) * joint.X_LcJ.inverse();
 }
 
-std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB, const std::vector<double>& q) {
+std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
+                                     const std::vector<double>& q) {
   std::vector<Pose> poses(machine.links.size(), X_WB);
   std::vector<char> placed(machine.links.size(), 0);
   if (poses.empty()) return poses;
@@ -51,9 +54,11 @@ std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& 
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       const scene::Joint& joint = machine.joints[j];
       if (joint.parent < 0 || joint.child < 0) continue;
-      const auto parent = static_cast<std::size_t>(joint.parent), child = static_cast<std::size_t>(joint.child);
+      const auto parent = static_cast<std::size_t>(joint.parent),
+                 child = static_cast<std::size_t>(joint.child);
       if (!placed[parent] || placed[child]) continue;
-      poses[child] = poses[parent] * joint_pose(machine, joint, j < q.size() ? q[j] : joint.initial);
+      poses[child] =
+          poses[parent] * joint_pose(machine, joint, j < q.size() ? q[j] : joint.initial);
       placed[child] = 1;
       moved = true;
     }
@@ -62,7 +67,9 @@ std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& 
 }
 
 // Cylinders side by side act as one of their summed area.
-double head_area(const scene::Cylinder& cylinder) { return cylinder.count * kPi / 4 * cylinder.bore * cylinder.bore; }
+double head_area(const scene::Cylinder& cylinder) {
+  return cylinder.count * kPi / 4 * cylinder.bore * cylinder.bore;
+}
 
 double rod_area(const scene::Cylinder& cylinder) {
   return cylinder.count * kPi / 4 * (cylinder.bore * cylinder.bore - cylinder.rod * cylinder.rod);
@@ -77,13 +84,15 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
     refuse(cylinder, cylinder.joint, "a cylinder needs a revolute or prismatic joint");
   // Either end may be the parent: a boom's cylinder is attached to the chassis, a stick's to the
   // boom that carries it.
-  const int base = machine.link_index(cylinder.base_link), rod = machine.link_index(cylinder.rod_link);
+  const int base = machine.link_index(cylinder.base_link),
+            rod = machine.link_index(cylinder.rod_link);
   if (base < 0) refuse(cylinder, cylinder.base_link, "no link of this name");
   if (rod < 0) refuse(cylinder, cylinder.rod_link, "no link of this name");
   const bool straight = base == joint.parent && rod == joint.child;
   base_is_child_ = base == joint.child && rod == joint.parent;
   if (!straight && !base_is_child_)
-    refuse(cylinder, cylinder.base_link, "base_link and rod_link must be the two links of joint '" + joint.name + "'");
+    refuse(cylinder, cylinder.base_link,
+           "base_link and rod_link must be the two links of joint '" + joint.name + "'");
   base_link_ = base;
   prismatic_ = joint.type == JointType::kPrismatic;
   // Check a joint without limits over a whole turn.
@@ -189,7 +198,8 @@ CylinderLimits CylinderMap::limits(double q) const { return limits(geometry(q));
 
 void CylinderMap::check() const {
   if (cylinder_.bore <= 0 || cylinder_.rod < 0 || cylinder_.rod >= cylinder_.bore)
-    refuse(cylinder_, std::to_string(cylinder_.rod), "rod must be less than bore, both [m] and positive");
+    refuse(cylinder_, std::to_string(cylinder_.rod),
+           "rod must be less than bore, both [m] and positive");
   // A direct cylinder always closes; check a linkage over the whole range of the joint.
   if (!cylinder_.has_linkage || !has_limits_) return;
   constexpr int kSamples = 64;
@@ -199,19 +209,22 @@ void CylinderMap::check() const {
     const Vec3 c = rod_in_base(q) * cylinder_.p_coupler;
     const bool closed = close_linkage(c, pin);
     // With arm and coupler in line the coupler cannot turn the bucket.
-    const double sine = axis_base_.dot((pin - c).cross(c - p_joint_)) / ((pin - c).norm() * (c - p_joint_).norm());
+    const double sine =
+        axis_base_.dot((pin - c).cross(c - p_joint_)) / ((pin - c).norm() * (c - p_joint_).norm());
     if (!closed || std::abs(sine) < 0.02)
       refuse(cylinder_, std::to_string(q),
              "the linkage cannot be closed, or is at a dead centre, at this joint position [rad]");
   }
 }
 
-CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder, double q) {
+CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder,
+                                   double q) {
   // For a single evaluation; engines store the map.
   return CylinderMap(machine, cylinder, CylinderMap::Unchecked{}).geometry(q);
 }
 
-CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder, double q) {
+CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder,
+                               double q) {
   return CylinderMap(machine, cylinder, CylinderMap::Unchecked{}).limits(q);
 }
 

@@ -20,7 +20,8 @@ namespace navvy::vehicle {
 Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q);
 
 /// Returns the poses of all links for base pose X_WB (pose of links[0]) and joint positions `q`.
-std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB, const std::vector<double>& q);
+std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
+                                     const std::vector<double>& q);
 
 /// Cylinder length [m] and lever arm dl/dq [m/rad] at a joint position.
 struct CylinderGeometry {
@@ -28,14 +29,16 @@ struct CylinderGeometry {
   /// Pins in base_link's frame [m].
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
 };
-CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder, double q);
+CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder,
+                                   double q);
 
 /// Largest torques [N m] (positive and negative direction of the joint) and speeds [rad/s] that a
 /// cylinder allows at a joint position, as magnitudes.
 struct CylinderLimits {
   double torque_positive = 0, torque_negative = 0, speed_positive = 0, speed_negative = 0;
 };
-CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder, double q);
+CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder,
+                               double q);
 
 /// Returns the area [m2] of all `count` cylinders together.
 double head_area(const scene::Cylinder& cylinder);
@@ -79,7 +82,7 @@ class CylinderMap {
   double lower_ = 0, upper_ = 0;
   Pose X_parent_pivot_ = Pose::Identity(),
        // The child frame is the parent pivot, rotated, then X_pivot_child_.
-       X_pivot_child_ = Pose::Identity();
+      X_pivot_child_ = Pose::Identity();
   Vec3 axis_ = Vec3::UnitZ();  // in the pivot frame
   // Joint origin and axis in base_link at q = 0. For a revolute joint they are the same at every q.
   Vec3 p_joint_ = Vec3::Zero(), axis_base_ = Vec3::UnitZ();

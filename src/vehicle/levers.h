@@ -22,7 +22,8 @@ struct LeverFunction {
 /// (to the left curls it in). Fore and aft, ISO moves the stick with the left lever and the boom
 /// with the right one, SAE vice versa: away lowers the boom and pushes the stick out.
 using LeverFunctions = std::array<LeverFunction, 4>;
-inline constexpr std::array<const char*, 4> kLeverNames = {"left_x", "left_y", "right_x", "right_y"};
+inline constexpr std::array<const char*, 4> kLeverNames = {"left_x", "left_y", "right_x",
+                                                           "right_y"};
 LeverFunctions lever_functions(const scene::Machine& machine);
 
 /// Returns the opening of the valve, -1 to 1, for a lever at `way`, clamped to -1 to 1: closed

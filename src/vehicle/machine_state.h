@@ -63,7 +63,7 @@ struct PumpState {
 };
 
 /// State of a machine's combustion engine after the last step.
-struct EngineState {
+struct CombustionEngineState {
   /// Shaft speed, with or without gears [rad/s]; 0 for a drive without an engine of its own.
   double speed = 0;
   /// Shaft torque, for drive and pump together [N m].

@@ -6,7 +6,7 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -26,11 +26,12 @@ struct TippingLoad {
 /// onto an edge, the minimum over all edges: m = M d / l with the distances of centre and load from
 /// the edge's line, inside and outside (static tipping load as in [ISO 10567]). All points are seen
 /// from above [m]: gravity is vertical, so slopes are included. Tyres and cylinders are rigid.
-TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass, const Vec2& load_point);
+TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
+                         const Vec2& load_point);
 
 /// Returns the centre of mass of all links of machine `index` of the engine [m] in W, without the
 /// soil it carries.
-Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index);
+Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 /// Returns the stability after the last step.
 ///
@@ -38,6 +39,6 @@ Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int ind
 /// crawler's lower run, or the lowest point of a collision shape of the base that reaches as far
 /// down: a caster's ball, a skid. An oscillating axle counts as locked, or at its stop: the machine
 /// leans until then. The load hangs on the joint of the bucket.
-Stability stability(const scene::Machine& machine, const Engine& engine, int index);
+Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 }  // namespace navvy::vehicle

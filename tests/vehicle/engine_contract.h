@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contract of a physics engine (vehicle/engine.h) as a reusable suite.
+// Contract of a physics engine (vehicle/physics_engine.h) as a reusable suite.
 //
 // Needs nothing but this header, GoogleTest and the installed library. Include it in one source and
 // instantiate it:
@@ -19,7 +19,7 @@
 
 #include "core/error.h"
 #include "core/saved_state.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -62,16 +62,18 @@ class EngineContract : public ::testing::TestWithParam<EngineCase> {
     return machine;
   }
 
-  static std::unique_ptr<Engine> make() { return GetParam().make(Vec3(0, 0, -kGravity), {}); }
-  static std::unique_ptr<Engine> with_cube(double height) {
-    std::unique_ptr<Engine> engine = make();
+  static std::unique_ptr<PhysicsEngine> make() {
+    return GetParam().make(Vec3(0, 0, -kGravity), {});
+  }
+  static std::unique_ptr<PhysicsEngine> with_cube(double height) {
+    std::unique_ptr<PhysicsEngine> engine = make();
     engine->add_machine(cube(), make_pose(0, 0, height));
     return engine;
   }
-  void run(Engine& engine, int steps) const {
+  void run(PhysicsEngine& engine, int steps) const {
     for (int i = 0; i < steps; ++i) engine.step(kStep, ground);
   }
-  static std::uint64_t digest(const Engine& engine) { return hash_of(engine).digest(); }
+  static std::uint64_t digest(const PhysicsEngine& engine) { return hash_of(engine).digest(); }
 
   ContractGround ground;
 };
@@ -272,7 +274,8 @@ TEST_P(EngineContract, HitchesHoldMachinesTogetherUntilOpened) {
   EXPECT_EQ(hitches->add_hitch(hitch, 0, 1), 0);
   EXPECT_TRUE(hitches->hitch(0).closed);
   for (int i = 0; i < 300; ++i) {
-    engine->add_force(0, 0, Vec3(1.5 * 2 * kMass * kGravity, 0, 0), engine->link(0, 0).X_WL.translation());
+    engine->add_force(0, 0, Vec3(1.5 * 2 * kMass * kGravity, 0, 0),
+                      engine->link(0, 0).X_WL.translation());
     engine->step(kStep, ground);
   }
   EXPECT_LT(hitches->hitch(0).apart, 0.01);

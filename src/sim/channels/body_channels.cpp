@@ -11,7 +11,8 @@ void add_base_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.kinematic || built.fixed_base) return;
   // Each input changes one value of the target and leaves the others.
-  const auto change = [&](const std::string& name, const char* unit, const std::string& meaning, auto&& part) {
+  const auto change = [&](const std::string& name, const char* unit, const std::string& meaning,
+                          auto&& part) {
     out.inputs.add({out.prefix + "pose/" + name, unit, meaning, out.machine.index()},
                    [&world = out.world, machine = out.machine, part](double value) {
                      vehicle::BaseInput command = machine.base();
@@ -31,13 +32,15 @@ void add_base_channels(const MachineChannels& out) {
          [](vehicle::BaseInput& command) -> double& { return command.duration; });
 }
 
-void add_pose_channels(const LinkHandle& link, const std::string& prefix, const std::string& link_name,
-                       Outputs& outputs) {
+void add_pose_channels(const LinkHandle& link, const std::string& prefix,
+                       const std::string& link_name, Outputs& outputs) {
   for (int i = 0; i < 3; ++i) {
-    outputs.add({prefix + "pose/" + kAxisNames[i], "m", "position of " + link_name + " in the world"},
-                [link, i] { return link.pose().translation()[i]; });
-    outputs.add({prefix + "velocity/" + kAxisNames[i], "m/s", "velocity of " + link_name + "'s origin"},
-                [link, i] { return link.velocity()[i]; });
+    outputs.add(
+        {prefix + "pose/" + kAxisNames[i], "m", "position of " + link_name + " in the world"},
+        [link, i] { return link.pose().translation()[i]; });
+    outputs.add(
+        {prefix + "velocity/" + kAxisNames[i], "m/s", "velocity of " + link_name + "'s origin"},
+        [link, i] { return link.velocity()[i]; });
   }
   // Fixed-axis angles, yaw about z of W last. Not unwrapped: yaw jumps by a turn.
   const char* angles[][2] = {{"pose/roll", "fixed-axis roll angle"},
@@ -53,9 +56,12 @@ void add_wheel_channels(const MachineChannels& out) {
   for (std::size_t i = 0; i < out.machine.description().wheels.size(); ++i) {
     const WheelHandle wheel = out.machine.wheel(static_cast<int>(i));
     const std::string base = out.prefix + wheel.name() + "/";
-    out.outputs.add({base + "spin", "rad/s", "wheel speed"}, [wheel] { return wheel.state().spin; });
-    out.outputs.add({base + "slip", "1", "longitudinal slip"}, [wheel] { return wheel.state().slip; });
-    out.outputs.add({base + "load", "N", "vertical tyre force"}, [wheel] { return wheel.state().force_W.z(); });
+    out.outputs.add({base + "spin", "rad/s", "wheel speed"},
+                    [wheel] { return wheel.state().spin; });
+    out.outputs.add({base + "slip", "1", "longitudinal slip"},
+                    [wheel] { return wheel.state().slip; });
+    out.outputs.add({base + "load", "N", "vertical tyre force"},
+                    [wheel] { return wheel.state().force_W.z(); });
   }
 }
 
@@ -66,14 +72,16 @@ void add_stability_channels(const MachineChannels& out) {
   out.outputs.add({base + "tilt", "rad", "angle of the base link's z axis from the vertical"},
                   [machine] { return machine.stability().tilt; });
   out.outputs.add({base + "margin", "m",
-                   "distance of the centre of mass, without soil, inside the nearest edge of its feet; negative outside"},
+                   "distance of the centre of mass, without soil, inside the nearest edge of its "
+                   "feet; negative outside"},
                   [machine] { return machine.stability().margin; });
   if (machine.description().joint_index(machine.description().arm.bucket) < 0) return;
   out.outputs.add({base + "tipping_load", "kg",
                    "load on the bucket's pin that tips it over its weakest edge; 1e6 if none can"},
                   [machine] { return machine.stability().tipping_load; });
-  out.outputs.add({base + "tipping_heading", "rad", "direction of that edge from ahead, positive to the left"},
-                  [machine] { return machine.stability().tipping_heading; });
+  out.outputs.add(
+      {base + "tipping_heading", "rad", "direction of that edge from ahead, positive to the left"},
+      [machine] { return machine.stability().tipping_heading; });
   out.outputs.add({base + "loaded_margin", "m",
                    "as margin, for the centre of pressure on the ground: with soil and loads"},
                   [machine] { return machine.stability().loaded_margin; });

@@ -17,7 +17,8 @@ namespace {
 int whole_gear(const std::string& name, double value) {
   if (value == std::floor(value) && std::abs(value) < 1000) return static_cast<int>(value);
   throw InputError(Fault{Fault::Severity::kError, "", 0, "input " + name, std::to_string(value),
-                         "a gear is a whole number", "give 1 for the first gear, or 0 for automatic"});
+                         "a gear is a whole number",
+                         "give 1 for the first gear, or 0 for automatic"});
 }
 
 /// Returns the mean radius of the driven wheels without load [m]: a controller does not know a
@@ -40,16 +41,19 @@ auto changing(const MachineChannels& out) {
   };
 }
 
-void add_gear(const MachineChannels& out, const scene::DriveEngine& engine) {
+void add_gear(const MachineChannels& out, const scene::CombustionEngine& engine) {
   const auto change = changing(out);
-  const bool source = engine.kind == scene::DriveEngine::Kind::kSpeedSource;
-  const std::string gears = "1 to " + std::to_string(engine.gears.size()), name = out.prefix + "drive/gear";
-  out.inputs.add({name, "1", gears + (source ? ", 0: the first" : ", 0: automatic"), out.machine.index()},
-                 [change, name](double v) {
-                   change([&](vehicle::DriveInput& command) { command.gear = whole_gear(name, v); });
-                 });
+  const bool source = engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
+  const std::string gears = "1 to " + std::to_string(engine.gears.size()),
+                    name = out.prefix + "drive/gear";
+  out.inputs.add(
+      {name, "1", gears + (source ? ", 0: the first" : ", 0: automatic"), out.machine.index()},
+      [change, name](double v) {
+        change([&](vehicle::DriveInput& command) { command.gear = whole_gear(name, v); });
+      });
   if (!source) return;
-  out.inputs.add({out.prefix + "drive/motor_speed", "rad/s", "motor speed; releases the brake", out.machine.index()},
+  out.inputs.add({out.prefix + "drive/motor_speed", "rad/s", "motor speed; releases the brake",
+                  out.machine.index()},
                  [change, radius = driven_radius(out.machine.description()), ratios = engine.gears,
                   last = engine.final_ratio](double v) {
                    change([&](vehicle::DriveInput& command) {
@@ -69,14 +73,17 @@ void add_engine(const MachineChannels& out) {
   if (geared) {
     out.outputs.add({out.prefix + "engine/speed", "rad/s", "speed of the engine's shaft"},
                     [machine] { return machine.engine().speed; });
-    out.outputs.add({out.prefix + "engine/torque", "N m", "torque of the engine's shaft in the last step"},
-                    [machine] { return machine.engine().torque; });
+    out.outputs.add(
+        {out.prefix + "engine/torque", "N m", "torque of the engine's shaft in the last step"},
+        [machine] { return machine.engine().torque; });
     out.outputs.add({out.prefix + "engine/gear", "1", "engaged gear"},
                     [machine] { return static_cast<double>(machine.engine().gear); });
   }
   if (shared || geared)
-    out.outputs.add({out.prefix + "engine/power", "W", shared ? "engine power for drive and pump together" : "engine power for the drive"},
-                    [machine] { return machine.engine().power; });
+    out.outputs.add(
+        {out.prefix + "engine/power", "W",
+         shared ? "engine power for drive and pump together" : "engine power for the drive"},
+        [machine] { return machine.engine().power; });
 }
 
 /// Declares speed and torque of a differential's carrier, from the wheels behind it.
@@ -85,16 +92,19 @@ void add_differential(const MachineChannels& out, const vehicle::Coupled& one) {
   for (std::size_t w = 0; w < one.weight.size(); ++w)
     if (one.weight[w] != 0)
       behind.emplace_back(out.machine.wheel(static_cast<int>(w)), 0.5 * std::abs(one.weight[w]));
-  out.outputs.add({out.prefix + one.name + "/speed", "rad/s", "speed of the differential carrier"}, [behind] {
-    double speed = 0;
-    for (const auto& [wheel, weight] : behind) speed += weight * wheel.state().spin;
-    return speed;
-  });
-  out.outputs.add({out.prefix + one.name + "/torque", "N m", "torque of the differential carrier in the last step"}, [behind] {
-    double torque = 0;
-    for (const auto& [wheel, weight] : behind) torque += wheel.state().shaft_torque;
-    return torque;
-  });
+  out.outputs.add({out.prefix + one.name + "/speed", "rad/s", "speed of the differential carrier"},
+                  [behind] {
+                    double speed = 0;
+                    for (const auto& [wheel, weight] : behind) speed += weight * wheel.state().spin;
+                    return speed;
+                  });
+  out.outputs.add({out.prefix + one.name + "/torque", "N m",
+                   "torque of the differential carrier in the last step"},
+                  [behind] {
+                    double torque = 0;
+                    for (const auto& [wheel, weight] : behind) torque += wheel.state().shaft_torque;
+                    return torque;
+                  });
 }
 
 }  // namespace
@@ -103,19 +113,25 @@ void add_drive_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive) return;
   const auto change = changing(out);
-  out.inputs.add({out.prefix + "drive/speed", "m/s", "forward speed; releases the brake", out.machine.index()},
-                 [change](double v) {
-                   change([v](vehicle::DriveInput& command) {
-                     command.speed = v;
-                     command.brake = false;
-                   });
-                 });
-  out.inputs.add({out.prefix + "drive/steer", scene::steer_unit(built.drive), scene::steer_meaning(built.drive),
-                  out.machine.index()},
-                 [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
-  out.inputs.add({out.prefix + "drive/brake", "1", "1 sets the brakes, 0 releases them", out.machine.index()},
-                 [change](double v) { change([v](vehicle::DriveInput& command) { command.brake = v != 0; }); });
-  if (const scene::DriveEngine* engine = scene::drive_engine(built.drive)) add_gear(out, *engine);
+  out.inputs.add(
+      {out.prefix + "drive/speed", "m/s", "forward speed; releases the brake", out.machine.index()},
+      [change](double v) {
+        change([v](vehicle::DriveInput& command) {
+          command.speed = v;
+          command.brake = false;
+        });
+      });
+  out.inputs.add(
+      {out.prefix + "drive/steer", scene::steer_unit(built.drive),
+       scene::steer_meaning(built.drive), out.machine.index()},
+      [change](double v) { change([v](vehicle::DriveInput& command) { command.steer = v; }); });
+  out.inputs.add(
+      {out.prefix + "drive/brake", "1", "1 sets the brakes, 0 releases them", out.machine.index()},
+      [change](double v) {
+        change([v](vehicle::DriveInput& command) { command.brake = v != 0; });
+      });
+  if (const scene::CombustionEngine* engine = scene::drive_engine(built.drive))
+    add_gear(out, *engine);
 }
 
 void add_steering_channels(const MachineChannels& out) {
@@ -126,13 +142,15 @@ void add_steering_channels(const MachineChannels& out) {
   std::optional<WheelHandle> left, right;
   const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(built);
   for (std::size_t i = 0; i < built.wheels.size(); ++i)
-    if (!built.wheels[i].steer_joint.empty()) (about[i].left ? left : right) = out.machine.wheel(static_cast<int>(i));
+    if (!built.wheels[i].steer_joint.empty())
+      (about[i].left ? left : right) = out.machine.wheel(static_cast<int>(i));
   if (!left || !right) return;
-  out.outputs.add({out.prefix + "steering/ackermann_error", "rad",
-                   "angle of the outer wheel beyond the one for a common centre of turning"},
-                  [line, left = *left, right = *right] {
-                    return line->steering_error(left.state().steer, right.state().steer).value_or(0);
-                  });
+  out.outputs.add(
+      {out.prefix + "steering/ackermann_error", "rad",
+       "angle of the outer wheel beyond the one for a common centre of turning"},
+      [line, left = *left, right = *right] {
+        return line->steering_error(left.state().steer, right.state().steer).value_or(0);
+      });
 }
 
 void add_shaft_channels(const MachineChannels& out) {
@@ -146,7 +164,8 @@ void add_shaft_channels(const MachineChannels& out) {
   for (std::size_t w = 0; w < built.wheels.size(); ++w)
     if (built.wheels[w].driven)
       out.outputs.add(
-          {out.prefix + built.wheels[w].joint + "/shaft_torque", "N m", "torque of the half shaft in the last step"},
+          {out.prefix + built.wheels[w].joint + "/shaft_torque", "N m",
+           "torque of the half shaft in the last step"},
           [wheel = out.machine.wheel(static_cast<int>(w))] { return wheel.state().shaft_torque; });
 }
 

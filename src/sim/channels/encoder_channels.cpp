@@ -7,7 +7,8 @@ namespace navvy::sim {
 
 // Fault inputs belong to no machine: setting one does not end the machine's program.
 void add_encoder_channels(const MachineChannels& out) {
-  vehicle::Encoders& encoders = parts(out.world).encoders[static_cast<std::size_t>(out.machine.index())];
+  vehicle::Encoders& encoders =
+      parts(out.world).encoders[static_cast<std::size_t>(out.machine.index())];
   for (std::size_t i = 0; i < encoders.size(); ++i) {
     vehicle::JointEncoder* encoder = &encoders[i];
     const std::string base = out.prefix + encoder->about().joint + "/";

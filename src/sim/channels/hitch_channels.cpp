@@ -12,15 +12,18 @@ void add_hitch_channels(const ChannelLists& out) {
   const std::vector<scene::Hitch>& hitches = world.description().hitches;
   for (std::size_t i = 0; i < hitches.size(); ++i) {
     const int hitch = static_cast<int>(i);
-    const std::string base = world.machines().at(hitches[i].child).name() + "/" + hitches[i].name + "/";
-    out.inputs.add({base + "closed", "1", "0 opens, 1 closes if the eye is within 0.1 m of the hook"},
-                   [&world, hitch](double closed) { world.commands().set_hitch(hitch, closed != 0); });
+    const std::string base =
+        world.machines().at(hitches[i].child).name() + "/" + hitches[i].name + "/";
+    out.inputs.add(
+        {base + "closed", "1", "0 opens, 1 closes if the eye is within 0.1 m of the hook"},
+        [&world, hitch](double closed) { world.commands().set_hitch(hitch, closed != 0); });
     out.outputs.add({base + "closed", "1", "1 while it is closed"},
                     [&world, hitch] { return world.machines().hitch(hitch).closed ? 1.0 : 0.0; });
     out.outputs.add({base + "apart", "m", "distance of the eye from the hook"},
                     [&world, hitch] { return world.machines().hitch(hitch).apart; });
     for (int a = 0; a < 3; ++a)
-      out.outputs.add({base + "force_" + kAxisNames[a], "N", "force of the towed machine on the towing one, world axes"},
+      out.outputs.add({base + "force_" + kAxisNames[a], "N",
+                       "force of the towed machine on the towing one, world axes"},
                       [&world, hitch, a] { return world.machines().hitch(hitch).force[a]; });
   }
 }

@@ -10,10 +10,12 @@ void add_pump_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   // Kinematic machines take no oil.
   if (!built.has_pump || built.kinematic) return;
-  out.outputs.add({out.prefix + "pump/flow", "m3/s", "oil flow into the cylinders in the last step"},
-                  [machine = out.machine] { return machine.pump().flow; });
-  out.outputs.add({out.prefix + "pump/pressure", "Pa", "pressure of the heaviest load that moves, smoothed"},
-                  [machine = out.machine] { return machine.pump().pressure; });
+  out.outputs.add(
+      {out.prefix + "pump/flow", "m3/s", "oil flow into the cylinders in the last step"},
+      [machine = out.machine] { return machine.pump().flow; });
+  out.outputs.add(
+      {out.prefix + "pump/pressure", "Pa", "pressure of the heaviest load that moves, smoothed"},
+      [machine = out.machine] { return machine.pump().pressure; });
 }
 
 void add_lever_channels(const MachineChannels& out) {
@@ -26,7 +28,8 @@ void add_lever_channels(const MachineChannels& out) {
     const std::string direction = i % 2 == 0 ? "to the right" : "away";
     const double sign = functions[i].sign, band = built.levers.dead_band;
     out.inputs.add({out.prefix + "levers/" + vehicle::kLeverNames[i], "1",
-                    "-1 to 1, positive " + direction + "; opens the valve of " + joint.name(), out.machine.index()},
+                    "-1 to 1, positive " + direction + "; opens the valve of " + joint.name(),
+                    out.machine.index()},
                    [&world = out.world, joint, sign, band](double lever) {
                      const double opening = sign * vehicle::lever_opening(lever, band);
                      world.commands().set(joint, {vehicle::JointMode::kOpening, opening});

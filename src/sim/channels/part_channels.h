@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Channels by part: each function declares the inputs and outputs of one part, in a file of its own.
-// sim/world_channels.cpp calls them in the order that telemetry shows.
+// Channels by part: each function declares the inputs and outputs of one part, in a file of its
+// own. sim/world_channels.cpp calls them in the order that telemetry shows.
 #pragma once
 
 #include <string>
@@ -47,8 +47,8 @@ void add_steering_channels(const MachineChannels& out);
 void add_shaft_channels(const MachineChannels& out);
 /// Declares the pose of a kinematic machine's base as inputs.
 void add_base_channels(const MachineChannels& out);
-/// Declares pose and velocity of a link. `prefix` starts the names; `link_name` is the link in their
-/// descriptions.
+/// Declares pose and velocity of a link. `prefix` starts the names; `link_name` is the link in
+/// their descriptions.
 void add_pose_channels(const LinkHandle& link, const std::string& prefix,
                        const std::string& link_name, Outputs& outputs);
 /// Declares spin, slip and load of every wheel.

@@ -34,7 +34,8 @@ class BallLimits final : public MultibodyRows {
   /// @param R_CJ, R_PJ axes of the joint's frame in Bullet's frames of the child, and of the parent
   /// at the start
   /// @param cone, twist [rad]; pi and more: free
-  BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist);
+  BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone,
+             double twist);
 
   // Bullet calls this in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
@@ -43,8 +44,8 @@ class BallLimits final : public MultibodyRows {
  private:
   /// Adds a row that keeps `gap` [rad] open, which grows as the child turns about `axis`, in the
   /// child's frame.
-  void keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                 const btContactSolverInfo& info);
+  void keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows,
+                 btMultiBodyJacobianData& data, const btContactSolverInfo& info);
 
   Mat3 R_CJ_, R_PJ_;
   double cone_, twist_;

@@ -59,7 +59,8 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
   const Pose X_WI = X_WM * machine.links[0].X_ML * X_LI_[0];
   body_->setBasePos(to_bt(Vec3(X_WI.translation())));
   body_->setWorldToBaseRot(to_bt(Mat3(X_WI.linear())).inverse());
-  for (std::size_t j = 0; j < machine.joints.size(); ++j) set_position(static_cast<int>(j), machine.joints[j].initial);
+  for (std::size_t j = 0; j < machine.joints.size(); ++j)
+    set_position(static_cast<int>(j), machine.joints[j].initial);
 }
 
 void TreeBody::build(const scene::Machine& machine) {
@@ -80,7 +81,8 @@ void TreeBody::build(const scene::Machine& machine) {
     mass_[i] = link.mass;
     inertia_[i] = link.inertia;
     if (!(link.mass > 0) || !(moments[i].minCoeff() > 0))
-      refuse("link[" + link.name + "]", std::to_string(link.mass), "a moving link needs positive mass and inertia");
+      refuse("link[" + link.name + "]", std::to_string(link.mass),
+             "a moving link needs positive mass and inertia");
   }
   // Outward from the base, in the order of the joints.
   std::vector<int> order;
@@ -92,7 +94,8 @@ void TreeBody::build(const scene::Machine& machine) {
         fixed = fixed || (joint.type == JointType::kFixed && joint.child == 0);
         continue;
       }
-      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2) continue;
+      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2)
+        continue;
       bullet_of_link_[index(joint.child)] = bullet_of_joint_[j] = static_cast<int>(order.size());
       order.push_back(static_cast<int>(j));
       grown = true;
@@ -102,7 +105,8 @@ void TreeBody::build(const scene::Machine& machine) {
     if (bullet_of_link_[i] == -2)
       refuse("link[" + machine.links[i].name + "]", "", "no joint connects this link to the base");
 
-  body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]), fixed, false);
+  body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]),
+                                        fixed, false);
   link_of_bullet_.assign(order.size(), 0);
   joint_of_bullet_ = order;
   pivot_I_.resize(order.size());
@@ -130,9 +134,11 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   const std::size_t child = index(joint.child), parent = index(joint.parent);
   const Pose X_PI = X_LI_[parent].inverse();
   // Bullet's data is from inertial frame to inertial frame, at joint position 0.
-  const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];  // child's frame in the parent's
+  // Child's frame in the parent's
+  const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];
   const Vec3 pivot_c = X_LI_[child].inverse() * Vec3(joint.X_LcJ.translation());
-  const Vec3 axis_c = X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
+  const Vec3 axis_c =
+      X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
   pivot_I_[index(k)] = pivot_c;
   const Vec3 pivot_p = X_IpIc * pivot_c;
   // Bullet rotates from parent to child; a pose here places the child in its parent. Invert.
@@ -214,8 +220,8 @@ void TreeBody::update_kinematics() const {
 void TreeBody::update_factors() const {
   if (factors_valid_) return;
   // A step of zero length updates the articulated inertias and moves nothing.
-  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_, false, false,
-                                                              false);
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_,
+                                                              false, false, false);
   factors_valid_ = true;
 }
 
@@ -296,7 +302,8 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
   }
 }
 
-void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const {
+void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                            double* work) const {
   update_kinematics();
   // Only degrees of freedom between the base and this link move its points; the others do no work.
   std::fill_n(work, 6 + body_->getNumDofs(), 0.0);
@@ -311,12 +318,14 @@ void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Ve
     const Vec3 moment = L_W + (p_W - frame.X_WI.translation()).cross(J_W);
     const btMultibodyLink& part = body_->getLink(k);
     for (int d = 0; d < part.m_dofCount; ++d)
-      work[6 + part.m_dofOffset + d] = (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
-                                       (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
+      work[6 + part.m_dofOffset + d] =
+          (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
+          (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
   }
 }
 
-void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
+void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                       std::vector<double>& delta) const {
   // Articulated response: the impulse's work on every degree of freedom, divided by the tree's mass
   // matrix without forming it.
   update_factors();
@@ -327,7 +336,8 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
-bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
+bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                             double dt) {
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
@@ -360,7 +370,8 @@ Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
       const double rate = velocity[index(6 + part.m_dofOffset + d)];
       const Vec3 top = rate * (at.X_WI.linear() * to_eigen(part.getAxisTop(d)));
       w += top;
-      v += rate * (at.X_WI.linear() * to_eigen(part.getAxisBottom(d))) + top.cross(origin - at.X_WI.translation());
+      v += rate * (at.X_WI.linear() * to_eigen(part.getAxisBottom(d))) +
+           top.cross(origin - at.X_WI.translation());
     }
   }
   Vec6 twist;
@@ -385,9 +396,10 @@ Mat6 TreeBody::inverse_mass(int link) const {
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   // Gravity is a force here, so that all forces take one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
-  for (int k = 0; k < body_->getNumLinks(); ++k) body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
-  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
-                                                              false);
+  for (int k = 0; k < body_->getNumLinks(); ++k)
+    body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_,
+                                                              scratch_m_, false, false, false);
   kinematics_valid_ = false;
   // The solver must see a supported body; otherwise everything that rests on it would fall with it
   // until the soil acts.
@@ -452,7 +464,8 @@ std::vector<double> TreeBody::velocities() const {
   return {first, first + 6 + body_->getNumDofs()};
 }
 
-void TreeBody::place(const std::vector<double>& coordinates, const std::vector<double>& velocities) {
+void TreeBody::place(const std::vector<double>& coordinates,
+                     const std::vector<double>& velocities) {
   const double* q = coordinates.data();
   body_->setBasePos(btVector3(q[0], q[1], q[2]));
   body_->setWorldToBaseRot(btQuaternion(q[3], q[4], q[5], q[6]));
@@ -480,10 +493,12 @@ void TreeBody::visit(Archive& a) {
   a.fixed("velocities", qd);
   a("borne", borne_);
   a("bearing", bearing_);
-  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing", "the support of a body must be finite");
+  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing",
+            "the support of a body must be finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
-  const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
+  const bool near =
+      std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
   a.require(near, "coordinates", "the pose of a machine must be finite and near the site");
   a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
             "a machine's rotation must be a unit quaternion");

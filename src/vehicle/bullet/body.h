@@ -9,7 +9,7 @@
 
 #include "core/archive.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
@@ -46,7 +46,7 @@ class TreeBody {
   LinkState link(int link) const;
   /// Centre of mass of a link in W [m].
   Vec3 center(int link) const;
-                                /// Returns the mass of a link [kg].
+  /// Returns the mass of a link [kg].
   double mass(int link) const { return mass_[index(link)]; }
   /// Returns the mass of all moving parts [kg]: without a fixed base.
   double total_mass() const { return total_mass_; }
@@ -68,7 +68,8 @@ class TreeBody {
   /// Computes the virtual work of an impulse on each degree of freedom in Bullet's order: base
   /// (angular, linear), then joints. `work` holds 6 + the number of joints. For a unit impulse
   /// without moment it is the Jacobian row of a point's velocity along it.
-  void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const;
+  void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                    double* work) const;
   /// Returns the inverse articulated mass at the link's origin, (angular, linear), axes of W.
   Mat6 inverse_mass(int link) const;
 
@@ -110,7 +111,8 @@ class TreeBody {
   void update_kinematics() const;
   void update_factors() const;
   /// Computes the change of generalised velocity by an impulse.
-  void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const;
+  void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+               std::vector<double>& delta) const;
   /// Returns the velocity of a link's origin for a generalised velocity, (angular, linear).
   Vec6 twist_of(int link, const std::vector<double>& velocity) const;
 
@@ -123,7 +125,7 @@ class TreeBody {
   std::vector<double> mass_;
   std::vector<Mat3> inertia_;
   std::vector<std::vector<int>> outward_;  // links outward of each Bullet link, itself included
-  std::vector<Vec3> pivot_I_;  // joint origin in the child's Bullet frame
+  std::vector<Vec3> pivot_I_;              // joint origin in the child's Bullet frame
   double total_mass_ = 0;
   // Expected support of a body without joints, (angular about its centre, linear): impulse since
   // the last step [N m s, N s], its mean as a force [N m, N], and the velocities that the solver

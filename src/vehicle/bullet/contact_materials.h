@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scene/material.h"
-#include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/bullet_machine.h"
 
 namespace navvy::vehicle {
 
@@ -46,13 +46,14 @@ class ContactMaterials {
   const scene::MaterialPair* pair(const Side& a, const Side& b) const;
   /// Sets the properties of one contact. `v` is the velocity of body 0 against body 1 there [m/s],
   /// `weight` the acceleration of body 0 against body 1 [m/s2].
-  void set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight, btManifoldPoint& point) const;
+  void set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight,
+           btManifoldPoint& point) const;
   void soften(btDispatcher& dispatcher, const btCollisionObject& ground);
 
   scene::Materials table_;
   std::vector<std::string> names_;
   std::vector<const scene::MaterialPair*> pairs_;  ///< by material and material
-  bool soft_ = false;  ///< true if any pair is compliant
+  bool soft_ = false;                              ///< true if any pair is compliant
   int ground_ = -1;
   /// Number of contact points that bear in this step, by the two bodies.
   std::map<std::pair<const btCollisionObject*, const btCollisionObject*>, int> bearing_;

@@ -24,7 +24,8 @@ class GroundShape final : public btConcaveShape {
 
   /// Returns an infinite box.
   void getAabb(const btTransform& t, btVector3& low, btVector3& high) const override;
-  void processAllTriangles(btTriangleCallback* callback, const btVector3& low, const btVector3& high) const override;
+  void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
+                           const btVector3& high) const override;
 
   /// Returns the direction in which the ground pushes at `p_W` [m], closest to the contact normal
   /// `normal_W` (unit, away from the ground). Bullet treats each triangle alone, so a body that

@@ -8,12 +8,15 @@
 
 namespace navvy::vehicle {
 
-Hydraulics::Hydraulics(const scene::Machine& machine) : machine_(machine), of_joint_(machine.joints.size(), -1) {
+Hydraulics::Hydraulics(const scene::Machine& machine)
+    : machine_(machine), of_joint_(machine.joints.size(), -1) {
   // Cylinders in the order of the machine; a joint stores the index of its cylinder.
   for (const scene::Cylinder& cylinder : machine.cylinders) {
     cylinders_.push_back({CylinderMap(machine, cylinder), {}, {}});
     int& slot = of_joint_[static_cast<std::size_t>(cylinders_.back().map.joint())];
-    if (slot >= 0) refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "only one cylinder per joint; for several side by side set count");
+    if (slot >= 0)
+      refuse("cylinder[" + cylinder.name + "]", cylinder.joint,
+             "only one cylinder per joint; for several side by side set count");
     slot = count() - 1;
   }
 }
@@ -39,7 +42,8 @@ OilDemand Hydraulics::demand(int cylinder, double opened, double effort, bool fl
   const CylinderLimits& limits = at(cylinder).limits;
   const double most = opened > 0 ? limits.torque_positive : -limits.torque_negative;
   if (flows && effort * most > 0)
-    demand.pressure = std::min(effort / most, 1.0) * machine_.cylinders[static_cast<std::size_t>(cylinder)].pressure;
+    demand.pressure = std::min(effort / most, 1.0) *
+                      machine_.cylinders[static_cast<std::size_t>(cylinder)].pressure;
   return demand;
 }
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "vehicle/hydraulic_pump.h"
 #include "vehicle/kinematics.h"
-#include "vehicle/pump.h"
 
 namespace navvy::vehicle {
 
@@ -42,8 +42,8 @@ class Hydraulics {
   OilDemand demand(int cylinder, double opened, double effort, bool flows) const;
 
   /// Returns the pump, whose state is the machine's. Call it only for a machine with a pump.
-  Pump& pump() { return pump_; }
-  const Pump& pump() const { return pump_; }
+  HydraulicPump& pump() { return pump_; }
+  const HydraulicPump& pump() const { return pump_; }
 
  private:
   // Constant map of the linkage, and its values at the present position.
@@ -57,7 +57,7 @@ class Hydraulics {
   const scene::Machine& machine_;
   std::vector<Cylinder> cylinders_;  // by machine.cylinders
   std::vector<int> of_joint_;
-  Pump pump_;
+  HydraulicPump pump_;
 };
 
 }  // namespace navvy::vehicle

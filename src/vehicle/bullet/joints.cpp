@@ -11,10 +11,12 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kBrakeGain = 10;  // [1/s] back to the position at which the brake was set
-constexpr double kSlips = 0.02;  // [rad/s|m/s] a braked joint that is faster slips through its brake
+// [rad/s|m/s] a braked joint that is faster slips through its brake
+constexpr double kSlips = 0.02;
 
 bool moves(const scene::Joint& joint) {
-  return joint.type == scene::Joint::Type::kRevolute || joint.type == scene::Joint::Type::kPrismatic;
+  return joint.type == scene::Joint::Type::kRevolute ||
+         joint.type == scene::Joint::Type::kPrismatic;
 }
 
 }  // namespace
@@ -33,23 +35,27 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     actuators_[j].has_brake = joint.brake > 0 && moves(joint);
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
     const int k = tree.bullet_of_joint(static_cast<int>(j));
-    if (k >= 0 && joint.type == scene::Joint::Type::kBall && (joint.cone < kPi || joint.twist < kPi)) {
-      const Mat3 R_CJ = tree.inertial_frame(joint.child).linear().transpose() * joint.X_LcJ.linear();
+    if (k >= 0 && joint.type == scene::Joint::Type::kBall &&
+        (joint.cone < kPi || joint.twist < kPi)) {
+      const Mat3 R_CJ =
+          tree.inertial_frame(joint.child).linear().transpose() * joint.X_LcJ.linear();
       const Mat3 R_PC = tree.inertial_frame(joint.parent).linear().transpose() *
-                        joint_pose(machine, joint, 0).linear() * tree.inertial_frame(joint.child).linear();
-      balls_.push_back(
-          std::make_unique<BallLimits>(&tree.multibody(), k, R_CJ, Mat3(R_PC * R_CJ), joint.cone, joint.twist));
+                        joint_pose(machine, joint, 0).linear() *
+                        tree.inertial_frame(joint.child).linear();
+      balls_.push_back(std::make_unique<BallLimits>(&tree.multibody(), k, R_CJ, Mat3(R_PC * R_CJ),
+                                                    joint.cone, joint.twist));
     }
     if (k >= 0 && moves(joint))
-      constraints_[j] =
-          std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits, joint.lower, joint.upper);
+      constraints_[j] = std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits,
+                                                          joint.lower, joint.upper);
   }
   placed();
 }
 
 // Positions change only at the end of a step and by a snapshot, so linkages cost nothing else.
 void MachineJoints::placed() {
-  for (int c = 0; c < hydraulics_.count(); ++c) hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
+  for (int c = 0; c < hydraulics_.count(); ++c)
+    hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
 }
 
 void MachineJoints::set_brake(int joint, bool on) {
@@ -71,7 +77,8 @@ JointServo::Demand MachineJoints::hold(int joint, double dt) {
 }
 
 void MachineJoints::note_speeds() {
-  for (std::size_t j = 0; j < actuators_.size(); ++j) actuators_[j].speed_before = tree_.velocity(static_cast<int>(j));
+  for (std::size_t j = 0; j < actuators_.size(); ++j)
+    actuators_[j].speed_before = tree_.velocity(static_cast<int>(j));
 }
 
 JointLimits MachineJoints::limits(int joint) const {
@@ -120,8 +127,9 @@ void MachineJoints::begin_step(double dt) {
     const int joint = static_cast<int>(j);
     a.limits = limits(joint);
     // Its valve stays closed.
-    a.opened =
-        a.braked ? 0 : a.servo.open(machine_.joints[j], a.limits, tree_.position(joint), tree_.velocity(joint), dt);
+    a.opened = a.braked ? 0
+                        : a.servo.open(machine_.joints[j], a.limits, tree_.position(joint),
+                                       tree_.velocity(joint), dt);
   }
   const double share = share_oil(dt);
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
@@ -135,12 +143,16 @@ void MachineJoints::begin_step(double dt) {
     if (!is_drives(a)) {
       // Joints without a cylinder (a swing motor) do not share the pump.
       const double oil = hydraulics_.of_joint(joint) >= 0 ? share : 1.0;
-      a.demand = a.braked ? hold(joint, dt) : a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
-      constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt, a.demand.effort_high * dt);
+      a.demand = a.braked ? hold(joint, dt)
+                          : a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
+      constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt,
+                               a.demand.effort_high * dt);
     }
     // Viscous friction, at most what stops the joint within the step.
-    const double damping = about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
-    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint), a.demand.feed_forward - damping * qd);
+    const double damping =
+        about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
+    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint),
+                                     a.demand.feed_forward - damping * qd);
   }
 }
 
@@ -154,13 +166,17 @@ void MachineJoints::end_step(double dt) {
     const int joint = static_cast<int>(j);
     const double q = tree_.position(joint), qd = tree_.velocity(joint);
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
-    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // the pump recovers no energy from a load
+    // The pump recovers no energy from a load
+    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);
     // The servo sees the row alone: a feed-forward never saturates it.
-    if (!a.braked) a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
+    if (!a.braked)
+      a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
     // Oil displaced by a load flows to the tank.
-    const double driven = a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
+    const double driven =
+        a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
     const int cylinder = hydraulics_.of_joint(joint);
-    if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0) oil += hydraulics_.oil(cylinder, qd);
+    if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0)
+      oil += hydraulics_.oil(cylinder, qd);
   }
   // Valves may pass less than they asked for: record the flow after the step.
   hydraulics_.pump().settle(oil);
@@ -180,12 +196,14 @@ JointState MachineJoints::state(int joint) const {
     const CylinderLimits& limits = hydraulics_.limits(cylinder);
     // The limit in the direction of effort and motion.
     const bool up = state.effort >= 0;
-    state.effort_limit = std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
-    state.velocity_limit =
-        std::min(about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
+    state.effort_limit =
+        std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
+    state.velocity_limit = std::min(
+        about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
     state.cylinder_length = geometry.length;
     // The cylinder does not carry what a brake carries.
-    state.cylinder_force = !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
+    state.cylinder_force =
+        !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
   }
   state.stalled = a.servo.stalled();
   state.braked = a.braked;

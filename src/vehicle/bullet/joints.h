@@ -45,7 +45,9 @@ class MachineJoints {
   MachineJoints(const scene::Machine& machine, TreeBody& tree);
 
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
-  const Actuator& operator[](int joint) const { return actuators_.at(static_cast<std::size_t>(joint)); }
+  const Actuator& operator[](int joint) const {
+    return actuators_.at(static_cast<std::size_t>(joint));
+  }
   /// Returns the servos by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
   /// Returns the limits of ball joints that have any.
@@ -53,7 +55,7 @@ class MachineJoints {
   /// Returns the servo of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
   /// Returns the machine's pump, idle if it has none.
-  const Pump& pump() const { return hydraulics_.pump(); }
+  const HydraulicPump& pump() const { return hydraulics_.pump(); }
   /// Sets the largest rate of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 

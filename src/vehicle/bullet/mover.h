@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/bullet_machine.h"
 
 namespace navvy::vehicle {
 

@@ -30,8 +30,8 @@ class MultibodyRows : public btMultiBodyConstraint {
   /// Adds a row that keeps `gap` [rad|m] open. The Jacobians of the row give its growth, `rate`
   /// [rad/s|m/s] its present rate. The row acts from the step on in which the gap could close, lets
   /// that step use it up, and recovers from an overrun slowly. Earlier no row is added.
-  void add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                const btContactSolverInfo& info);
+  void add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows,
+                btMultiBodyJacobianData& data, const btContactSolverInfo& info);
 };
 
 }  // namespace navvy::vehicle

@@ -11,7 +11,8 @@ namespace navvy::vehicle {
 /// Throws InputError with the element of the machine ("wheel", "link[name]"), the offending value
 /// (may be empty) and the rule it breaks.
 /// @throws InputError always.
-[[noreturn]] inline void refuse(const std::string& element, const std::string& value, const std::string& rule) {
+[[noreturn]] inline void refuse(const std::string& element, const std::string& value,
+                                const std::string& rule) {
   Fault fault;
   fault.element = element;
   fault.value = value;

@@ -9,13 +9,14 @@ namespace {
 
 constexpr double kFriction = 0.5;  // steel on rock (U: 0.4 to 0.6)
 constexpr double kPressOut = 0.1;  // share of an overlap that is resolved in a step,
-constexpr double kSlowly = 0.1;  // at most [m/s]
-constexpr int kRows = 3;  // per corner: up, along its sliding, across it
+constexpr double kSlowly = 0.1;    // at most [m/s]
+constexpr int kRows = 3;           // per corner: up, along its sliding, across it
 
 }  // namespace
 
 RockContact::RockContact(TreeBody& tree, int link, std::vector<Vec3> corners)
-    : MultibodyRows(&tree.multibody(), tree.bullet_of_link(link), kRows * static_cast<int>(corners.size())),
+    : MultibodyRows(&tree.multibody(), tree.bullet_of_link(link),
+                    kRows * static_cast<int>(corners.size())),
       tree_(tree),
       link_(link),
       corners_(std::move(corners)),
@@ -30,7 +31,8 @@ void RockContact::aim(int row, const Vec3& p_W, const Vec3& along) {
   tree_.virtual_work(link_, along, Vec3::Zero(), p_W, jacobianA(row));
 }
 
-void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                       btMultiBodyJacobianData& data,
                                        const btContactSolverInfo& info) {
   const double dt = info.m_timeStep;
   const LinkState state = tree_.link(link_);
@@ -57,7 +59,8 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
     if (!(normal_[i] > 0)) continue;
     // Along the sliding and across it, so that the box of limits is close to Coulomb's circle.
     const Vec2 slide = v.head<2>();
-    const Vec3 ahead = slide.norm() > 1e-6 ? Vec3(slide.x(), slide.y(), 0).normalized() : Vec3::UnitX();
+    const Vec3 ahead =
+        slide.norm() > 1e-6 ? Vec3(slide.x(), slide.y(), 0).normalized() : Vec3::UnitX();
     const double bound = kFriction * normal_[i];
     aim(row + 1, p, ahead);
     aim(row + 2, p, Vec3::UnitZ().cross(ahead));
@@ -70,7 +73,8 @@ void RockContact::settle() {
   impulse_.setZero();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const int row = kRows * static_cast<int>(i);
-    for (int r = 0; r < kRows; ++r) impulse_ += getAppliedImpulse(row + r) * along_[static_cast<std::size_t>(row + r)];
+    for (int r = 0; r < kRows; ++r)
+      impulse_ += getAppliedImpulse(row + r) * along_[static_cast<std::size_t>(row + r)];
     normal_[i] = getAppliedImpulse(row);
   }
 }

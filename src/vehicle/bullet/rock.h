@@ -45,7 +45,7 @@ class RockContact final : public MultibodyRows {
   std::vector<Vec3> corners_;
   double height_ = -1e6;
   std::vector<double> normal_;  // impulse of each corner in the last step [N s]
-  std::vector<Vec3> along_;  // directions of the present rows, three per corner
+  std::vector<Vec3> along_;     // directions of the present rows, three per corner
   Vec3 impulse_ = Vec3::Zero();
 };
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "terramechanics/belt.h"
-#include "terramechanics/belt_body.h"
+#include "terramechanics/track.h"
+#include "terramechanics/track_body.h"
 #include "terramechanics/tyre.h"
 #include "vehicle/bullet/body.h"
 
@@ -29,7 +29,7 @@ struct MachineWheel {
   double held_spin = 0;
   bool braked = false;
   // State of a crawler's track under its sprocket; no contacts for other wheels.
-  terramechanics::BeltState belt;
+  terramechanics::TrackState running_track;
 
   // Force of bodies in the last step [N] and the bristles of each contact strip on them [m].
   // TyreBodies saves both.
@@ -37,7 +37,7 @@ struct MachineWheel {
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
   // Shear of shoes on bodies under a crawler's track, and the centre of these forces in the carrier
   // [m]. TyreBodies saves both.
-  terramechanics::BeltBodyShear body_shear;
+  terramechanics::TrackBodyShear body_shear;
   Vec3 body_p_C = Vec3::Zero();
 
   void visit(Archive& a);
@@ -65,18 +65,18 @@ class MachineWheels {
   /// Returns pose (not spinning) and motion of a wheel's centre.
   terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
   /// Returns the same for a crawler's track.
-  terramechanics::BeltMotion belt_motion(const MachineWheel& wheel) const;
+  terramechanics::TrackMotion track_motion(const MachineWheel& wheel) const;
   const scene::Wheel& about(std::size_t i) const { return machine_.wheels[i]; }
 
   /// Returns pose and forces after the last step, for outputs and ruts.
   WheelState state(int wheel) const;
   /// Returns where the wheel's track presses, with the loads of the last step; empty without a
   /// track.
-  std::vector<terramechanics::BeltPatch> belt_patches(int wheel) const;
+  std::vector<terramechanics::TrackPatch> track_patches(int wheel) const;
 
  private:
   /// Adds the forces on a crawler's track, and its torque on the sprocket.
-  void push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
+  void push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
 
   // The machine owns the tyre data; this class owns the state and the place in the tree.
   const scene::Machine& machine_;

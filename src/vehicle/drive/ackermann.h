@@ -33,7 +33,8 @@ class AckermannLine : public DriveLine {
   Roll roll(const DriveInput& input) const override;
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
-  std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
+  std::optional<double> steer_angle(const DriveInput& input,
+                                    const DriveWheel& wheel) const override;
   double steer_rate() const override { return drive_.steer_rate; }
   std::vector<Coupled> differentials() const override;
 

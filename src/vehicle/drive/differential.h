@@ -30,7 +30,8 @@ class DifferentialLine final : public DriveLine {
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Returns nothing: the drive turns no wheels. Casters swivel freely.
-  std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
+  std::optional<double> steer_angle(const DriveInput& input,
+                                    const DriveWheel& wheel) const override;
   double steer_rate() const override;
   /// Returns false: each wheel has a motor of its own.
   bool has_shafts() const override { return false; }

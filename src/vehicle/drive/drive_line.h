@@ -40,7 +40,7 @@ struct Coupled {
 };
 
 /// Carrier with a prescribed speed over the next step.
-struct HeldCage {
+struct HeldCarrier {
   double speed = 0;  ///< [rad/s]
   /// Largest torque [N m].
   double torque = 0;
@@ -56,7 +56,7 @@ struct WheelTurn {
   double radius = 0;
   double spin_inertia = 0;  ///< [kg m2]
   /// The wheel is a track's sprocket.
-  bool belt = false;
+  bool running_track = false;
 };
 
 /// Motion of a wheel, for engines that move the machine by it.
@@ -94,7 +94,8 @@ class DriveLine {
   virtual double rolling_spin(const Roll& roll, const DriveWheel& wheel) const = 0;
   /// Returns the angle [rad] of a wheel's steering joint; nothing for a kind that does not turn
   /// wheels.
-  virtual std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const = 0;
+  virtual std::optional<double> steer_angle(const DriveInput& input,
+                                            const DriveWheel& wheel) const = 0;
   /// Returns the largest rate of a steering joint [rad/s].
   virtual double steer_rate() const = 0;
 
@@ -119,12 +120,12 @@ class DriveLine {
                std::vector<double>& torque, double pump_power = 0);
   /// Returns the mean speed of all driven wheels that a speed source prescribes; nothing for other
   /// engines. Call it after `torques`.
-  const std::optional<HeldCage>& held() const { return held_; }
+  const std::optional<HeldCarrier>& held() const { return held_; }
   /// Records the speed [rad/s] that the carrier reached and the torque [N m] that it took.
-  void settle(double cage, double torque);
+  void settle(double carrier, double torque);
 
   /// Returns the state of the engine; zeros without gears and without a shared engine.
-  const EngineState& engine() const { return state_; }
+  const CombustionEngineState& engine() const { return state_; }
 
   /// Visits the state of governors and engine.
   void visit(Archive& a);
@@ -139,7 +140,7 @@ class DriveLine {
     SpeedGovernor governor;
   };
   DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
-            const std::optional<scene::DriveEngine>& engine = std::nullopt);
+            const std::optional<scene::CombustionEngine>& engine = std::nullopt);
   static Group all_driven(const std::vector<DriveWheel>& wheels);
   /// Returns half the machine: the driven wheels of the left or right side.
   static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);
@@ -151,16 +152,18 @@ class DriveLine {
   static DrivenWheels on_line(const Group& group, const std::vector<WheelTurn>& turns, double mass);
   /// Returns the torque [N m] for each wheel of a group, from the governed motor or from the
   /// engine.
-  double motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt, double pump_power);
-  double engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt, double pump_power);
+  double motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt,
+                      double pump_power);
+  double engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt,
+                       double pump_power);
 
   scene::Powertrain powertrain_;
   std::vector<Group> groups_;
   // Engine of a line with one group.
   std::optional<GearedEngine> engine_;
   // Prescribed speed of the present step.
-  std::optional<HeldCage> held_;
-  EngineState state_;
+  std::optional<HeldCarrier> held_;
+  CombustionEngineState state_;
 };
 
 /// Makes the line of machine.drive.

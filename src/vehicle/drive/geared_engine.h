@@ -26,9 +26,9 @@ class GearedEngine {
  public:
   /// Takes the engine's data.
   /// @throws InputError without gears, or without two points of a torque curve.
-  GearedEngine(scene::DriveEngine about, bool drives_pump);
+  GearedEngine(scene::CombustionEngine about, bool drives_pump);
 
-  const scene::DriveEngine& about() const { return about_; }
+  const scene::CombustionEngine& about() const { return about_; }
   /// Returns the overall ratio from engine to differential carrier, for gear n (1-based) or for the
   /// engaged gear.
   double ratio(int gear) const;
@@ -41,16 +41,16 @@ class GearedEngine {
   /// Shifting up needs a reserve of a quarter over that torque or over the torque of the engaged
   /// gear. Gears change once per second at most, unless the engine would leave its range. A speed
   /// source stays in first gear.
-  void shift(int command, double cage, double torque, double dt);
+  void shift(int command, double carrier, double torque, double dt);
   /// Range of the carrier's torque [N m] at its speed while a pump takes `pump_power` [W], which
   /// has priority.
   struct Bounds {
     double low = 0, high = 0;
   };
-  Bounds bounds(double cage, double pump_power) const;
+  Bounds bounds(double carrier, double pump_power) const;
   /// Returns the engine's state at this speed and torque of the carrier. Its power includes pump
   /// and drive.
-  EngineState state(double cage, double torque, double pump_power) const;
+  CombustionEngineState state(double carrier, double torque, double pump_power) const;
 
   /// Visits the engaged gear and the time since it was engaged.
   void visit(Archive& a);
@@ -62,12 +62,12 @@ class GearedEngine {
   /// Returns the engine's speed [rad/s] for the speed of the other side of its clutch.
   double engine_speed(double shaft) const;
   /// Returns the largest torque at the carrier [N m] in a gear: driving, and holding back.
-  double pull(int gear, double cage) const;
-  double hold(int gear, double cage) const;
+  double pull(int gear, double carrier) const;
+  double hold(int gear, double carrier) const;
   /// Returns whether the engine neither slips nor overspeeds in a gear at this carrier speed.
-  bool fits(int gear, double cage) const;
+  bool fits(int gear, double carrier) const;
 
-  scene::DriveEngine about_;
+  scene::CombustionEngine about_;
   double slowest_ = 0;  // [rad/s]
   int gear_ = 1;
   double held_;  // since the last change [s]

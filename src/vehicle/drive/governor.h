@@ -35,8 +35,8 @@ class SpeedGovernor {
  public:
   /// Returns the torque for each of the wheels [N m] over the next step dt [s], towards `speed`
   /// [m/s]; 0 without wheels. At most `left` [W] of its power drives; braking uses the motor alone.
-  double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels, double dt,
-                      double left = std::numeric_limits<double>::infinity());
+  double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels,
+                      double dt, double left = std::numeric_limits<double>::infinity());
 
   /// Computes the same in two steps, for callers that limit the force otherwise: first the force
   /// asked for [N at the rims], then the part of it that is available, from `low` to `high` [N].
@@ -50,7 +50,7 @@ class SpeedGovernor {
   void visit(Archive& a);
 
  private:
-  double asked_ = 0;  // [m/s] after the ramp
+  double asked_ = 0;     // [m/s] after the ramp
   double integral_ = 0;  // [N]
 };
 

@@ -21,7 +21,8 @@ double across(const scene::LinkageDrive& drive, double left) {
   // Of the two assemblies, the one that is continuous with straight wheels.
   const Vec2 from = Vec2(0, 2 * half) + straight;
   const double side = from.x() * mirrored.y() - from.y() * mirrored.x() < 0 ? -1 : 1;
-  const double angle = std::atan2(end.y(), end.x()) + side * open - std::atan2(mirrored.y(), mirrored.x());
+  const double angle =
+      std::atan2(end.y(), end.x()) + side * open - std::atan2(mirrored.y(), mirrored.x());
   return std::remainder(angle, 2 * kPi);
 }
 
@@ -33,7 +34,8 @@ SteerAngles angles_at(const scene::LinkageDrive& drive, double motor) {
 
 /// Returns the mean of both wheels: wheels that disagree drag.
 double mean_tangent(const scene::LinkageDrive& drive, const SteerAngles& angles) {
-  return 0.5 * (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
+  return 0.5 *
+         (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ MotorRange motor_range(const scene::LinkageDrive& drive) {
   // To the left the left wheel is the inner one; to the right it is the outer one, which turns
   // less. For an inverted linkage it is the other way round.
   const double most = drive.max_steer, outer = across(drive, most);
-  return {-drive.gear_ratio * std::min(outer, most), drive.gear_ratio * (outer > most ? -across(drive, -most) : most)};
+  return {-drive.gear_ratio * std::min(outer, most),
+          drive.gear_ratio * (outer > most ? -across(drive, -most) : most)};
 }
 
 SteerAngles linkage_angles(const scene::LinkageDrive& drive, double motor) {
@@ -62,11 +65,14 @@ LinkageLine::LinkageLine(const scene::LinkageDrive& drive, const std::vector<Dri
     : AckermannLine(drive, wheels), drive_(drive) {}
 
 Roll LinkageLine::roll(const DriveInput& input) const {
-  const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
-  return {speed, speed * mean_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
+  const double speed =
+      input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
+  return {speed,
+          speed * mean_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
 }
 
-std::optional<double> LinkageLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
+std::optional<double> LinkageLine::steer_angle(const DriveInput& input,
+                                               const DriveWheel& wheel) const {
   const SteerAngles steer = linkage_angles(drive_, input.steer);
   return wheel.left ? steer.left : steer.right;
 }

@@ -31,7 +31,8 @@ class LinkageLine final : public AckermannLine {
  public:
   LinkageLine(const scene::LinkageDrive& drive, const std::vector<DriveWheel>& wheels);
   Roll roll(const DriveInput& input) const override;
-  std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
+  std::optional<double> steer_angle(const DriveInput& input,
+                                    const DriveWheel& wheel) const override;
   std::optional<double> steering_error(double left, double right) const override {
     return ackermann_error(drive_, {left, right});
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace example {
 namespace {
@@ -34,21 +34,22 @@ struct Body {
   }
 };
 
-class ParticleEngine final : public vehicle::Engine {
+class ParticleEngine final : public vehicle::PhysicsEngine {
  public:
   explicit ParticleEngine(const Vec3& gravity) : gravity_(gravity) {}
 
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
     if (machine.links.size() != 1 || !machine.joints.empty())
-      throw InputError(Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]",
-                             std::to_string(machine.links.size()) + " links",
-                             "a particle engine moves machines of one link",
-                             "use the engine built on Bullet"});
+      throw InputError(
+          Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]",
+                std::to_string(machine.links.size()) + " links",
+                "a particle engine moves machines of one link", "use the engine built on Bullet"});
     Body body;
     body.mass = machine.links[0].mass;
     body.X_WB = X_WM * machine.links[0].X_ML;
     for (const scene::Collision& collision : machine.links[0].collisions)
-      body.clearance = std::max(body.clearance, 0.5 * collision.geometry.size.z() - collision.X_LC.translation().z());
+      body.clearance = std::max(
+          body.clearance, 0.5 * collision.geometry.size.z() - collision.X_LC.translation().z());
     bodies_.push_back(body);
     return machine_count() - 1;
   }
@@ -63,15 +64,19 @@ class ParticleEngine final : public vehicle::Engine {
   void apply_impulse(int machine, int, const Vec3& J_W, const Vec3&, const Vec3&) override {
     at(machine).v_W += J_W / at(machine).mass;
   }
-  void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
-                             double dt) override {
+  void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W,
+                             const Vec3& p_W, double dt) override {
     apply_impulse(machine, link, J_W, L_W, p_W);
     at(machine).X_WB.translation() += dt * J_W / at(machine).mass;
   }
-  void add_force(int machine, int, const Vec3& f_W, const Vec3&) override { at(machine).force_W += f_W; }
+  void add_force(int machine, int, const Vec3& f_W, const Vec3&) override {
+    at(machine).force_W += f_W;
+  }
 
   void step(double dt, const vehicle::GroundQuery& ground) override {
-    if (!(dt > 0)) throw SimulationError("particle engine: the step must be positive, it is " + std::to_string(dt));
+    if (!(dt > 0))
+      throw SimulationError("particle engine: the step must be positive, it is " +
+                            std::to_string(dt));
     for (Body& body : bodies_) {
       body.v_W += dt * (gravity_ + body.force_W / body.mass);
       body.force_W.setZero();
@@ -83,7 +88,9 @@ class ParticleEngine final : public vehicle::Engine {
   }
 
   vehicle::JointState joint(int, int) const override { return {}; }
-  LinkState link(int machine, int) const override { return {at(machine).X_WB, at(machine).v_W, Vec3::Zero()}; }
+  LinkState link(int machine, int) const override {
+    return {at(machine).X_WB, at(machine).v_W, Vec3::Zero()};
+  }
   vehicle::WheelState wheel(int, int) const override { return {}; }
   Mat6 inverse_mass(int machine, int) const override {
     Mat6 out = Mat6::Zero();
@@ -93,7 +100,8 @@ class ParticleEngine final : public vehicle::Engine {
 
   void visit(Archive& a) override {
     a.section("particle", 1, [&] {
-      a.constant("machines", bodies_.size(), "the snapshot has another number of machines than the scene");
+      a.constant("machines", bodies_.size(),
+                 "the snapshot has another number of machines than the scene");
       for (std::size_t b = 0; b < bodies_.size(); ++b) a.item(b, [&] { bodies_[b].visit(a); });
     });
   }
@@ -120,7 +128,8 @@ class ParticleEngine final : public vehicle::Engine {
 
 }  // namespace
 
-std::unique_ptr<vehicle::Engine> make_particle_engine(const Vec3& gravity, const scene::Materials&) {
+std::unique_ptr<vehicle::PhysicsEngine> make_particle_engine(const Vec3& gravity,
+                                                             const scene::Materials&) {
   return std::make_unique<ParticleEngine>(gravity);
 }
 

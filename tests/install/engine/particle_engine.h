@@ -10,7 +10,7 @@ namespace example {
 
 /// Makes an engine whose machines are one body each, moved as a particle: it falls, slides with
 /// friction on level ground and never turns. Has no optional capability.
-std::unique_ptr<navvy::vehicle::Engine> make_particle_engine(
+std::unique_ptr<navvy::vehicle::PhysicsEngine> make_particle_engine(
     const navvy::Vec3& gravity, const navvy::scene::Materials& materials);
 
 }  // namespace example
