@@ -22,6 +22,7 @@ namespace navvy::coupling {
 template <class T>
 class ColumnTable {
  public:
+  /// Makes an empty table for a site of nx x ny columns.
   ColumnTable(int nx, int ny) : nx_(nx), ny_(ny) {}
 
   /// Returns the value of a column of the site and creates it if it is new. The reference is valid
@@ -49,6 +50,7 @@ class ColumnTable {
     return &found->second.values[found->second.before(bit)];
   }
 
+  /// Returns the number of columns with a value.
   std::size_t size() const { return size_; }
 
   /// Visits all values. @throws InputError for a column outside the site.
@@ -76,19 +78,25 @@ class ColumnTable {
   static constexpr int kStrip = 32;  // columns, one bit each
   static constexpr std::size_t kMoreClearance = 4;
 
+  /// Values of up to 32 neighbouring columns of a row.
   struct Strip {
     std::uint32_t mask = 0;  // columns that have a value
     std::vector<T> values;   // their values, in the same order
 
+    /// Returns the number of columns with a value before the one of `bit`.
     std::size_t before(std::uint32_t bit) const {
       return static_cast<std::size_t>(std::popcount(mask & (bit - 1)));
     }
   };
 
+  /// Returns the number of strips per row.
   std::int64_t strips_x() const { return (static_cast<std::int64_t>(nx_) + kStrip - 1) / kStrip; }
+  /// Returns the key of the strip that contains a column.
   std::int64_t key_of(int ix, int iy) const { return iy * strips_x() + ix / kStrip; }
+  /// Returns the bit of a column in its strip.
   static std::uint32_t bit_of(int ix) { return std::uint32_t{1} << (ix % kStrip); }
 
+  /// Loads `count` columns, which must be in ascending order.
   void load(Archive& a, std::uint64_t count) {
     strips_.clear();
     size_ = 0;

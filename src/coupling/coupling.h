@@ -31,6 +31,7 @@ struct ToolLoad {
   /// Impulse of the last step, with its momentum balance.
   soil::ToolImpulse impulse;
 
+  /// Visits the forces and the impulse of the last step.
   void visit(Archive& a);
 };
 
@@ -55,7 +56,9 @@ class Coupling {
   /// Advances everything by dt [s].
   void step(double dt);
 
+  /// Returns the loads of all shells, machine by machine and shell by shell.
   const std::vector<ToolLoad>& tools() const { return tools_; }
+  /// Returns the wall time spent so far.
   const TimeShare& time_share() const { return time_share_; }
   /// Returns the soil carried by a tool [kg]. Soil in a bucket inside a bed counts for the bucket.
   double payload(const ToolLoad& tool) const;
@@ -84,7 +87,9 @@ class Coupling {
   void show_movers();
   /// Returns the support areas of wheels and tracks of dynamic machines.
   std::vector<soil::SupportArea> support_areas(double dt) const;
+  /// Presses ruts of tyres and tracks, every kRutInterval steps.
   void press_ruts(double dt);
+  /// Steps the soil with the tools' motion and applies its impulses to the links.
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
   const scene::Scene& world_;

@@ -50,6 +50,7 @@ class PushedSoil {
   void deposit_down(const std::function<bool(int ix, int iy)>& borne);
 
  private:
+  /// Soil taken from one column.
   struct Load {
     Place place;
     /// Soil layers, bottom first.
@@ -63,6 +64,7 @@ class PushedSoil {
   /// Returns the strip on one side: `sign` 1 left, -1 right. Empty if there is no space.
   std::vector<Strip> strip(const Place& from, double sign,
                            const std::function<bool(int, int)>& borne) const;
+  /// Deposits a layer on the columns of a strip by their shares.
   void spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip);
 
   heightfield::Ground& ground_;

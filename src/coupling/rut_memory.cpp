@@ -27,8 +27,8 @@ void RutMemory::find(double surface) {
   if (on_floor || surface < floor_height) floor_pressure = floor_height = 0;
 }
 
-RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, double surface,
-                                    double borne, double at_most) {
+RutMemory::Press RutMemory::press(const scene::Soil& soil, double width, double surface,
+                                  double borne, double at_most) {
   if (borne <= pressure) return {};
   const double before = terramechanics::plate_sinkage(soil, pressure, width);
   const double after = terramechanics::plate_sinkage(soil, borne, width);

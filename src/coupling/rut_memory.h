@@ -28,15 +28,16 @@ struct RutMemory {
   /// Compares the record with the present height `surface` [m] of the column.
   void find(double surface);
 
-  /// Returns how far the column is pressed down [m], limited to `at_most`, under a plate of `width`
-  /// [m] with the pressure `borne` [Pa], and the plate's sinkage before. Records the load; the
-  /// caller stores the new surface in `height`.
-  struct Sinking {
+  /// Result of `press`: the plate's sinkage before, and how far the column is pressed down [m].
+  struct Press {
     double before = 0, drop = 0;
   };
-  Sinking press(const scene::Soil& soil, double width, double surface, double borne,
-                double at_most = std::numeric_limits<double>::infinity());
+  /// Presses the column by at most `at_most` [m] under a plate of `width` [m] with the pressure
+  /// `borne` [Pa]. Records the load; the caller stores the new surface in `height`.
+  Press press(const scene::Soil& soil, double width, double surface, double borne,
+              double at_most = std::numeric_limits<double>::infinity());
 
+  /// Visits pressures and heights.
   void visit(Archive& a);
 };
 

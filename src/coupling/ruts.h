@@ -63,9 +63,11 @@ class Ruts {
   /// Returns the load [N] with which wheel `i` of the last call presses, 0 before.
   double load(std::size_t i) const { return i < bearing_.size() ? bearing_[i].load : 0; }
 
+  /// Visits load history and filtered loads.
   void visit(Archive& a);
 
  private:
+  /// Load history of a column and its present compaction.
   struct Memory {
     RutMemory borne;
     /// Compaction since the tyre that stands on the column arrived.
@@ -86,6 +88,7 @@ class Ruts {
     /// Factor of the sinkage by slip.
     double softer;
   };
+  /// Presses the patches of one wheel where it is and where it rolls next.
   void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                    const Bearing& bearing, double interval);
   /// Presses the patch of one tyre with its middle at `center`, along the unit vector `along`,

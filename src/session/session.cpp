@@ -33,7 +33,8 @@ constexpr double kLongestRest = 6;
 
 // The world first: everything else looks through handles into it.
 struct Session::State {
-  State(scene::Scene description, device::Device& device, const vehicle::EngineFactory& make_engine)
+  State(scene::Scene description, device::Device& device,
+        const vehicle::PhysicsEngineFactory& make_engine)
       : world(std::move(description), device, make_engine),
         surface(world),
         device_name(device.info().name),
@@ -180,7 +181,7 @@ void Session::State::visit(Archive& a) {
 
 Session::Session(scene::Scene description, device::Device& device,
                  const control::MakePathPlanner& planners,
-                 const vehicle::EngineFactory& make_engine)
+                 const vehicle::PhysicsEngineFactory& make_engine)
     : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
   State& s = *state_;
   std::vector<Pose> X_WB;

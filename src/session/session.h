@@ -33,7 +33,7 @@ class Session {
   /// the world's physics engine, as for sim::World.
   Session(scene::Scene description, device::Device& device,
           const control::MakePathPlanner& planners = {},
-          const vehicle::EngineFactory& make_engine = {});
+          const vehicle::PhysicsEngineFactory& make_engine = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

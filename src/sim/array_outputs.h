@@ -87,6 +87,7 @@ class ArrayView {
 
  private:
   friend class ArrayOutputs;
+  /// @throws InputError if `type` is not the channel's type.
   void require(ElementType type) const;
   const ArrayChannel* channel_ = nullptr;
   const Pose* X_WF_ = nullptr;
@@ -109,6 +110,7 @@ class ArrayOutputs {
   /// Returns a view of an array without copying. @throws InputError for an index that does not
   /// exist.
   ArrayView view(int array) const;
+  /// Looks the array up by its name first.
   ArrayView view(const std::string& name) const { return view(index(name)); }
 
   /// Checks the shape. @throws InputError for a shape without elements.
@@ -125,6 +127,7 @@ class ArrayOutputs {
   void visit(Archive& a);
 
  private:
+  /// Storage and stamp of one array.
   struct Value {
     std::vector<std::byte> bytes;
     std::uint64_t sequence = 0;

@@ -33,8 +33,11 @@ class ChannelList {
   }
   /// Returns all channels in the order of their indices.
   const std::vector<Channel>& channels() const { return channels_; }
+  /// Returns the number of channels.
   std::size_t size() const { return channels_.size(); }
+  /// Returns a channel. The index is not checked.
   const Channel& operator[](std::size_t i) const { return channels_[i]; }
+  /// Iterates over the channels in the order of their indices.
   auto begin() const { return channels_.begin(); }
   auto end() const { return channels_.end(); }
   /// Returns the index of a channel, -1 if there is none of this name.

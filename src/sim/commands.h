@@ -17,6 +17,7 @@ class Commands {
   /// Largest distance of a base from the origin along any axis [m].
   static constexpr double kFarthest = 1e6;
 
+  /// Refers to the parts of a world; World::commands makes it.
   explicit Commands(WorldParts& parts) : parts_(&parts) {}
 
   /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's next

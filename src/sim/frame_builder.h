@@ -18,6 +18,7 @@ class ParticleClipper;
 /// part around the machines, which moves when a machine comes within a quarter of its edge.
 class FrameBuilder {
  public:
+  /// Reads the constants of a world, which must outlive this object.
   explicit FrameBuilder(const World& world);
   ~FrameBuilder();
   /// Returns the present frame, valid until the next call.
@@ -30,10 +31,13 @@ class FrameBuilder {
   void place_window();
   /// Copies the changes since the last frame into the window.
   void update_ground();
+  /// Copies the columns of one rectangle, relative to the window.
   void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
+  /// Adds the poses of all visuals and cylinders.
   void add_machines();
   /// Returns a cylinder of machine m, with the bars of its bucket linkage.
   void add_cylinder(int m, const scene::Cylinder& cylinder);
+  /// Adds the active particles, kept off the plates of tools.
   void add_particles();
 
   const World& world_;

@@ -30,6 +30,7 @@ struct WorldParts;
 /// Rigid link L of a machine. Frame L is the link's own frame in the machine's file, W the world.
 class LinkHandle {
  public:
+  /// Returns the name of the link in its machine's file.
   const std::string& name() const;
   /// Returns X_WL, the pose of the link in the world.
   Pose pose() const;
@@ -51,6 +52,7 @@ class LinkHandle {
 /// [m/s], [N] for a prismatic one.
 class JointHandle {
  public:
+  /// Returns the name of the joint in its machine's file.
   const std::string& name() const;
   /// Return the indices into scene::Scene::machines and scene::Machine::joints.
   int machine() const { return machine_; }

@@ -16,6 +16,7 @@ namespace navvy::sim {
 /// drives.
 class Machines {
  public:
+  /// Refers to the parts of a world; World::machines makes it.
   explicit Machines(const WorldParts& parts) : parts_(&parts) {}
 
   /// Returns the number of machines; 0 for a scene of soil alone.

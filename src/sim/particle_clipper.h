@@ -13,6 +13,7 @@ namespace navvy::sim {
 /// Shells of a world's machines, prepared once.
 class ParticleClipper {
  public:
+  /// Prepares the shells of all machines. The world must outlive this object.
   explicit ParticleClipper(const World& world);
 
   /// Moves every drawn particle that is closer than `gap` [m] to a plate's face away from it, on
@@ -25,6 +26,7 @@ class ParticleClipper {
   void keep_off(scene::FrameParticles& particles, double gap, double reach) const;
 
  private:
+  /// Shell of one machine, ready for distance queries.
   struct Tool {
     int machine, link;
     soil::ShellGeometry geometry;

@@ -60,7 +60,9 @@ class Publisher {
   void visit(Archive& a);
 
  private:
+  /// @throws InputError if an output or array of this name exists.
   void require_new(const std::string& name) const;
+  /// @throws InputError if `type` is not the array's type.
   void require(int array, ElementType type) const;
 
   Outputs& outputs_;
@@ -100,6 +102,7 @@ class SamplerSlot {
   /// or a name in use.
   SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays);
 
+  /// Returns the sampler's name.
   const std::string& name() const { return name_; }
   /// Returns whether step `step` of `dt` [s] is the nearest to a multiple of the period
   /// (sim/timing.h).

@@ -18,6 +18,7 @@ struct WorldParts;
 /// A view of two words: copy it freely, as long as its world lives. Every function returns a copy.
 class SoilView {
  public:
+  /// Refers to the parts of a world; World::soil makes it.
   explicit SoilView(const WorldParts& parts) : parts_(&parts) {}
 
   /// Returns the solver's counters.

@@ -11,7 +11,7 @@ namespace navvy::sim {
 
 /// Builds all parts before the first channel: channels hold handles into them.
 World::World(scene::Scene description, device::Device& device,
-             const vehicle::EngineFactory& make_engine)
+             const vehicle::PhysicsEngineFactory& make_engine)
     : parts_(std::make_unique<WorldParts>(std::move(description), device, make_engine)) {
   add_channels(*this, parts_->inputs, parts_->outputs);
 }

@@ -21,7 +21,7 @@
 #include "sim/soil_view.h"
 #include "sim/world_hashes.h"
 #include "sim/world_measurements.h"
-#include "vehicle/engine_factory.h"
+#include "vehicle/physics_engine_factory.h"
 
 namespace navvy::device {
 class Device;
@@ -43,7 +43,7 @@ class World {
   /// without.
   /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
   World(scene::Scene description, device::Device& device,
-        const vehicle::EngineFactory& make_engine = {});
+        const vehicle::PhysicsEngineFactory& make_engine = {});
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -57,6 +57,7 @@ class World {
   double dt() const;
   /// Returns the longest base step that soil and scene allow [s]. A control rate shortens the step.
   double longest_step() const;
+  /// Returns the number of base steps taken.
   std::uint64_t steps() const;
   /// Returns the simulated time [s], steps x dt.
   double time() const;

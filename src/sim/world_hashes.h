@@ -16,6 +16,7 @@ struct WorldParts;
 /// A view of two words: copy it freely, as long as its world lives.
 class WorldHashes {
  public:
+  /// Refers to the parts of a world; World::hashes makes it.
   explicit WorldHashes(const WorldParts& parts) : parts_(&parts) {}
 
   /// Returns the hash of World::start: every parameter of the scene and the heights of its map.

@@ -30,15 +30,15 @@ heightfield::Ground make_site(const scene::Scene& world) {
 }
 
 /// Makes the engine of the dynamic machines: the caller's, or the one built on Bullet.
-std::unique_ptr<vehicle::PhysicsEngine> make_dynamic(const scene::Scene& world,
-                                                     const vehicle::EngineFactory& make_engine) {
+std::unique_ptr<vehicle::PhysicsEngine> make_dynamic(
+    const scene::Scene& world, const vehicle::PhysicsEngineFactory& make_engine) {
   std::unique_ptr<vehicle::PhysicsEngine> engine =
       make_engine ? make_engine(world.gravity, world.materials)
                   : vehicle::make_bullet_engine(world.gravity, world.materials);
   if (engine != nullptr) return engine;
   throw InputError(Fault{Fault::Severity::kError, world.file, 0, "physics engine", "null",
                          "the factory must return an engine",
-                         "return a new vehicle::Engine from it"});
+                         "return a new vehicle::PhysicsEngine from it"});
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::unique_ptr<vehicle::PhysicsEngine> make_dynamic(const scene::Scene& world,
 /// Follows the order of the members: ground under machines, engines and soil under the coupling
 /// that joins them.
 WorldParts::WorldParts(scene::Scene world, device::Device& device,
-                       const vehicle::EngineFactory& make_engine)
+                       const vehicle::PhysicsEngineFactory& make_engine)
     : description(std::move(world)),
       ground(make_site(description)),
       dynamic(make_dynamic(description, make_engine)),

@@ -33,18 +33,21 @@ struct WorldParts {
   /// Builds the ground, places the machines on it, and activates and loads the soil that the scene
   /// asks for.
   /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
-  WorldParts(scene::Scene world, device::Device& device, const vehicle::EngineFactory& make_engine);
+  WorldParts(scene::Scene world, device::Device& device,
+             const vehicle::PhysicsEngineFactory& make_engine);
   WorldParts(const WorldParts&) = delete;
   WorldParts& operator=(const WorldParts&) = delete;
 
   /// Updates all encoders, after each step of the machines.
   void advance_encoders();
+  /// Returns whether any machine has an encoder.
   bool has_encoders() const;
 
   /// Visits all state that determines the future of a run (World::visit).
   void visit(Archive& a);
 
-  double time() const { return static_cast<double>(steps) * dt; }  ///< [s]
+  /// Returns the simulated time [s].
+  double time() const { return static_cast<double>(steps) * dt; }
 
   /// The scene.
   scene::Scene description;

@@ -29,6 +29,7 @@ struct TrackContact {
   double load = 0;
   Vec2 shear = Vec2::Zero();
 
+  /// Visits load and shear. @throws InputError for a shear that is not finite.
   void visit(Archive& a);
 };
 
@@ -68,6 +69,7 @@ struct TrackPatch {
 
 /// Force of the ground on a track over a step.
 struct TrackForce {
+  /// Force on the track at one point.
   struct Push {
     Vec3 f_W = Vec3::Zero();  ///< [N]
     /// Point of application on the track [m].

@@ -42,6 +42,7 @@ struct TrackTouch {
 /// Shear displacement of the shoes on bodies where they leave each disc, by line (ahead, left) [m].
 using TrackBodyShear = std::vector<std::array<Vec2, kTrackLines>>;
 
+/// Force of bodies on a track over a step.
 struct TrackBodyForce {
   /// Forces on the track's carrier by contact [N]. Each body gets the opposite.
   std::vector<Vec3> f_W;

@@ -26,6 +26,7 @@ struct TyreState {
   /// Displacement by which the soil under the strip has yielded [m].
   std::array<double, 2> sheared{};
 
+  /// Visits bristles and yielded soil. @throws InputError for a value out of range.
   void visit(Archive& a);
 };
 
@@ -55,6 +56,7 @@ struct TyreForce {
   /// Radial deflection of the deeper contact strip [m].
   double deflection = 0;
 
+  /// Visits all fields.
   void visit(Archive& a);
 };
 

@@ -28,21 +28,25 @@ class JointEncoder {
   void advance(double position);
   /// Returns the register, 0 to 2^bits - 1.
   std::uint64_t counts() const;
+  /// Returns the encoder's data.
   const scene::Encoder& about() const { return about_; }
 
   /// Injects the slip s into all further counts: they report w r where w r (1 - s) was rolled.
   /// Clamped to +-kMostSlip.
   void set_slip(double slip);
+  /// Returns the injected slip [-].
   double slip() const { return slip_; }
   /// Injects a random loss of this share of all further counts, in both directions. Clamped to 0 to
   /// 1.
   void set_missed(double share);
+  /// Returns the injected share of lost counts [-].
   double missed() const { return missed_; }
 
   /// Visits register, faults and the random generator.
   void visit(Archive& a);
 
  private:
+  /// Returns how many of `edges` counts are lost, drawn at random.
   std::int64_t lost_of(std::int64_t edges);
 
   scene::Encoder about_;
@@ -65,6 +69,7 @@ class Encoders {
 
   /// Updates all encoders. Call it after every step of the engine.
   void advance(const PhysicsEngine& engine, int index);
+  /// Returns the number of encoders.
   std::size_t size() const { return encoders_.size(); }
   /// Returns an encoder. Its address never changes.
   JointEncoder& operator[](std::size_t i) { return encoders_[i]; }
@@ -75,9 +80,11 @@ class Encoders {
     return e < 0 ? nullptr : &encoders_[static_cast<std::size_t>(e)];
   }
 
+  /// Visits all encoders.
   void visit(Archive& a);
 
  private:
+  /// Returns the index of a joint's encoder, -1 if it has none.
   int place_of(int joint) const;
 
   std::vector<int> joints_;  // by encoder

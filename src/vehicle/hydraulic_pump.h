@@ -35,10 +35,12 @@ class HydraulicPump {
   /// Records the flow that the functions took in the step [m3/s].
   void settle(double flow) { flow_ = flow; }
 
-  double flow() const { return flow_; }  ///< flow in the last step [m3/s]
+  /// Returns the flow in the last step [m3/s].
+  double flow() const { return flow_; }
   /// Pressure that the swashplate follows, smoothed [Pa].
   double pressure() const { return pressure_; }
 
+  /// Visits flow, pressure and share.
   void visit(Archive& a);
 
  private:

@@ -15,6 +15,7 @@ struct JointLimits {
   /// Inertia of everything that moves with the joint [kg m2|kg]; 0: unknown.
   double inertia = 0;
 
+  /// Visits all limits.
   void visit(Archive& a);
 };
 
@@ -25,6 +26,7 @@ struct JointLimits {
 /// its effort can stop the load. At velocity zero it holds the position at which it stopped.
 class JointServo {
  public:
+  /// Motion that the solver shall reach in a step.
   struct Demand {
     /// Velocity to reach [rad/s|m/s].
     double velocity = 0;
@@ -34,7 +36,9 @@ class JointServo {
     double feed_forward = 0;
   };
 
+  /// Sets the command. It holds until it is replaced.
   void set(const JointInput& input) { input_ = input; }
+  /// Returns the present command.
   const JointInput& input() const { return input_; }
 
   /// Moves the valve towards the command. Call it once per step, before demand().
@@ -52,15 +56,19 @@ class JointServo {
               double dt);
   /// Closes the valve at once and clears the held position, for a joint held by its brake.
   void rest();
+  /// Returns whether the joint has been stalled for longer than kStallTime.
   bool stalled() const { return stall_time_ > kStallTime; }
 
+  /// Visits command, valve and stall time.
   void visit(Archive& a);
 
  private:
   static constexpr double kStallTime = 0.05;  // [s] Shorter stalls are the solver's own settling.
+  /// Returns whether the present mode moves the valve.
   bool has_valve() const {
     return input_.mode != JointMode::kFree && input_.mode != JointMode::kEffort;
   }
+  /// Returns the velocity towards the target, before the valve's delay.
   double wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
                       double dt) const;
 

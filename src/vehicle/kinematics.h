@@ -29,6 +29,7 @@ struct CylinderGeometry {
   /// Pins in base_link's frame [m].
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
 };
+/// Computes the geometry of a cylinder once; CylinderMap is faster for repeated use.
 CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder,
                                    double q);
 
@@ -37,6 +38,7 @@ CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::C
 struct CylinderLimits {
   double torque_positive = 0, torque_negative = 0, speed_positive = 0, speed_negative = 0;
 };
+/// Computes the limits of a cylinder once; CylinderMap is faster for repeated use.
 CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder,
                                double q);
 
@@ -58,9 +60,13 @@ class CylinderMap {
   /// the joint, or if the linkage cannot be closed or reaches a dead centre within the joint's
   /// limits.
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder);
+  /// Returns the index of the joint that the cylinder moves.
   int joint() const { return joint_; }
+  /// Returns the index of the link that carries the cylinder's base.
   int base_link() const { return base_link_; }
+  /// Returns length, lever and pins at joint position q.
   CylinderGeometry geometry(double q) const;
+  /// Returns the limits of torque and speed at joint position q.
   CylinderLimits limits(double q) const;
   /// Returns the limits for a geometry already computed for the same q.
   CylinderLimits limits(const CylinderGeometry& geometry) const;
@@ -70,10 +76,12 @@ class CylinderMap {
   friend CylinderLimits cylinder_limits(const scene::Machine&, const scene::Cylinder&, double);
   struct Unchecked {};
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder, Unchecked);
+  /// Returns the pose of rod_link in base_link at joint position q.
   Pose rod_in_base(double q) const;
   /// Computes the coupler pin of the rocker for the bucket's coupler pin c. Returns false if the
   /// bars do not reach.
   bool close_linkage(const Vec3& c, Vec3& pin) const;
+  /// @throws InputError if the linkage does not close within the joint's limits.
   void check() const;
 
   scene::Cylinder cylinder_;

@@ -24,6 +24,7 @@ struct LeverFunction {
 using LeverFunctions = std::array<LeverFunction, 4>;
 inline constexpr std::array<const char*, 4> kLeverNames = {"left_x", "left_y", "right_x",
                                                            "right_y"};
+/// Returns the functions of a machine's levers for its pattern (scene::Machine::levers).
 LeverFunctions lever_functions(const scene::Machine& machine);
 
 /// Returns the opening of the valve, -1 to 1, for a lever at `way`, clamped to -1 to 1: closed

@@ -22,6 +22,7 @@ struct JointInput {
   /// at the present position.
   double target = 0;
 
+  /// Visits mode and target.
   void visit(Archive& a);
 };
 
@@ -35,6 +36,7 @@ struct BaseInput {
   /// Duration of the motion at constant velocity [s]; 0: within one step.
   double duration = 0.1;
 
+  /// Visits the target pose and the duration.
   void visit(Archive& a);
 };
 
@@ -73,6 +75,7 @@ struct CombustionEngineState {
   /// Engaged gear, 1-based.
   int gear = 0;
 
+  /// Visits speed, torque, power and gear.
   void visit(Archive& a);
 };
 

@@ -11,9 +11,9 @@
 #include "core/math.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
-#include "vehicle/engine_capabilities.h"
-#include "vehicle/engine_factory.h"
 #include "vehicle/machine_state.h"
+#include "vehicle/physics_engine_capabilities.h"
+#include "vehicle/physics_engine_factory.h"
 
 namespace navvy::vehicle {
 
@@ -86,12 +86,19 @@ class PhysicsEngine {
 
   // Optional capabilities. The returned interface lives as long as the engine; null where the
   // engine lacks the capability.
+  /// Placement of bases.
   virtual PlacementCapability* placement() { return nullptr; }
+  /// Collisions with machines of another engine.
   virtual ObstacleCapability* obstacles() { return nullptr; }
+  /// Hitches between machines.
   virtual HitchCapability* hitches() { return nullptr; }
+  /// Rock below the soil.
   virtual RockCapability* rock() { return nullptr; }
+  /// Contact patches of crawler tracks.
   virtual const TrackCapability* tracks() const { return nullptr; }
+  /// Pumps and combustion engines.
   virtual const PowerCapability* power() const { return nullptr; }
+  /// Momentum and work.
   virtual const AccountCapability* accounts() const { return nullptr; }
 };
 

@@ -26,7 +26,7 @@ namespace navvy::vehicle {
 /// An engine under test.
 struct EngineCase {
   std::string name;
-  EngineFactory make;
+  PhysicsEngineFactory make;
   /// Forces and gravity move its machines.
   bool dynamic = true;
 };

@@ -29,6 +29,7 @@ class TreeBody {
   btMultiBody& multibody() { return *body_; }
   /// Returns Bullet's link of a joint; -1: none (a joint of the base to the world).
   int bullet_of_joint(int joint) const { return bullet_of_joint_[index(joint)]; }
+  /// Returns Bullet's link of a link; -1 for the base.
   int bullet_of_link(int link) const { return bullet_of_link_[index(link)]; }
   /// Returns the link of a Bullet link; Bullet's base is -1.
   int link_of_bullet(int bullet) const { return bullet < 0 ? 0 : link_of_bullet_[index(bullet)]; }
@@ -50,6 +51,7 @@ class TreeBody {
   double mass(int link) const { return mass_[index(link)]; }
   /// Returns the mass of all moving parts [kg]: without a fixed base.
   double total_mass() const { return total_mass_; }
+  /// Returns whether the base is part of the world.
   bool fixed_base() const { return body_->hasFixedBase(); }
   /// Returns the momentum of all moving parts [N s].
   Vec3 momentum() const;
@@ -93,18 +95,22 @@ class TreeBody {
   void visit(Archive& a);
 
  private:
+  /// Pose and velocity of a link's inertial frame I.
   struct Frame {
     Pose X_WI = Pose::Identity();
     Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();  // of the centre of mass
   };
+  /// Converts an index that is not negative.
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   /// Adds the links outward from the base, in the order of the joints.
   void build(const scene::Machine& machine);
+  /// Adds a joint and its child link to Bullet's tree.
   void add_joint(const scene::Machine& machine, int joint, int bullet);
   /// Returns base position and orientation followed by every joint's coordinates; the generalised
   /// velocity, as getVelocityVector has it.
   std::vector<double> coordinates() const;
   std::vector<double> velocities() const;
+  /// Sets coordinates and generalised velocity.
   void place(const std::vector<double>& coordinates, const std::vector<double>& velocities);
   /// Computes poses and velocities of all links, and the articulated inertias, once after each
   /// change.

@@ -17,10 +17,12 @@ namespace navvy::vehicle {
 /// the pairs that overlap along x.
 class SweepBroadphase final : public btSimpleBroadphase {
  public:
+  /// Allocates space for at most `most` bodies.
   explicit SweepBroadphase(int most) : btSimpleBroadphase(most) {}
   void calculateOverlappingPairs(btDispatcher* dispatcher) override;
 
  private:
+  /// Returns whether the body of a box is active.
   bool is_active(int handle) const;
 
   std::vector<int> order_, active_;

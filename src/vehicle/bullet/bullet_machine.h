@@ -29,8 +29,10 @@ class BulletMachine {
   BulletMachine(const BulletMachine&) = delete;
   BulletMachine& operator=(const BulletMachine&) = delete;
 
+  /// Returns the articulated tree.
   TreeBody& tree() { return tree_; }
   const TreeBody& tree() const { return tree_; }
+  /// Returns the data the machine was built from.
   const scene::Machine& scene() const { return machine_; }
   /// Rows and bodies for the engine's solver. Some entries are null.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
@@ -46,15 +48,20 @@ class BulletMachine {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }
   /// Returns all colliders and plates that exist.
   std::vector<btMultiBodyLinkCollider*> all_colliders() const;
+  /// Returns the link that a collider moves with.
   int link_of(const btMultiBodyLinkCollider& collider) const {
     return tree_.link_of_bullet(collider.m_link);
   }
+  /// Returns the wheels with their tyres and tracks.
   MachineWheels& wheels() { return wheels_; }
 
   /// Takes the joint from the drive until the drive's next command.
   void set_joint(int joint, const JointInput& input);
+  /// Sets the drive's command. Joints taken by set_joint return to it.
   void set_drive(const DriveInput& input) { drive_.set(input); }
+  /// Sets or releases a joint's brake.
   void set_brake(int joint, bool on) { joints_.set_brake(joint, on); }
+  /// Returns the command that the drive follows now.
   const DriveInput& drive() const { return drive_.input(); }
   /// Adds a force [N] at p_W for the next step, or applies an impulse [N s, N m s] at once. Both
   /// are counted as external.
@@ -94,10 +101,14 @@ class BulletMachine {
   }
   /// Returns the pump's state; zeros without a pump.
   PumpState pump() const { return {joints_.pump().flow(), joints_.pump().pressure()}; }
+  /// Returns the state of the combustion engine; zeros without one.
   const CombustionEngineState& engine() const { return drive_.engine(); }
-  double work() const { return joints_.work(); }                      ///< [J]
-  const Vec3& ground_impulse() const { return ground_impulse_; }      ///< of the last step [N s]
-  const Vec3& external_impulse() const { return external_impulse_; }  ///< since the start [N s]
+  /// Returns the work of joints and drive since the start [J].
+  double work() const { return joints_.work(); }
+  /// Returns the ground's impulse in the last step [N s].
+  const Vec3& ground_impulse() const { return ground_impulse_; }
+  /// Returns the sum of external impulses since the start [N s].
+  const Vec3& external_impulse() const { return external_impulse_; }
 
   /// Visits all state between two steps. A loaded machine continues exactly as the saved one did.
   void visit(Archive& a);
@@ -113,9 +124,13 @@ class BulletMachine {
   void add_colliders();
   void add_steel();
   void add_rock();
+  /// Makes the collider of one link's shape, stiff but not rigid.
   std::unique_ptr<btMultiBodyLinkCollider> make_collider(const LinkShape& shape, int link);
+  /// Moves all colliders to the present poses.
   void place_colliders();
+  /// Computes the bounding box of the base link's shape.
   void box(btVector3& low, btVector3& high) const;
+  /// Sets Bullet's activation state of all colliders.
   void set_active(bool active);
 
   // Each member refers to the members before it.

@@ -47,7 +47,9 @@ class ContactCandidates {
  public:
   using Machines = std::vector<std::unique_ptr<BulletMachine>>;
 
+  /// Collects all shapes at their present poses. Call it once per step.
   void gather(const Machines& machines, const std::vector<Mover>& movers);
+  /// Returns the shapes collected last.
   const std::vector<MetBody>& all() const { return bodies_; }
 
   /// Returns the contact of a disc that slides with `friction` on a body, if they overlap. Costs
@@ -56,6 +58,7 @@ class ContactCandidates {
                                                         double friction, btCollisionWorld& world);
 
  private:
+  /// Collects the shapes of one machine.
   void gather(BulletMachine& machine);
 
   std::vector<MetBody> bodies_;

@@ -19,6 +19,7 @@ namespace navvy::vehicle {
 /// [docs/machines.md, materials]. Costs nothing without a table.
 class ContactMaterials {
  public:
+  /// Takes the table of material pairs; an empty one disables this class.
   explicit ContactMaterials(scene::Materials table);
   ContactMaterials(const ContactMaterials&) = delete;  // pairs_ points into table_
   ContactMaterials& operator=(const ContactMaterials&) = delete;
@@ -39,8 +40,11 @@ class ContactMaterials {
     const BulletMachine* machine = nullptr;
     int link = 0;
   };
+  /// Returns the index of a material, -1 if the table has none of this name.
   int index_of(const std::string& material) const;
+  /// Returns whether a side is the ground or a fixed body.
   static bool stands(const Side& side);
+  /// Returns the side of a contact that an object belongs to.
   Side side(const btCollisionObject& object, const btCollisionObject& ground) const;
   /// Returns the pair of a manifold; null if one side has no material.
   const scene::MaterialPair* pair(const Side& a, const Side& b) const;

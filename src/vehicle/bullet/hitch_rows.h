@@ -19,7 +19,9 @@ class HitchRows final : public MultibodyRows {
 
   /// Closes or opens the hitch. @throws InputError for an eye that is out of the hook's reach.
   void set(bool closed);
+  /// Returns whether the hitch is closed.
   bool closed() const { return closed_; }
+  /// Returns the state after the last step.
   HitchState state() const;
 
   // Bullet calls this in every step.
@@ -28,10 +30,13 @@ class HitchRows final : public MultibodyRows {
   /// Converts the impulses of a step of dt [s] to the force. Call it after the solver.
   void end_step(double dt);
 
+  /// Visits whether it is closed, and the force.
   void visit(Archive& a);
 
  private:
+  /// Returns the position of the hook in W [m].
   Vec3 hook() const { return parent_.link(hitch_.parent_link).X_WL * hitch_.hook; }
+  /// Returns the position of the eye in W [m].
   Vec3 eye() const { return child_.link(hitch_.child_link).X_WL * hitch_.eye; }
   /// Sets the Jacobians of a row: parent minus child, translated along `J_W` and rotated about
   /// `L_W` at their points.

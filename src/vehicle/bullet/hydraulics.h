@@ -23,10 +23,12 @@ class Hydraulics {
   int of_joint(int joint) const { return of_joint_[static_cast<std::size_t>(joint)]; }
   /// Returns the joint that a cylinder moves.
   int joint(int cylinder) const { return at(cylinder).map.joint(); }
+  /// Returns the number of cylinder entries of the machine.
   int count() const { return static_cast<int>(cylinders_.size()); }
 
   /// Sets the joint position [rad|m] of a cylinder.
   void place(int cylinder, double q);
+  /// Returns length, lever and pins at the present position.
   const CylinderGeometry& geometry(int cylinder) const { return at(cylinder).geometry; }
   /// Returns the limits of the joint's effort and speed at that position.
   const CylinderLimits& limits(int cylinder) const { return at(cylinder).limits; }

@@ -31,6 +31,7 @@ struct Actuator {
   // Position at which the brake holds it [rad|m].
   double held = 0;
 
+  /// Visits servo, effort and brake.
   void visit(Archive& a);
 };
 
@@ -44,6 +45,7 @@ class MachineJoints {
   /// object.
   MachineJoints(const scene::Machine& machine, TreeBody& tree);
 
+  /// Returns the state of a joint. @throws std::out_of_range.
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
   const Actuator& operator[](int joint) const {
     return actuators_.at(static_cast<std::size_t>(joint));
@@ -86,6 +88,7 @@ class MachineJoints {
   JointServo::Demand hold(int joint, double dt);
   /// Returns the share of its oil that every function gets.
   double share_oil(double dt);
+  /// Returns whether the drive turns this joint's wheel.
   bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }
 
   // All vectors are by joint, except the cylinders inside `hydraulics_` and `demands_`, which has

@@ -39,6 +39,7 @@ class MachineDrive {
 
   /// Returns the torque of the half shaft to a wheel in the last step [N m].
   double shaft_torque(int wheel) const { return shaft_.at(static_cast<std::size_t>(wheel)); }
+  /// Returns the state of the combustion engine; zeros without one.
   const CombustionEngineState& engine() const { return line_->engine(); }
 
   /// Visits the command and the state of the drive line. Visit joints and wheels before.

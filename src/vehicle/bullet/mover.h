@@ -18,6 +18,7 @@ class Mover {
   /// @throws InputError, FileError for shapes that cannot be built.
   explicit Mover(const scene::Machine& machine);
 
+  /// Returns one fixed body per link with shapes.
   const std::vector<std::unique_ptr<BulletMachine>>& bodies() const { return bodies_; }
   /// Moves the bodies to these poses with these velocities, by link of the machine. A body at rest
   /// wakes no other body.

@@ -22,6 +22,7 @@ namespace navvy::vehicle {
 /// this is state: a loaded body sleeps on as the saved one.
 class Rest {
  public:
+  /// Returns whether the body sleeps.
   bool asleep() const { return asleep_; }
   /// Wakes the body because something pushes it.
   void disturb() { asleep_ = false, still_ = 0; }
@@ -42,6 +43,7 @@ class Rest {
   /// one.
   void feel(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high);
 
+  /// Visits the rest time and the recorded ground.
   void visit(Archive& a);
 
  private:

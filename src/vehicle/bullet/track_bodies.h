@@ -28,11 +28,13 @@ class TrackBodies {
     std::vector<Disc> discs;
     double width = 0;  // [m]
   };
+  /// Returns the discs of a track and builds them on first use.
   Track& running_track(std::size_t machine, std::size_t wheel, const scene::Wheel& about,
                        const Vec3& p_sprocket);
   /// Collects the bodies whose boxes overlap the track's box in near_.
   void look_round(const BulletMachine& own, const Track& running_track, const Pose& X_WC,
                   const ContactCandidates& bodies);
+  /// Finds the contacts of a track with the bodies in near_.
   void touch(Track& running_track, const Pose& X_WC, const scene::Wheel& about,
              btCollisionWorld& world);
 

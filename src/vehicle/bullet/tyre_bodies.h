@@ -30,15 +30,20 @@ class TyreBodies {
   void visit(Archive& a, Machines& machines, const std::vector<Mover>& movers);
 
  private:
+  /// Contact of one strip and the body it belongs to.
   struct Touch {
     terramechanics::BodyTouch at;
     const MetBody* body = nullptr;
   };
 
+  /// Returns the disc of a wheel's strips and builds it on first use.
   Disc& disc(std::size_t machine, std::size_t wheel, const scene::Wheel& about);
+  /// Adds the forces of bodies on one tyre.
   void push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel,
                  btCollisionWorld& world, double dt);
+  /// Finds the contacts of a disc with the bodies of other machines.
   void touch(const BulletMachine& own, Disc& disc, double friction, btCollisionWorld& world);
+  /// Adds the forces of the contacts of one contact strip.
   void push_track(BulletMachine& own, std::size_t wheel, std::size_t track, double dt);
 
   ContactCandidates bodies_;    // bodies of this step

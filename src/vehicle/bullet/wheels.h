@@ -40,6 +40,7 @@ struct MachineWheel {
   terramechanics::TrackBodyShear body_shear;
   Vec3 body_p_C = Vec3::Zero();
 
+  /// Visits tyre, track and brake; TyreBodies visits the rest.
   void visit(Archive& a);
 };
 
@@ -55,8 +56,10 @@ class MachineWheels {
 
   /// Returns the number of wheels, in the order of machine.wheels.
   std::size_t size() const { return wheels_.size(); }
+  /// Returns a wheel. The index is not checked.
   MachineWheel& operator[](std::size_t i) { return wheels_[i]; }
   const MachineWheel& operator[](std::size_t i) const { return wheels_[i]; }
+  /// Returns all wheels.
   std::vector<MachineWheel>& all() { return wheels_; }
 
   /// Adds the tyres' forces [N] to the tree for this step and returns their impulse [N s].
@@ -66,6 +69,7 @@ class MachineWheels {
   terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
   /// Returns the same for a crawler's track.
   terramechanics::TrackMotion track_motion(const MachineWheel& wheel) const;
+  /// Returns the data of a wheel.
   const scene::Wheel& about(std::size_t i) const { return machine_.wheels[i]; }
 
   /// Returns pose and forces after the last step, for outputs and ruts.

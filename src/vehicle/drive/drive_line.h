@@ -139,8 +139,10 @@ class DriveLine {
     double share = 1;
     SpeedGovernor governor;
   };
+  /// Makes a line of these groups, with an engine for a line of one group.
   DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
             const std::optional<scene::CombustionEngine>& engine = std::nullopt);
+  /// Returns the group of all driven wheels.
   static Group all_driven(const std::vector<DriveWheel>& wheels);
   /// Returns half the machine: the driven wheels of the left or right side.
   static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);

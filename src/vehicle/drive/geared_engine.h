@@ -28,6 +28,7 @@ class GearedEngine {
   /// @throws InputError without gears, or without two points of a torque curve.
   GearedEngine(scene::CombustionEngine about, bool drives_pump);
 
+  /// Returns the engine's data.
   const scene::CombustionEngine& about() const { return about_; }
   /// Returns the overall ratio from engine to differential carrier, for gear n (1-based) or for the
   /// engaged gear.
@@ -56,8 +57,11 @@ class GearedEngine {
   void visit(Archive& a);
 
  private:
+  /// Returns the number of gears.
   int count() const { return static_cast<int>(about_.gears.size()); }
+  /// Returns the torque at full throttle [N m] at an engine speed [rad/s].
   double full_torque(double speed) const;
+  /// Returns the braking torque without fuel [N m] at a speed [rad/s].
   double drag(double shaft) const;
   /// Returns the engine's speed [rad/s] for the speed of the other side of its clutch.
   double engine_speed(double shaft) const;

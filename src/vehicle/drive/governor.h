@@ -47,6 +47,7 @@ class SpeedGovernor {
   /// Restarts the governor from this speed [m/s], while the brakes are on.
   void reset(double speed);
 
+  /// Visits the ramp and the integral.
   void visit(Archive& a);
 
  private:

@@ -20,6 +20,7 @@ SteerAngles linkage_angles(const scene::LinkageDrive& drive, double motor);
 struct MotorRange {
   double right = 0, left = 0;
 };
+/// Returns the range of the motor.
 MotorRange motor_range(const scene::LinkageDrive& drive);
 /// Returns how much further the outer wheel is turned than a common centre asks for, for the angle
 /// of the inner one [rad]. Positive if it turns too far, as in a parallelogram; 0 if the wheels are

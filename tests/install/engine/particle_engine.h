@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "vehicle/engine_factory.h"
+#include "vehicle/physics_engine_factory.h"
 
 namespace example {
 

@@ -14,7 +14,7 @@ class PhysicsEngine;
 
 /// Makes an empty physics engine for `gravity` [m/s2, axes of W] and the contact materials of a
 /// scene. The world adds machines to it afterwards.
-using EngineFactory = std::function<std::unique_ptr<PhysicsEngine>(
+using PhysicsEngineFactory = std::function<std::unique_ptr<PhysicsEngine>(
     const Vec3& gravity, const scene::Materials& materials)>;
 
 }  // namespace navvy::vehicle
