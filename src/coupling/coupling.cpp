@@ -17,6 +17,7 @@ constexpr double kForceCutoff = 3.0;
 
 }  // namespace
 
+// Adds machines and shells in the scene's order, so that their indices follow it.
 Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
                    vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
@@ -52,6 +53,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
   add_hitches(world, engine, [this](int machine) { return index(machine); });
 }
 
+// Passes the buckets that may reach into a bed, whose soil the solver then excludes.
 double Coupling::payload(const ToolLoad& tool) const {
   const auto pose = [&](const ToolLoad& t) {
     return engine(t.machine).link(index(t.machine), t.link).X_WL;
@@ -67,6 +69,7 @@ double Coupling::payload(const ToolLoad& tool) const {
   return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
+// Blades hold no soil, so only buckets and beds are passed.
 std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
   std::vector<soil::PlacedTool> containers;
   for (const ToolLoad& tool : tools_) {
@@ -79,6 +82,7 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
   return solver_.held(particles, containers);
 }
 
+// Machines move first; the soil then answers over the same interval.
 void Coupling::step(double dt) {
   // Soil acts over the interval that starts at these poses.
   std::vector<Pose> before;
@@ -102,6 +106,7 @@ void Coupling::step(double dt) {
   ++steps_;
 }
 
+// Obstacles take the pose at the start of the step and the present velocity.
 void Coupling::show_movers() {
   std::vector<vehicle::LinkState> links;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -113,6 +118,7 @@ void Coupling::show_movers() {
   }
 }
 
+// Sends poses, velocities and inverse masses, and applies the impulses that come back.
 void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_before) {
   std::vector<soil::ToolMotion> motions(tools_.size());
   std::vector<soil::ToolImpulse> impulses(tools_.size());
@@ -145,6 +151,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
   }
 }
 
+// Counts tyres in the order of Ruts, which excludes tracks.
 std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
   std::vector<soil::SupportArea> out;
   // Index of the tyre in Ruts.
@@ -162,6 +169,7 @@ std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
   return out;
 }
 
+// Collects all tyres and tracks before pressing any.
 void Coupling::press_ruts(double dt) {
   // Press all at once: what one wheel leaves another may bear.
   std::vector<LoadedTyre> tyres;

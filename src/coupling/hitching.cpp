@@ -8,6 +8,7 @@
 
 namespace navvy::coupling {
 
+// Checks the distance here, where file and line are known.
 void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
                  const std::function<int(int)>& index) {
   if (scene.hitches.empty()) return;

@@ -40,6 +40,7 @@ Pose base_pose(const scene::Machine& machine, const Pose& X_WM) {
   return machine.links.empty() ? X_WM : X_WM * machine.links[0].X_ML;
 }
 
+// Fits a plane to the ground under the wheels, tilts the machine with it, and raises it.
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   Pose X_WM = placed.X_WM;
   if (!placed.on_ground) return X_WM;

@@ -16,12 +16,14 @@ constexpr double kFarthest = 4;
 
 }  // namespace
 
+// Overlap of two intervals across the direction of travel.
 double PushedSoil::covered(double off, double width, double cell) {
   const double low = std::max(off - 0.5 * cell, -0.5 * width),
                high = std::min(off + 0.5 * cell, 0.5 * width);
   return std::max(0.0, (high - low) / cell);
 }
 
+// Keeps the layers apart, so that each soil is laid down as itself.
 void PushedSoil::take(const Place& place, double depth) {
   const double height = ground_.height(place.ix, place.iy);
   Load load{place, {}};
@@ -29,6 +31,7 @@ void PushedSoil::take(const Place& place, double depth) {
   if (!load.layers.empty()) loads_.push_back(std::move(load));
 }
 
+// Walks outward column by column until the strip is as wide as the tyre or track.
 std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
                                                  const std::function<bool(int, int)>& borne) const {
   const double cell = ground_.cell();
@@ -68,6 +71,7 @@ void PushedSoil::spread(const heightfield::SoilLayer& layer, const std::vector<S
   }
 }
 
+// Loosens the soil before it is laid down.
 void PushedSoil::deposit_down(const std::function<bool(int, int)>& borne) {
   const std::vector<scene::Soil>& soils = ground_.setup().soils;
   for (const Load& load : loads_) {

@@ -14,6 +14,7 @@ constexpr double kSameHeight = 1e-3;
 
 }  // namespace
 
+// Compares heights to detect soil that was added or removed since.
 void RutMemory::find(double surface) {
   if (std::abs(surface - height) <= kSameHeight) return;
   if (surface > height) {
@@ -27,6 +28,7 @@ void RutMemory::find(double surface) {
   if (on_floor || surface < floor_height) floor_pressure = floor_height = 0;
 }
 
+// Fresh soil and the ground below it are pressed by the same plate, each from its own history.
 RutMemory::Press RutMemory::press(const scene::Soil& soil, double width, double surface,
                                   double borne, double at_most) {
   if (borne <= pressure) return {};

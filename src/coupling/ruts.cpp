@@ -20,6 +20,7 @@ constexpr double kBearingTime = 0.3;
 
 }  // namespace
 
+// Excess soil leaves the column before the rest is compacted to its new height.
 void Ruts::press_column(const PushedSoil::Place& place, double pressure, const Press& press) {
   const int ix = place.ix, iy = place.iy;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
@@ -45,6 +46,7 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   memory.borne.height = ground_.height(ix, iy);
 }
 
+// Low-pass filters with the time constants described in the header.
 void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                            double interval) {
   const double now = wheel.force_W.z() - wheel.body_W.z();
@@ -59,6 +61,7 @@ void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& 
   slip -= std::expm1(-way / tyre.radius) * (wheel.slip - slip);
 }
 
+// Lays displaced soil down after all tyres have pressed, then holds the columns under them.
 void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
   under_.clear();
   bearing_.resize(tyres.size());
@@ -76,6 +79,7 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
   ground_.hold(std::exchange(under_, {}));
 }
 
+// Derives the size of the patch from the soil under the wheel's middle.
 void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                        const Bearing& bearing, double interval) {
   const Pose& X = wheel.X_WWheel;
@@ -109,6 +113,7 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
   }
 }
 
+// Visits every column whose centre is in the rectangle of the patch.
 void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside) {
   const terramechanics::TyrePatch& patch = press.patch;
   const Vec2 across(-along.y(), along.x());

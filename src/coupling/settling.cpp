@@ -14,6 +14,7 @@
 
 namespace navvy::coupling {
 
+// Repeats the run's sequence of engine and ruts without the soil solver.
 std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
   std::vector<Settled> out(scene.machines.size());
   const auto engine = vehicle::make_bullet_engine(scene.gravity, scene.materials);

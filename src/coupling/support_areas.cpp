@@ -8,6 +8,7 @@
 namespace navvy::coupling {
 namespace {
 
+// Twins are two areas side by side.
 void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                soil::SupportArea footing, std::vector<soil::SupportArea>& support_areas) {
   const Pose& X = wheel.X_WWheel;
@@ -52,6 +53,7 @@ void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier,
 
 }  // namespace
 
+// A crawler has its carrier's motion, a tyre its own.
 void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
                        int index, int wheel, double load, double ready,
                        std::vector<soil::SupportArea>& support_areas) {

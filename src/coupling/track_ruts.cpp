@@ -13,6 +13,7 @@
 
 namespace navvy::coupling {
 
+// Excess soil leaves the column before the rest is compacted to its new height.
 void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, double most) {
   const int ix = place.ix, iy = place.iy;
   const double width = place.width;
@@ -28,6 +29,7 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   memory.height = ground_.height(ix, iy);
 }
 
+// Finds the heaviest segment over each column first, then presses every column once.
 void TrackRuts::press(const std::vector<terramechanics::TrackPatch>& patches, double most,
                       bool alone) {
   // A column between two segments bears the heavier one once; each segment presses only by the

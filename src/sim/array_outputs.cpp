@@ -76,6 +76,7 @@ void ArrayOutputs::require_elements(const ArrayChannel& channel) {
                          "an array needs a shape with elements", "give it lengths > 0"});
 }
 
+// Allocates the storage once; publishing then never allocates.
 int ArrayOutputs::add(ArrayChannel channel) {
   // Checked at the declaration, before the first step.
   require_elements(channel);
@@ -90,6 +91,7 @@ int ArrayOutputs::add(ArrayChannel channel) {
   return static_cast<int>(channels_.size()) - 1;
 }
 
+// Counts the publication, which readers use to detect a new value.
 std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X_WF) {
   require_index("array", array, channels_.size());
   Value& value = values_[static_cast<std::size_t>(array)];

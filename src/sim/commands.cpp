@@ -24,6 +24,7 @@ void require_finite(const std::string& what, double value) {
 
 }  // namespace
 
+// A handle of another world may have indices that do not exist here.
 void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput& input) const {
   require_machine(joint.machine(), parts_->description);
   const auto& joints =
@@ -36,6 +37,7 @@ void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput
                  input.target);
 }
 
+// Gears exist only for drives with a combustion engine.
 void Commands::require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const {
   require_machine(machine.index(), parts_->description);
   require_finite("speed of the drive", input.speed);
@@ -71,6 +73,7 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseIn
                            "set <navvy:engine>kinematic</navvy:engine>, and leave its base free"});
 }
 
+// Joints without a brake would ignore the command, so report it.
 void Commands::require_brake(const JointHandle& joint) const {
   require_valid(joint, vehicle::JointInput{});
   const scene::Machine& machine =

@@ -54,6 +54,7 @@ FrameBuilder::FrameBuilder(const World& world)
 
 FrameBuilder::~FrameBuilder() = default;
 
+// Rewrites everything that moves, and only the changed part of the ground.
 const scene::Frame& FrameBuilder::build() {
   // Clear the vectors without freeing them: frames of one world have similar sizes.
   frame_.time = world_.time();
@@ -71,7 +72,7 @@ void FrameBuilder::place_window() {
   const int nx = std::min(ground.nx(), kWindow), ny = std::min(ground.ny(), kWindow);
   Vec2 low = ground.origin() + 0.5 * ground.cell() * Vec2(ground.nx(), ground.ny()), high = low;
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
-    const Vec2 p = world_.machine(static_cast<int>(m)).link(0).pose().translation().head<2>();
+    const Vec2 p = world_.machines().at(static_cast<int>(m)).link(0).pose().translation().head<2>();
     low = m == 0 ? p : Vec2(low.cwiseMin(p));
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
@@ -100,6 +101,7 @@ void FrameBuilder::place_window() {
   out.revision = 0;
 }
 
+// Cuts each changed rectangle to the window.
 void FrameBuilder::update_ground() {
   const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
@@ -131,12 +133,13 @@ void FrameBuilder::copy_ground(const heightfield::Terrain& terrain,
     }
 }
 
+// Visuals move with their links; cylinders follow from joint positions.
 void FrameBuilder::add_machines() {
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
     const scene::Machine& machine = world_.description().machines[m].machine;
     const int index = static_cast<int>(m);
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
-      const Pose X_WL = world_.machine(index).link(static_cast<int>(l)).pose();
+      const Pose X_WL = world_.machines().at(index).link(static_cast<int>(l)).pose();
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
@@ -144,6 +147,7 @@ void FrameBuilder::add_machines() {
   }
 }
 
+// Draws barrel and rod between the pins, and the bars of a linkage.
 void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   const scene::Machine& machine =
       world_.description().machines[static_cast<std::size_t>(m)].machine;
@@ -152,9 +156,9 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
   // The pins follow from the joint's angle; a cylinder has no state of its own.
-  const auto geometry =
-      vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
-  const Pose X_WL = world_.machine(m).link(base).pose();
+  const auto geometry = vehicle::cylinder_geometry(machine, cylinder,
+                                                   world_.machines().at(m).joint(joint).position());
+  const Pose X_WL = world_.machines().at(m).link(base).pose();
   const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel,
                        double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
@@ -169,13 +173,14 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   // pivot.
   const Vec3 pin = cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod *
                                            (geometry.p_rod - cylinder.p_rocker);
-  const Vec3 on_bucket = world_.machine(m).link(rod).pose() * cylinder.p_coupler;
+  const Vec3 on_bucket = world_.machines().at(m).link(rod).pose() * cylinder.p_coupler;
   for (const double aside : {-kLinkageAside, kLinkageAside}) {
     add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
     add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
   }
 }
 
+// Copies positions as floats relative to one block.
 void FrameBuilder::add_particles() {
   const heightfield::Ground& ground = world_.ground();
   const std::vector<soil::Particle> particles = parts(world_).soil.particles();
@@ -206,6 +211,7 @@ void FrameBuilder::add_particles() {
   plates_->keep_off(out, kOffPlates * out.radius, 2 * out.radius);
 }
 
+// Fixed, on a link, or following a machine's heading.
 scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   scene::FrameCamera out;
   out.fov = camera.fov;
@@ -224,7 +230,7 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
     const int link = camera.kind == scene::Camera::Kind::kOnLink
                          ? std::max(0, machine.link_index(camera.link))
                          : 0;
-    X = world_.machine(m).link(link).pose();
+    X = world_.machines().at(m).link(link).pose();
     if (camera.kind == scene::Camera::Kind::kChase) {
       const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
       X.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();

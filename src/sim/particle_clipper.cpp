@@ -43,11 +43,13 @@ ParticleClipper::ParticleClipper(const World& world) : world_(world) {
   }
 }
 
+// Tests each particle against each shell; most fail the first, cheap test.
 void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, double reach) const {
   const std::size_t count = particles.position.size() / 3;
   particles.room.assign(count, static_cast<float>(reach));
   for (const Tool& tool : tools_) {
-    const Pose X_WT = world_.machine(tool.machine).link(tool.link).pose(), X_TW = X_WT.inverse();
+    const Pose X_WT = world_.machines().at(tool.machine).link(tool.link).pose(),
+               X_TW = X_WT.inverse();
     // Most particles are far from any tool: a sphere around the shell's box excludes them.
     const geometry::Box box = geometry::bounds(tool.geometry.shell());
     const Vec3 centre = X_WT * (0.5 * (box.low + box.high));

@@ -50,6 +50,7 @@ int Publisher::declare(ArrayChannel channel) {
   return static_cast<int>(arrays_.channels().size() + new_arrays_.size()) - 1;
 }
 
+// All names were checked at the declaration, so all channels are added or none.
 void Publisher::commit() {
   // The first of the new numbers is the first without an output.
   std::size_t next = numbers_.size() - new_numbers_.size();
@@ -69,6 +70,7 @@ void Publisher::visit(Archive& a) {
   for (std::size_t i = 0; i < numbers_.size(); ++i) a.item(i, [&] { a("value", *numbers_[i]); });
 }
 
+// A sampler that throws in declare leaves no channel behind.
 SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays)
     : sampler_(std::move(sampler)),
       // Read once: a sampler that changed its name or rate would contradict its channels.

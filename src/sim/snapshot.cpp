@@ -28,6 +28,7 @@ void require_scene(Archive& a, const std::string& scene) {
 
 }  // namespace
 
+// Bounds keep time, steps x dt, a number that can be counted.
 void SnapshotHead::visit(Archive& a) {
   // Version 2: samplers follow the coupling; 3: one visit drives hash, save and load.
   a.section("world", 3, [&] {
@@ -40,6 +41,7 @@ void SnapshotHead::visit(Archive& a) {
   });
 }
 
+// The hash of a map stands for its heights, since the scene names only the file.
 scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground) {
   scene::Parameters out = scene::parameters(scene);
   if (ground.setup().map_hash != 0) {
@@ -59,6 +61,7 @@ std::uint64_t hash_of_start(const scene::Parameters& start) {
   return sum.digest();
 }
 
+// Compares parameter by parameter, so that the message can list the differences.
 void SnapshotStart::visit(Archive& a) {
   a.section("start", 1, [&] {
     // First: if the scenes differ, their names say more than a list of parameters.
@@ -94,6 +97,7 @@ struct Front {
 
 }  // namespace
 
+// Reads the head and the ground's section only.
 heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
                                 SnapshotHead* head) {
   try {

@@ -6,6 +6,7 @@
 
 namespace navvy::sim {
 
+// Names differ from the solver's: these are the words of the documentation.
 SoilCounts SoilView::counts() const {
   const soil::SolverStats& stats = parts_->soil.stats();
   SoilCounts out;
@@ -28,6 +29,7 @@ MassLedger SoilView::mass_ledger() const {
           std::move(sums.inserted), error};
 }
 
+// The solver lists its terms in a fixed order.
 std::optional<SoilEnergy> SoilView::energy() const {
   const soil::EnergyAccount* account = parts_->soil.energy();
   if (account == nullptr) return std::nullopt;

@@ -50,6 +50,7 @@ std::string text(const char* format, double value) {
   return out.data();
 }
 
+// Returns the boxes of all collision shapes at the initial joint positions, in W.
 std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X_WB) {
   std::vector<LinkBox> out;
   const scene::Machine& machine = placed.machine;
@@ -65,6 +66,7 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
   return out;
 }
 
+// Returns an error at the line of the machine in the scene.
 Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
             const std::string& value, const std::string& rule, const std::string& remedy) {
   return {Fault::Severity::kError,
@@ -78,6 +80,7 @@ Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
 
 }  // namespace
 
+// Tests every pair of boxes of every pair of machines.
 std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB) {
   std::vector<std::vector<LinkBox>> boxes;
   for (std::size_t m = 0; m < scene.machines.size(); ++m)
@@ -104,6 +107,7 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   return faults;
 }
 
+// Tests wheels by their centres and links by the middle of their shapes.
 std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                 const heightfield::Terrain& ground) {
   std::vector<Fault> faults;
@@ -170,6 +174,7 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
 
 }  // namespace
 
+// Skips the settling if a machine starts inside the ground.
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {

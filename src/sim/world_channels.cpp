@@ -33,6 +33,7 @@ void add_channels(World& world, Inputs& inputs, Outputs& outputs) {
   add_hitch_channels(lists);
 }
 
+// The first name decides whether the link is declared already.
 void add_link(const LinkHandle& link, const std::string& machine, Outputs& outputs) {
   const std::string prefix = machine + "/" + link.name() + "/";
   if (outputs.find(prefix + "pose/x") >= 0) return;

@@ -17,6 +17,7 @@ std::string WorldHashes::state() const {
   return sum.hex();
 }
 
+// Two runs compared row by row show which part differs first.
 std::vector<std::pair<std::string, std::string>> WorldHashes::parts() const {
   std::vector<std::pair<std::string, std::string>> out;
   // Each part starts a sum of its own.

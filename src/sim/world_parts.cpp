@@ -84,6 +84,7 @@ bool WorldParts::has_encoders() const {
                      [](const vehicle::Encoders& e) { return e.size() > 0; });
 }
 
+// Loads are part of the start, so they are counted as inserted mass.
 void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   const scene::MachineInWorld& placed =
       description.machines[static_cast<std::size_t>(tool.machine)];

@@ -23,6 +23,7 @@ heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
 
 }  // namespace
 
+// Tools first: soil in a bucket above a column is not on the column.
 ActivePlaces active_places(const World& world) {
   const std::vector<soil::Particle> particles = parts(world).soil.particles();
   const std::vector<std::uint8_t> held = parts(world).coupling.held(particles);
@@ -45,6 +46,7 @@ ActivePlaces active_places(const World& world) {
   return out;
 }
 
+// Only the surfaces with loose soil need the particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;

@@ -20,6 +20,7 @@ constexpr double kNoFriction = 1e-6;
 
 }  // namespace
 
+// Evaluates the formulas in the header, with their limits without friction.
 BearingFactors BearingFactors::of(double tan_phi) {
   const double phi = std::atan(std::max(tan_phi, 0.0));
   const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi),
@@ -31,6 +32,7 @@ BearingFactors BearingFactors::of(double tan_phi) {
   return out;
 }
 
+// Interpolates between general and local shear by how far the soil has swollen.
 double bearing_capacity(const SoilState& ground, double width, double depth) {
   if (ground.soil == nullptr) return 0;
   const double swell = ground.soil->swell;
@@ -44,6 +46,7 @@ double bearing_capacity(const SoilState& ground, double width, double depth) {
          0.5 * weight * width * n.gamma;
 }
 
+// Flow up to a depth is the sinkage minus the part that the bearing capacity can compact.
 double pushed_depth(const SoilState& ground, double width, double from, double to) {
   if (ground.soil == nullptr || !(to > from)) return 0;
   const auto flown = [&](double z) {
@@ -62,6 +65,7 @@ struct PassivePressure {
   double cohesive = 0, by_depth = 0;
 };
 
+// Uses the factors of local shear, as the header explains.
 PassivePressure passive_pressure(const SoilState& ground) {
   const ShearStrength strength = surface_strength(ground);
   const double tan_phi = kLocal * strength.slope, cos2 = 1 / (1 + tan_phi * tan_phi);
@@ -81,6 +85,7 @@ double passive_resistance(const SoilState& ground, double width, double depth) {
   return width * depth * (p.cohesive + 0.5 * depth * p.by_depth);
 }
 
+// A rim that stands or turns backwards mobilises all of the soil ahead.
 double bulldozing(const SoilState& ground, double width, double radius, double depth,
                   double advance) {
   if (ground.soil == nullptr || !(depth > 0)) return 0;

@@ -33,6 +33,7 @@ Vec2 rim_displacement(const WheelCase& wheel, const scene::Soil& soil, double en
           r * turned * aside / rim};
 }
 
+// Sums pressure and shear over slices of the arc for one entry angle.
 Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   const double r = wheel.radius, shear_radius = r + wheel.grouser;
   const double modulus =
@@ -66,6 +67,7 @@ double rim_speed(double speed, double slip) {
   return slip >= 0 ? speed / (1 - slip) : speed * (1 + slip);
 }
 
+// Finds the entry angle that carries the load, then reads all forces from its arc.
 WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
   // The load grows with the entry angle: bisect between zero and the axle at the surface.
   double low = 0, high = kPi / 2;

@@ -13,6 +13,7 @@ ShearStrength rim_strength(const scene::Soil& soil) {
           std::tan(steel ? soil.tool_friction_angle : soil.friction_angle)};
 }
 
+// Cohesion follows the density; friction does not.
 ShearStrength surface_strength(const SoilState& ground) {
   if (ground.soil == nullptr) return {};
   const scene::Soil& soil = *ground.soil;

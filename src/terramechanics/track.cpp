@@ -157,6 +157,7 @@ std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& ge
   return middle;
 }
 
+// Averages the depth below the ground beside the track, weighted by load.
 double rut_depth(const Step& step, const std::vector<Meeting>& met, const TrackState& state) {
   double depth = 0, load = 0;
   for (std::size_t i = 0; i < met.size(); ++i) {
@@ -190,6 +191,7 @@ ShearStrength track_strength(const scene::Wheel& wheel, const SoilState& ground)
   return ground.soil != nullptr ? surface_strength(ground) : ShearStrength{0, wheel.friction};
 }
 
+// Finds all contacts first: the shear of each depends on those ahead of it.
 TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
                        const GroundQuery& ground, double dt, TrackState& state) {
   TrackForce out;
@@ -249,6 +251,7 @@ TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
   return out;
 }
 
+// Places the rectangle of each loaded contact below its wheel, at the present pose.
 std::vector<TrackPatch> track_patches(const scene::Wheel& wheel, const TrackMotion& motion,
                                       const TrackState& state) {
   std::vector<TrackPatch> out;

@@ -60,6 +60,7 @@ struct Plane {
   double runs = 0;
 };
 
+// A contact from the side has no direction of its own, so use the carrier's x.
 Plane plane_of(const TrackMotion& motion, const Vec3& normal) {
   Plane out;
   Vec3 ahead = motion.X_WC.linear().col(1).cross(normal);
@@ -196,6 +197,7 @@ class Step {
 
 }  // namespace
 
+// Divides the runs between wheels into pieces, and adds up positions and lengths along the path.
 std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& p_sprocket) {
   const scene::Track& track = *wheel.track;
   std::vector<Circle> gear;
@@ -247,6 +249,7 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   return out;
 }
 
+// Grip couples the contacts of a line; the pressure of each depends on its own depth.
 TrackBodyForce track_body_force(const scene::Wheel& wheel,
                                 const std::vector<TrackStation>& stations,
                                 const TrackMotion& motion, const std::vector<TrackTouch>& touches,

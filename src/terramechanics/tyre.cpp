@@ -160,6 +160,7 @@ double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double p
   return std::min(tyre.friction, strength.slope + strength.cohesion / pressure);
 }
 
+// Each strip has its own contact; the wheel's slip and sinkage are their mean.
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground,
                      double dt, TyreState& state) {
   TyreForce out;

@@ -7,6 +7,7 @@
 
 namespace navvy::terramechanics {
 
+// All velocities are relative to the body.
 Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch,
                      double dt, Vec2* bristle) {
   const Vec3 axis = motion.X_WWheel.linear().col(1);

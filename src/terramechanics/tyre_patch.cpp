@@ -22,6 +22,7 @@ double TyrePatch::tread_depth(double ahead) const {
   return std::clamp(sinkage + deflection - ahead * ahead / (2 * radius), 0.0, sinkage);
 }
 
+// Iterates length, pressure and sinkage, which depend on each other.
 TyrePatch tyre_patch(const scene::Wheel& tyre, const scene::Soil& soil, double load) {
   TyrePatch patch;
   patch.radius = tyre.radius;

@@ -68,6 +68,7 @@ double yielding(const TrackShear& soil, double k, double stretched, double shear
 
 }  // namespace
 
+// Limits the deflection first, so that the bristle does not wind up while it slides.
 Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                    double limit, double rim_mass, double dt, Vec2& bristle) {
   const auto [k, c] = tread_of(tyre, share, rim_mass, dt);
@@ -79,6 +80,7 @@ Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, dou
   return force;
 }
 
+// Lets the soil recover by rolling, then yield by the force that exceeds its strength.
 Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                  const TrackShear& soil, double rim_mass, double dt, Vec2& bristle,
                  double& sheared) {

@@ -25,6 +25,7 @@ JointEncoder::JointEncoder(const scene::Encoder& about, double position, std::ui
 void JointEncoder::set_slip(double slip) { slip_ = std::clamp(slip, -kMostSlip, kMostSlip); }
 void JointEncoder::set_missed(double share) { missed_ = std::clamp(share, 0.0, 1.0); }
 
+// Counts whole edges since the last call and loses some of them at random.
 void JointEncoder::advance(double position) {
   // A slipping wheel turns by 1 / (1 - s) times the distance that it rolls.
   turned_ += (position - position_) / (2 * kPi) * about_.counts_per_turn / (1 - slip_);
@@ -50,6 +51,7 @@ std::uint64_t JointEncoder::counts() const {
   return counter_ & ((std::uint64_t{1} << about_.bits) - 1);
 }
 
+// Visits everything that decides the counts to come.
 void JointEncoder::visit(Archive& a) {
   // The bounds keep all derived counts within 64 bits.
   constexpr auto kMost = static_cast<std::int64_t>(kMostCounts);
@@ -64,6 +66,7 @@ void JointEncoder::visit(Archive& a) {
   a("dice", dice_);
 }
 
+// Draws one seed per encoder from the machine's.
 Encoders::Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
                    std::uint64_t seed) {
   Random seeds(seed);

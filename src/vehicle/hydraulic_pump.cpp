@@ -12,6 +12,7 @@ constexpr double kSwashTime = 0.3;  // [s] tuned: BulletPump.LiftsWithItsPower o
 
 }  // namespace
 
+// The heaviest load sets the pressure, which with the power limits the flow.
 double HydraulicPump::share(const scene::Pump& pump, const std::vector<OilDemand>& demands,
                             double dt) {
   double asked = 0, load = 0;

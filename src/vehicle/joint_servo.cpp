@@ -20,6 +20,7 @@ constexpr double kLeastShare = 0.01;
 
 }  // namespace
 
+// One law per mode; only positions need a braking distance.
 double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
                                 double dt) const {
   double wanted = input_.target;
@@ -46,6 +47,7 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
   return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
 }
 
+// Slews the valve towards the wanted speed.
 double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
                         double dt) {
   flows_ = false;
@@ -65,6 +67,7 @@ double JointServo::open(const scene::Joint& joint, const JointLimits& limits, do
   return velocity_;
 }
 
+// Effort alone, or a velocity with limits of effort.
 JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits,
                                       double q, double qd, double share, double dt) {
   Demand out;
@@ -97,6 +100,7 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   return out;
 }
 
+// Detects saturation and stall from the effort applied.
 void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q,
                         double qd, double dt) {
   (void)q;
@@ -126,6 +130,7 @@ void JointLimits::visit(Archive& a) {
   a("inertia", inertia);
 }
 
+// Visits the command and everything the next step reads.
 void JointServo::visit(Archive& a) {
   a("input", input_);
   a("velocity", velocity_);

@@ -41,6 +41,7 @@ Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double
   return X_PC0 * joint.X_LcJ * joint_motion(joint, q) * joint.X_LcJ.inverse();
 }
 
+// Each link follows from its parent's pose.
 std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
                                      const std::vector<double>& q) {
   std::vector<Pose> poses(machine.links.size(), X_WB);
@@ -122,6 +123,7 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
   check();
 }
 
+// Inverts the joint's motion if the base is the child.
 Pose CylinderMap::rod_in_base(double q) const {
   Pose motion = Pose::Identity();
   if (prismatic_)
@@ -133,6 +135,7 @@ Pose CylinderMap::rod_in_base(double q) const {
   return base_is_child_ ? X_parent_child.inverse() : X_parent_child;
 }
 
+// Intersects two circles and takes the chosen branch.
 bool CylinderMap::close_linkage(const Vec3& c, Vec3& pin) const {
   // Two circles in the plane normal to the axis: about the rocker pivot and about the bucket's
   // coupler pin.
@@ -150,6 +153,7 @@ bool CylinderMap::close_linkage(const Vec3& c, Vec3& pin) const {
   return across2 > 0;
 }
 
+// Length and lever follow from the pins and the velocity of the rod's pin.
 CylinderGeometry CylinderMap::geometry(double q) const {
   CylinderGeometry g;
   const Pose X = rod_in_base(q);
@@ -183,6 +187,7 @@ CylinderGeometry CylinderMap::geometry(double q) const {
   return g;
 }
 
+// Pressure x area x lever, and flow / (area x lever).
 CylinderLimits CylinderMap::limits(const CylinderGeometry& g) const {
   const double head = head_area(cylinder_), rod = rod_area(cylinder_), lever = std::abs(g.lever);
   // A lever near zero would allow any speed; the lower bound keeps numbers finite.
@@ -196,6 +201,7 @@ CylinderLimits CylinderMap::limits(const CylinderGeometry& g) const {
 
 CylinderLimits CylinderMap::limits(double q) const { return limits(geometry(q)); }
 
+// Samples the whole range of the joint.
 void CylinderMap::check() const {
   if (cylinder_.bore <= 0 || cylinder_.rod < 0 || cylinder_.rod >= cylinder_.bore)
     refuse(cylinder_, std::to_string(cylinder_.rod),

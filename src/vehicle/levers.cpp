@@ -22,6 +22,7 @@ LeverFunction turns(const scene::Machine& machine, const std::string& name, cons
 
 }  // namespace
 
+// Both patterns differ only in which lever moves boom and stick.
 LeverFunctions lever_functions(const scene::Machine& machine) {
   // Effect of a lever to the right or away: an arm that points ahead (+x) is lowered about +y and
   // lifted about -y.

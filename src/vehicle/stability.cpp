@@ -151,6 +151,7 @@ std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engi
 
 }  // namespace
 
+// Inside, the nearest edge counts; outside, the distance to the polygon.
 double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
   if (hull.size() < 3) return 0;
@@ -167,6 +168,7 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   return inside ? least : -least;
 }
 
+// Takes the minimum over all edges of the polygon.
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
                          const Vec2& load_point) {
   TippingLoad out;
@@ -183,6 +185,7 @@ TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass
   return out;
 }
 
+// Weights the links' centres by their masses.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
@@ -194,6 +197,7 @@ Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, 
   return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
 }
 
+// Collects the feet first: margins and loads refer to their polygon.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Stability out;
   out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();

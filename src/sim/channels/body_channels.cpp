@@ -32,6 +32,7 @@ void add_base_channels(const MachineChannels& out) {
          [](vehicle::BaseInput& command) -> double& { return command.duration; });
 }
 
+// One channel per axis, since a channel is one number.
 void add_pose_channels(const LinkHandle& link, const std::string& prefix,
                        const std::string& link_name, Outputs& outputs) {
   for (int i = 0; i < 3; ++i) {
@@ -65,6 +66,7 @@ void add_wheel_channels(const MachineChannels& out) {
   }
 }
 
+// Machines that cannot tip have no such channels.
 void add_stability_channels(const MachineChannels& out) {
   const MachineHandle machine = out.machine;
   if (!machine.stability().free) return;

@@ -41,6 +41,7 @@ auto changing(const MachineChannels& out) {
   };
 }
 
+// Declares the gear, and the motor's speed for a speed source.
 void add_gear(const MachineChannels& out, const scene::CombustionEngine& engine) {
   const auto change = changing(out);
   const bool source = engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
@@ -109,6 +110,7 @@ void add_differential(const MachineChannels& out, const vehicle::Coupled& one) {
 
 }  // namespace
 
+// A speed command releases the brake, since the machine is meant to move.
 void add_drive_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive) return;
@@ -134,6 +136,7 @@ void add_drive_channels(const MachineChannels& out) {
     add_gear(out, *engine);
 }
 
+// Needs one steered wheel on each side.
 void add_steering_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive) return;
@@ -153,6 +156,7 @@ void add_steering_channels(const MachineChannels& out) {
       });
 }
 
+// The half shafts' speeds are the spins of the wheels.
 void add_shaft_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive || built.kinematic) return;

@@ -18,6 +18,7 @@ void add_pump_channels(const MachineChannels& out) {
       [machine = out.machine] { return machine.pump().pressure; });
 }
 
+// The pattern of the machine decides which joint a lever moves.
 void add_lever_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.levers.given) return;

@@ -73,6 +73,7 @@ void add_motion(const MachineChannels& out, const Joint& joint, const JointHandl
 
 }  // namespace
 
+// Names and types come from the data, values from the handle: no name is looked up in a step.
 void add_joint_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   for (std::size_t i = 0; i < built.joints.size(); ++i) {

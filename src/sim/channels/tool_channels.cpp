@@ -43,6 +43,7 @@ void add_tip(const LinkHandle& link, const Vec3& p_tip, const std::string& base,
 
 }  // namespace
 
+// The tip belongs to the bucket of this shell, if there is one.
 void add_tool_channels(const ToolHandle& tool, const ChannelLists& out) {
   const MachineHandle machine = out.world.machines().at(tool.machine());
   const std::string base = machine.name() + "/" + tool.name() + "/";

@@ -13,6 +13,7 @@ constexpr double kFree = kPi - 1e-6;
 
 }  // namespace
 
+// Splits the rotation into the lean of x and the twist about it.
 std::array<std::optional<BallStop>, 3> ball_stops(const Mat3& R, double cone, double twist) {
   std::array<std::optional<BallStop>, 3> out;
   const Vec3 a = Vec3::UnitX(), b = R.col(0), side = a.cross(b);
@@ -37,6 +38,7 @@ BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3
   finalizeMultiDof();
 }
 
+// Adds one row for each stop that exists at the present rotation.
 void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows,
                                       btMultiBodyJacobianData& data,
                                       const btContactSolverInfo& info) {

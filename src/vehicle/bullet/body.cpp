@@ -63,6 +63,7 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
     set_position(static_cast<int>(j), machine.joints[j].initial);
 }
 
+// Orders the joints outward, checks that they form a tree, and passes them to Bullet.
 void TreeBody::build(const scene::Machine& machine) {
   const std::size_t links = machine.links.size();
   // >-2: not in the tree yet, -1: Bullet's base
@@ -183,6 +184,7 @@ void TreeBody::set_position(int joint, double q) {
   moved();
 }
 
+// Frames are those at the centres of mass; `link` converts them.
 void TreeBody::update_kinematics() const {
   // Outward from the base, each link from its parent: Bullet stores joint coordinates, not poses in
   // W.
@@ -225,6 +227,7 @@ void TreeBody::update_factors() const {
   factors_valid_ = true;
 }
 
+// Moves the velocity from the centre of mass to the link's origin.
 LinkState TreeBody::link(int link) const {
   update_kinematics();
   const Frame& frame = frames_[index(link)];
@@ -267,6 +270,7 @@ Vec3 TreeBody::joint_axis(int joint) const {
   return frames_[index(link_of_bullet_[index(k)])].X_WI.linear() * to_eigen(axis);
 }
 
+// Sums over all links that move with the joint.
 double TreeBody::outward_inertia(int joint) const {
   const int k = bullet_of_joint_[index(joint)];
   if (k < 0) return 0;
@@ -302,6 +306,7 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
   }
 }
 
+// Walks from the link to the base.
 void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                             double* work) const {
   update_kinematics();
@@ -324,6 +329,7 @@ void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Ve
   }
 }
 
+// Uses Bullet's factors of the articulated inertia.
 void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                        std::vector<double>& delta) const {
   // Articulated response: the impulse's work on every degree of freedom, divided by the tree's mass
@@ -336,6 +342,7 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
+// Records the impulse as expected support of a body without joints.
 bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                              double dt) {
   std::vector<double> delta;
@@ -379,6 +386,7 @@ Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
   return twist;
 }
 
+// Applies six unit impulses.
 Mat6 TreeBody::inverse_mass(int link) const {
   update_kinematics();
   // Column c is the twist by a unit impulse: about x, y, z, then along them, at the link's origin.
@@ -393,6 +401,7 @@ Mat6 TreeBody::inverse_mass(int link) const {
   return 0.5 * (result + result.transpose());  // symmetric up to rounding
 }
 
+// Adds gravity to every link, then the expected support.
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   // Gravity is a force here, so that all forces take one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
@@ -415,6 +424,7 @@ void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   kinematics_valid_ = false;
 }
 
+// Removes the expected support before the positions move.
 void TreeBody::step_positions(double dt) {
   // Add the solver's changes to the velocities, which then move the positions: semi-implicit Euler.
   body_->processDeltaVeeMultiDof2();
@@ -449,6 +459,7 @@ void TreeBody::stop() {
   kinematics_valid_ = false;
 }
 
+// The base as position and quaternion.
 std::vector<double> TreeBody::coordinates() const {
   const btVector3 p = body_->getBasePos();
   const btQuaternion q = body_->getWorldToBaseRot();
@@ -486,6 +497,7 @@ void TreeBody::place(const std::vector<double>& coordinates,
   }
 }
 
+// Checks what a damaged snapshot could break.
 void TreeBody::visit(Archive& a) {
   // Coordinates and generalised velocities are complete; poses in W follow from them.
   std::vector<double> q = coordinates(), qd = velocities();

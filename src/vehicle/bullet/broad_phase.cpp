@@ -11,6 +11,7 @@ bool SweepBroadphase::is_active(int handle) const {
   return static_cast<const btCollisionObject*>(m_pHandles[handle].m_clientObject)->isActive();
 }
 
+// Sweeps along x, then sorts the pairs by number.
 void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   // The engine drops all pairs after every step, so there are none to keep or to remove here.
   order_.clear();

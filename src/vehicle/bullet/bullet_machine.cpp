@@ -31,6 +31,7 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
     rest_.emplace();
 }
 
+// One collider per link with shapes.
 void BulletMachine::add_colliders() {
   // One compound per link in Bullet's inertial frame; links without collision shapes have none.
   shapes_.resize(machine_.links.size());
@@ -146,6 +147,7 @@ void BulletMachine::box(btVector3& low, btVector3& high) const {
   colliders_[0]->getCollisionShape()->getAabb(colliders_[0]->getWorldTransform(), low, high);
 }
 
+// Sleeping machines only check whether their ground has changed.
 void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
   if (asleep()) {
     btVector3 low, high;
@@ -175,6 +177,7 @@ void BulletMachine::accelerate(const Vec3& gravity, double dt) {
     tree_.step_velocities(gravity, dt);
 }
 
+// Reads the solver's impulses in the order in which the parts depend on each other.
 void BulletMachine::end_step(const GroundQuery& ground, const Vec3& contact, double dt) {
   // Sum of all ground and rock impulses of this step.
   ground_impulse_ = tyre_impulse_ + contact;

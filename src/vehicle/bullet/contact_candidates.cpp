@@ -87,6 +87,7 @@ void ContactCandidates::gather(BulletMachine& machine) {
   }
 }
 
+// Bullet finds the points, the callback averages them.
 std::optional<terramechanics::BodyTouch> ContactCandidates::touch(Disc& disc, const MetBody& body,
                                                                   double friction,
                                                                   btCollisionWorld& world) {

@@ -27,6 +27,7 @@ Vec3 velocity_at(const BulletMachine* machine, int link, const Vec3& p_W) {
 
 }  // namespace
 
+// Builds a square table, so that a pair is one look-up.
 ContactMaterials::ContactMaterials(scene::Materials table) : table_(std::move(table)) {
   for (const scene::MaterialPair& pair : table_.pairs)
     for (const std::string& name : pair.materials)
@@ -95,6 +96,7 @@ void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const
   point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP | BT_CONTACT_FLAG_HAS_CONTACT_CFM;
 }
 
+// Visits the points of every manifold whose sides have materials.
 void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& ground,
                              const Vec3& gravity) {
   if (names_.empty()) return;

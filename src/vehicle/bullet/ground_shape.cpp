@@ -19,6 +19,7 @@ void GroundShape::getAabb(const btTransform&, btVector3& low, btVector3& high) c
   high.setValue(kEverywhere, kEverywhere, kEverywhere);
 }
 
+// Reads the heights of all nodes once, then passes two triangles per cell.
 void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVector3& low,
                                       const btVector3& high) const {
   if (ground_ == nullptr) return;
@@ -70,6 +71,7 @@ Vec3 GroundShape::steepness(int ix, int iy, bool lower) const {
   return {(left - height(1, 1)) / s, (right - height(1, 1)) / s, 1};
 }
 
+// Compares the triangle under the contact with its neighbour across the nearest side.
 Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   if (ground_ == nullptr) return normal_W;
   const terramechanics::GroundLattice lattice = ground_->lattice();

@@ -47,6 +47,7 @@ void HitchRows::aim(int row, const Vec3& J_W, const Vec3& L_W, const Vec3& on_pa
   child_.virtual_work(hitch_.child_link, -J_W, -L_W, on_child, jacobianB(row));
 }
 
+// Three rows hold the eye in the hook, further rows are the ball's stops.
 void HitchRows::createConstraintRows(btMultiBodyConstraintArray& rows,
                                      btMultiBodyJacobianData& data,
                                      const btContactSolverInfo& info) {

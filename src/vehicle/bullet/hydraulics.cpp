@@ -35,6 +35,7 @@ double Hydraulics::oil(int cylinder, double velocity) const {
   return std::abs(piston) * (piston > 0 ? head_area(about) : rod_area(about));
 }
 
+// Flow follows from the velocity that the valve allows.
 OilDemand Hydraulics::demand(int cylinder, double opened, double effort, bool flows) const {
   OilDemand demand{oil(cylinder, opened), 0};
   // The load's pressure is the relief pressure times the effort over the largest effort in that

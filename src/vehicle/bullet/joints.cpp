@@ -21,6 +21,7 @@ bool moves(const scene::Joint& joint) {
 
 }  // namespace
 
+// Adds one row per joint with a servo, and the stops of ball joints.
 MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     : machine_(machine),
       tree_(tree),
@@ -119,6 +120,7 @@ double MachineJoints::share_oil(double dt) {
   return hydraulics_.pump().share(machine_.pump, demands_, dt);
 }
 
+// Two passes, since the share of oil depends on all valves.
 void MachineJoints::begin_step(double dt) {
   // Open all valves first to find the pump's demand; then every function gets its share.
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
@@ -156,6 +158,7 @@ void MachineJoints::begin_step(double dt) {
   }
 }
 
+// Reads efforts, and adds up the work and the oil taken.
 void MachineJoints::end_step(double dt) {
   placed();
   // The effort is the row's impulse over the step, plus the part applied directly.
@@ -182,6 +185,7 @@ void MachineJoints::end_step(double dt) {
   hydraulics_.pump().settle(oil);
 }
 
+// Combines the tree's motion with the servo's result.
 JointState MachineJoints::state(int joint) const {
   const Actuator& a = (*this)[joint];
   const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];

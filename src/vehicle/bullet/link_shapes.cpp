@@ -90,6 +90,7 @@ constexpr double kSteelFriction = 0.6;
 
 }  // namespace
 
+// One convex hull per triangle.
 LinkShape make_steel(const scene::Shell& shell) {
   LinkShape out;
   out.compound = std::make_unique<btCompoundShape>();
@@ -105,6 +106,7 @@ LinkShape make_steel(const scene::Shell& shell) {
   return out;
 }
 
+// The largest friction of the parts applies to the link.
 LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands) {
   LinkShape out;
   if (link.collisions.empty()) return out;

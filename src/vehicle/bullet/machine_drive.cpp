@@ -56,6 +56,7 @@ void MachineDrive::add_row(const std::vector<double>& weight) {
   rows_.push_back(std::make_unique<DifferentialRow>(&tree_.multibody(), weights));
 }
 
+// Follows the links from each wheel to the chassis.
 void MachineDrive::find_axles() {
   // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate, or a
   // caster swivel.
@@ -84,6 +85,7 @@ void MachineDrive::set(const DriveInput& input) {
   for (const int joint : axles_) joints_[joint].driven = true;
 }
 
+// Steering and axle locks are joint commands; wheels get torques.
 void MachineDrive::begin_step(double dt) {
   if (!machine_.has_drive) return;
   steer();
@@ -117,6 +119,7 @@ void MachineDrive::begin_step(double dt) {
   }
 }
 
+// Limited slip depends on the torque through the differential.
 void MachineDrive::couple(double dt) {
   for (std::size_t d = 0; d < coupled_.size(); ++d) {
     const scene::Differential& about = coupled_[d].about;
@@ -151,6 +154,7 @@ void MachineDrive::couple(double dt) {
     rows_.back()->limit(0);
 }
 
+// Splits the rows' impulses into shaft torques.
 void MachineDrive::end_step(double dt) {
   if (!machine_.has_drive) return;
   shaft_ = torque_;
@@ -200,6 +204,7 @@ void MachineDrive::brake(MachineWheel& wheel, double torque, double dt) {
   joints_.servo(wheel.spin_joint).command(back, -torque * dt, torque * dt);
 }
 
+// Shaft torques are outputs, except that limited slip reads them with a speed source.
 void MachineDrive::visit(Archive& a) {
   a("line", *line_);
   a("input", input_);

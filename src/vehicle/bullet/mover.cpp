@@ -7,6 +7,7 @@
 
 namespace navvy::vehicle {
 
+// Builds a machine of one fixed link for each link with shapes.
 Mover::Mover(const scene::Machine& machine) {
   for (std::size_t l = 0; l < machine.links.size(); ++l) {
     scene::Machine body;

@@ -22,6 +22,7 @@ void MultibodyRows::finalizeMultiDof() {
   m_numDofsFinalized = m_jacSizeBoth;
 }
 
+// Fills Bullet's record of a row and lets Bullet compute its effective mass.
 void MultibodyRows::add_row(int row, double velocity, double low, double high,
                             btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) {

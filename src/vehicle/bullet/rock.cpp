@@ -31,6 +31,7 @@ void RockContact::aim(int row, const Vec3& p_W, const Vec3& along) {
   tree_.virtual_work(link_, along, Vec3::Zero(), p_W, jacobianA(row));
 }
 
+// One normal and two friction rows per corner that may touch.
 void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows,
                                        btMultiBodyJacobianData& data,
                                        const btContactSolverInfo& info) {
@@ -68,6 +69,7 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows,
   }
 }
 
+// Sums the corners' impulses and stores their normal parts for the next step.
 void RockContact::settle() {
   // In W, by the directions of the rows.
   impulse_.setZero();

@@ -17,6 +17,7 @@ void ServoConstraint::finalizeMultiDof() {
   jacobianA(2)[offset] = -1;
 }
 
+// The motor's row, then the stops that could be reached in this step.
 void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows,
                                            btMultiBodyJacobianData& data,
                                            const btContactSolverInfo& info) {

@@ -23,6 +23,7 @@ TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t 
   return out;
 }
 
+// One box around the whole track excludes most bodies.
 void TrackBodies::look_round(const BulletMachine& own, const Track& running_track, const Pose& X_WC,
                              const ContactCandidates& bodies) {
   near_.clear();
@@ -39,6 +40,7 @@ void TrackBodies::look_round(const BulletMachine& own, const Track& running_trac
       near_.push_back(&body);
 }
 
+// Tests every disc on both lines.
 void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Wheel& about,
                         btCollisionWorld& world) {
   touches_.clear();
@@ -56,6 +58,7 @@ void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Whe
   }
 }
 
+// Forces act on the carrier, the torque on the sprocket.
 void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t wheel,
                        const ContactCandidates& bodies, btCollisionWorld& world, double dt) {
   MachineWheel& at = own.wheels()[wheel];

@@ -38,6 +38,7 @@ void TyreBodies::touch(const BulletMachine& own, Disc& disc, double friction,
   }
 }
 
+// Only the deepest contact of a strip grips.
 void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t track, double dt) {
   MachineWheel& at = own.wheels()[wheel];
   if (touches_.empty()) {
@@ -59,6 +60,7 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
   }
 }
 
+// Both strips of the wheel, at their offsets along the axle.
 void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel,
                            btCollisionWorld& world, double dt) {
   const scene::Wheel& about = own.wheels().about(wheel);
@@ -74,6 +76,7 @@ void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t 
   }
 }
 
+// Collects all bodies once, then visits every wheel.
 void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world,
                       double dt) {
   if (meets_nobody(machines, movers)) return;
@@ -88,6 +91,7 @@ void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCo
     }
 }
 
+// A machine alone has no bodies to touch, and keeps its old hash.
 void TyreBodies::visit(Archive& a, Machines& machines, const std::vector<Mover>& movers) {
   if (meets_nobody(machines, movers)) return;
   for (std::size_t m = 0; m < machines.size(); ++m)

@@ -26,6 +26,7 @@ Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
 
 }  // namespace
 
+// Resolves joints and links of every wheel once.
 MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
     : machine_(machine), tree_(tree) {
   for (const scene::Wheel& about : machine.wheels) {
@@ -60,6 +61,7 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
   }
 }
 
+// The carrier's motion, with the wheel's spin kept apart.
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
   // From the carrier: the wheel's own link spins, and its pose has no forward direction.
   const LinkState carrier = tree_.link(wheel.carrier_link);
@@ -73,6 +75,7 @@ terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) cons
   return motion;
 }
 
+// Tracks and tyres follow different laws.
 Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
   // Apply to the wheel's link: the force reaches the carrier through the axle, the moment about the
   // axle only the wheel.
@@ -105,6 +108,7 @@ terramechanics::TrackMotion MachineWheels::track_motion(const MachineWheel& whee
   return motion;
 }
 
+// The spin of the sprocket is the track's speed.
 void MachineWheels::push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground,
                                       double dt) {
   MachineWheel& wheel = wheels_[w];

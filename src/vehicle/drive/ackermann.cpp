@@ -48,6 +48,7 @@ Roll AckermannLine::roll(const DriveInput& input) const {
   return {speed, speed * std::tan(std::clamp(input.steer, -most, most)) / drive_.wheelbase};
 }
 
+// Speed from the driven wheels, curvature from the steered ones.
 Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
   double speed = 0, tangent = 0;
   int driven = 0, steered = 0;
@@ -78,6 +79,7 @@ std::optional<double> AckermannLine::steer_angle(const DriveInput& input,
   return wheel.left ? steer.left : steer.right;
 }
 
+// One between the wheels of each driven axle, one between the first axle and the others.
 std::vector<Coupled> AckermannLine::differentials() const {
   // Driven axles from front to rear; twin wheels of a side count as one shaft.
   std::vector<double> axles;

@@ -34,6 +34,7 @@ Roll DifferentialLine::roll(const DriveInput& input) const {
   return {0.5 * (sides.left + sides.right), (sides.right - sides.left) / drive_.track};
 }
 
+// Means of both sides; their difference turns the machine.
 Roll DifferentialLine::rolled(const std::vector<WheelMotion>& motion) const {
   SideSpeeds sides;
   int left = 0, right = 0;
@@ -65,6 +66,7 @@ double DifferentialLine::group_speed(const DriveInput& input, std::size_t group)
   return group == kLeft ? sides.left : sides.right;
 }
 
+// Curvature of the bicycle and of the drive agree at every speed.
 scene::AckermannDrive bicycle_of(const scene::DifferentialDrive& drive) {
   scene::AckermannDrive bicycle;
   static_cast<scene::Powertrain&>(bicycle) = drive;

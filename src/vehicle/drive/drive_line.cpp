@@ -33,6 +33,7 @@ std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive,
 
 }  // namespace
 
+// Reads sides and axles from the links' poses in M.
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine) {
   std::vector<DriveWheel> wheels;
   for (const scene::Wheel& wheel : machine.wheels) {
@@ -109,6 +110,7 @@ double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& w
   return each;
 }
 
+// The governor asks for a force; the engine limits it in the present gear.
 double DriveLine::engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels,
                                 double dt, double pump_power) {
   const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
@@ -130,6 +132,7 @@ double DriveLine::engine_torque(Group& group, const DriveInput& input, const Dri
   return torque / wheels.count;
 }
 
+// Wheels taken by joint commands are left out of their group.
 void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass,
                         double dt, std::vector<double>& torque, double pump_power) {
   // One governor per group, from the mean of its wheels.

@@ -45,6 +45,7 @@ double GearedEngine::fastest(int command) const {
   return about_.curve.back().speed / ratio(command > 0 ? std::min(command, count()) : count());
 }
 
+// Interpolates the curve and fades out above the governed speed.
 double GearedEngine::full_torque(double speed) const {
   const auto& curve = about_.curve;
   if (speed <= curve.front().speed) return curve.front().torque;
@@ -80,6 +81,7 @@ bool GearedEngine::fits(int gear, double carrier) const {
   return (gear == 1 || shaft >= least) && (gear == count() || shaft <= most);
 }
 
+// Tries the gears from the highest down.
 void GearedEngine::shift(int command, double carrier, double torque, double dt) {
   held_ = std::min(held_ + dt, kDwell);
   int next = gear_;
@@ -101,6 +103,7 @@ void GearedEngine::shift(int command, double carrier, double torque, double dt) 
   gear_ = next;
 }
 
+// Both limits at the carrier, from the engine's through the engaged gear.
 GearedEngine::Bounds GearedEngine::bounds(double carrier, double pump_power) const {
   const double r = ratio();
   if (sources(about_))
@@ -111,6 +114,7 @@ GearedEngine::Bounds GearedEngine::bounds(double carrier, double pump_power) con
   return {-hold(gear_, carrier), r * about_.efficiency * torque};
 }
 
+// Converts back from the carrier to the engine's shaft.
 CombustionEngineState GearedEngine::state(double carrier, double torque, double pump_power) const {
   CombustionEngineState out;
   out.gear = gear_;

@@ -20,6 +20,7 @@ double gain_of(const DrivenWheels& wheels, double dt) {
 
 }  // namespace
 
+// Power / speed limits the force, the tractive force limits it at low speed.
 double SpeedGovernor::wheel_torque(const scene::Powertrain& powertrain, double speed,
                                    const DrivenWheels& wheels, double dt, double left) {
   if (wheels.count <= 0) return 0;
@@ -42,6 +43,7 @@ double SpeedGovernor::ask(double speed, const DrivenWheels& wheels, double dt) {
   return wheels.mass * (asked_ - before) / dt + gain_of(wheels, dt) * error + integral_;
 }
 
+// Limits the force and then decides whether the integral may grow.
 double SpeedGovernor::give(double force, double low, double high, const DrivenWheels& wheels,
                            double dt) {
   const double error = asked_ - wheels.spin * wheels.radius;
