@@ -45,6 +45,9 @@ struct TimeShare {
 /// The engine moves the machines to the end of the step. The soil answers, over the same interval,
 /// with impulses that change the links' velocities at once, so the machine receives exactly what
 /// the soil gives. Wheels and rigid bodies read the ground from the columns of the current step.
+///
+/// A step is: move obstacles, step both engines, step the soil with the tools' motion from the
+/// start of the step, apply its impulses, and press ruts every kRutInterval steps.
 class Coupling {
  public:
   /// Adds the machines to the two engines and every shell to the solver. The references must

@@ -80,6 +80,23 @@ class Publisher {
 /// them in sample. A sampler is deterministic: what it publishes is a function of the world and of
 /// its own state, which it visits (a random generator, a delay line). A resumed run is then
 /// bit-identical.
+///
+///   class Inclinometer final : public sim::Sampler {
+///    public:
+///     explicit Inclinometer(const sim::MachineHandle& machine) : base_(machine.link(0)) {}
+///     std::string name() const override { return "inclinometer"; }
+///     double rate() const override { return 50; }
+///     void declare(sim::Publisher& out) override {
+///       tilt_ = out.declare(sim::Channel{"inclinometer/tilt", "rad", "tilt of the base"});
+///     }
+///     void sample(const sim::World&, sim::Publisher& out) override {
+///       out.set(tilt_, std::acos(base_.pose().linear()(2, 2)));
+///     }
+///
+///    private:
+///     sim::LinkHandle base_;
+///     int tilt_ = -1;
+///   };
 class Sampler {
  public:
   virtual ~Sampler() = default;

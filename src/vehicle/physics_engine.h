@@ -26,6 +26,12 @@ using terramechanics::GroundQuery;
 /// The functions below are the core that every engine implements; the capabilities at the end are
 /// optional. Machine, link, joint and wheel indices are those of scene::Machine; poses, velocities
 /// and forces are in W. Not thread-safe.
+///
+/// `coupling` calls an engine in this order: all machines are added before the first step. Then, in
+/// every base step, commands (set_joint, set_drive, set_brake), `step`, reads of states and inverse
+/// masses for the soil, and `apply_impulse_of_step` with the soil's answer. Reads must be cheap:
+/// they occur several times per link and step. A step must depend on the visited state alone, so
+/// that a run continued from a snapshot is bit-identical.
 class PhysicsEngine {
  public:
   virtual ~PhysicsEngine() = default;
