@@ -19,7 +19,7 @@ namespace {
 
 void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  const bool active = world.soil_counts().particles > 0;
+  const bool active = world.soil().counts().particles > 0;
   heightfield::write_geotiff(sim::terrain_view(world, heightfield::SurfaceKind::kMapped), path,
                              active ? kAwake : std::vector<std::string>{});
 #else

@@ -4,9 +4,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/archive.h"
@@ -36,6 +34,16 @@ namespace navvy::sim {
 /// bit-identical results. Lengths and poses are in the world frame W, z up, in SI units. Functions
 /// are grouped by topic: `inputs` and `outputs` by name, `machines` to read, `commands` to drive,
 /// `soil` to measure, `hashes` to compare runs. Not thread-safe.
+///
+///   device::Device device;
+///   sim::World world(scene_io::load_scene("trench.sdf", control::step_kinds()), device);
+///   const int boom = world.inputs().index("excavator/boom_joint/velocity");
+///   const sim::ToolHandle bucket = world.machines().at("excavator").tool("bucket");
+///   while (world.time() < 5) {
+///     world.inputs().set(boom, 0.2);
+///     world.step();
+///   }
+///   std::printf("%.0f N, %.0f kg\n", bucket.force().norm(), bucket.payload());
 class World {
  public:
   /// Builds the ground from the scene (reads the heightmap file if it names one) and places the
@@ -105,50 +113,6 @@ class World {
   void visit(Archive& a);
   /// Hashes of state and start.
   WorldHashes hashes() const { return WorldHashes(*parts_); }
-
-  // Short forms of the functions of the parts.
-  int input(const std::string& name) const { return inputs().index(name); }
-  int output(const std::string& name) const { return outputs().index(name); }
-  void set(int input, double value) { inputs().set(input, value); }
-  double get(int output) const { return outputs().get(output); }
-  void set(const std::string& name, double value) { inputs().set(name, value); }
-  double get(const std::string& name) const { return outputs().get(name); }
-  int machine_count() const { return machines().count(); }
-  MachineHandle machine(const std::string& name) const { return machines().at(name); }
-  MachineHandle machine(int index) const { return machines().at(index); }
-  std::vector<ToolHandle> tools() const { return machines().tools(); }
-  vehicle::HitchState hitch(int hitch) const { return machines().hitch(hitch); }
-  void command(const JointHandle& joint, const vehicle::JointInput& input) {
-    commands().set(joint, input);
-  }
-  void command(const MachineHandle& machine, const vehicle::DriveInput& input) {
-    commands().set(machine, input);
-  }
-  void command(const MachineHandle& machine, const vehicle::BaseInput& input) {
-    commands().set(machine, input);
-  }
-  void brake(const JointHandle& joint, bool on) { commands().set_brake(joint, on); }
-  void couple(int hitch, bool closed) { commands().set_hitch(hitch, closed); }
-  void require_valid(const JointHandle& joint, const vehicle::JointInput& input) {
-    commands().require_valid(joint, input);
-  }
-  void require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) {
-    commands().require_valid(machine, input);
-  }
-  void require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) {
-    commands().require_valid(machine, input);
-  }
-  void require_brake(const JointHandle& joint) { commands().require_brake(joint); }
-  SoilCounts soil_counts() const { return soil().counts(); }
-  MassLedger mass_ledger() const { return soil().mass_ledger(); }
-  std::optional<SoilEnergy> soil_energy() const { return soil().energy(); }
-  std::vector<ActiveParticle> loose_soil() const { return soil().loose_soil(); }
-  std::vector<std::pair<std::string, double>> soil_stage_times() const {
-    return soil().stage_times();
-  }
-  std::uint64_t start_hash() const { return hashes().start(); }
-  std::string state_hash() const { return hashes().state(); }
-  std::vector<std::pair<std::string, std::string>> hash_parts() const { return hashes().parts(); }
 
  private:
   friend WorldParts& parts(World& world);

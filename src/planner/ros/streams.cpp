@@ -41,8 +41,8 @@ void write_map(Bag& bag, const TerrainMap& map, const std::vector<Layer>& layers
 
 void write_machines(Bag& bag, const sim::World& world, std::int64_t time_ns) {
   std::vector<BodyState> bodies;
-  for (int m = 0; m < world.machine_count(); ++m) {
-    const sim::MachineHandle machine = world.machine(m);
+  for (int m = 0; m < world.machines().count(); ++m) {
+    const sim::MachineHandle machine = world.machines().at(m);
     const std::string name = "/" + topic_part(machine.name());
     for (int i = 0; i < static_cast<int>(machine.description().links.size()); ++i)
       bodies.push_back(body_of(machine, i));
