@@ -287,7 +287,7 @@ RunProgress Recorder::progress() const {
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
   out.remaining = wall_time_left(out.duration - out.time, out.real_time_factor);
-  out.particles = world.soil_counts().particles;
+  out.particles = world.soil().counts().particles;
   out.cycles = static_cast<int>(s.session.cycles().size());
   out.frames = s.status.frames;
   out.phase = world.description().machines.empty() ? "" : s.session.phase(0);

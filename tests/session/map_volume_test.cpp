@@ -97,7 +97,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
   for (const double stop : {0.6, 1.5, 2.5, 3.5, 4.5, 6.0, 8.0, 11.0, 11.4, 13.0}) {
     SCOPED_TRACE(stop);
     while (world.time() < stop) session.step();
-    const sim::MassLedger ledger = world.mass_ledger();
+    const sim::MassLedger ledger = world.soil().mass_ledger();
     const sim::ActivePlaces active = sim::active_places(world);
     // Every unit of mass is in one of the books.
     EXPECT_EQ(ledger.error, 0);
@@ -106,7 +106,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     const double held = kilograms_of(active.held), elsewhere = kilograms_of(active.elsewhere),
                  lies = kilograms_of(active.lies);
     // The same question asked in another way.
-    EXPECT_NEAR(held, world.machine(0).tool(0).payload(), 1e-9);
+    EXPECT_NEAR(held, world.machines().at(0).tool(0).payload(), 1e-9);
 
     const heightfield::TerrainView map =
         sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
