@@ -61,8 +61,6 @@ class GroundSurface {
   Vec3f wall_color(int ix, int iy, const Vec3f& normal) const;
   /// Interpolated height and openness at a point of W; false outside.
   bool sample(float x, float y, float& height, float& sun) const;
-  /// Of the ground at the start [m].
-  float mean_height() const { return mean_height_; }
 
  private:
   std::size_t index(int ix, int iy) const {

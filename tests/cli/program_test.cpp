@@ -153,8 +153,8 @@ TEST_F(Program, ReportsBadInputByStatusAndMessage) {
   EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
 }
 
-// Faults that scene_io's corpus (tests/scene_io/broken) cannot hold, as they show only with the
-// ground laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
+// Faults that scene_io's table (broken_scenes.txt) cannot hold, as they show only with the ground
+// laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
 // broken/NAME.txt.
 TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   int files = 0;
@@ -225,7 +225,7 @@ TEST_F(Program, LabJudgesNothingByAToleranceForOtherSetups) {
                  result.at("missed").dump().find(name) != std::string::npos);
   }
   EXPECT_NE(
-      said().find("not judged: soil block, acceleration; its gate holds for a plane so steep"),
+      said().find("not judged: soil block, acceleration; its tolerance applies to a plane so steep"),
       std::string::npos)
       << said();
 }

@@ -23,7 +23,7 @@ Drag drag(const std::string& zone) {
   session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}),
                            shared_device());
   const sim::World& world = session.world();
-  const sim::ToolHandle tool = world.tools().at(0);
+  const sim::ToolHandle tool = world.machines().tools().at(0);
   Drag out;
   int samples = 0;
   while (world.time() < 6.7) {
@@ -35,8 +35,8 @@ Drag drag(const std::string& zone) {
   }
   out.force /= samples;
   out.payload = tool.payload();
-  out.particle_steps = world.soil_counts().particle_steps;
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  out.particle_steps = world.soil().counts().particle_steps;
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
   return out;
 }
 

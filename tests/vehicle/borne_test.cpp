@@ -85,7 +85,8 @@ TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   for (int i = 0; i < 300; ++i) {
     engine->step(dt, ground);
     momentum.z() -= dt * kLower * kGravity;
-    EXPECT_LT((engine->momentum(0) - momentum).norm(), 1e-9) << "what soil is told, step " << i;
+    EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9)
+        << "what soil is told, step " << i;
     // Pushes that come and go, with gaps, so that what is expected is wrong nearly always.
     if (i % 7 < 4) {
       const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),
@@ -97,7 +98,7 @@ TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
     place += dt / kLower * momentum;
   }
   // Rounding of 300 steps.
-  EXPECT_LT((engine->momentum(0) - momentum).norm(), 1e-9 * kLower);
+  EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9 * kLower);
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - place).norm(), 1e-9);
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), spin.z() / (kLower / 12 * 0.72), 1e-9);
 }

@@ -227,8 +227,11 @@ TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
                         engine->link(0, 0).X_WL.translation());
   engine->set_drive(0, {0.4 * top_speed(), 0, false});
   run(*engine, flat(), 1.5, kStep);
-  EXPECT_GT(engine->momentum(1).x(), 0.05 * push);
-  const double lost = (engine->momentum(0) + engine->momentum(1) - Vec3(push, 0, 0)).norm() / push;
+  EXPECT_GT(engine->accounts()->momentum(1).x(), 0.05 * push);
+  const double lost =
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(push, 0, 0))
+          .norm() /
+      push;
   print_value("momentum lost [-]", lost, "below 1e-3", "action and reaction");
   EXPECT_LT(lost, 1e-3);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "heightfield/volume_change.h"
 #include "soil/exchange/deposit_shape.h"
 #include "soil/exchange/exchange_site.h"
 
@@ -13,9 +14,9 @@ constexpr double kRest = 1.2;  // longer than soil must rest before it is booked
 constexpr int kFlat = 50;      // surface of the flat site [cells above datum]
 
 double raised(const Site& site) {
-  double up = 0, down = 0;
-  site.ground.volume_change(up, down);
-  return up - down;
+  const heightfield::testing::VolumeChange change =
+      heightfield::testing::volume_change(site.ground);
+  return change.raised - change.lowered;
 }
 
 std::vector<Particle> cone(const Site& site, double radius, double height, float j0,
@@ -106,7 +107,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
             [](int ix, int iy) { return 0.2 * std::sin(0.2 * ix) * std::cos(0.15 * iy); });
   const std::vector<float> start = site.heights();
   for (int cycle = 0; cycle < 5; ++cycle) {
-    site.wake({8, 8, 32, 28}, -0.55);
+    site.activate({8, 8, 32, 28}, -0.55);
     site.checks(kRest);
     ASSERT_TRUE(site.particles.empty());
     EXPECT_EQ(site.mass_errors(), site.closed());
@@ -130,7 +131,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
 
 TEST(ExchangeDeposit, FlatGroundComesBackAsItWas) {
   Site site({sand()});
-  site.wake({8, 8, 32, 28}, -0.55);
+  site.activate({8, 8, 32, 28}, -0.55);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   EXPECT_EQ(site.mass_errors(), site.closed());

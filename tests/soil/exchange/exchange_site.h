@@ -106,8 +106,8 @@ struct Site {
     }
   }
   /// Wakes a rectangle and keeps what it gives.
-  void wake(const heightfield::CellRect& rect, double z_bottom) {
-    for (Particle& p : exchange.wake(rect, z_bottom, particles)) {
+  void activate(const heightfield::CellRect& rect, double z_bottom) {
+    for (Particle& p : exchange.activate(rect, z_bottom, particles)) {
       p.id = next_id++;
       particles.push_back(p);
     }
@@ -156,7 +156,8 @@ inline Particle particle_at(const Site& site, double x, double y, double z, doub
 }
 
 /// Soil where `inside(x, y, z)` (cells), 8 particles a cell on a lattice, jittered.
-inline std::vector<Particle> fill(const Site& site, const Vec3i& low, const Vec3i& high, float j0,
+inline std::vector<Particle> fill(const Site& site, const Eigen::Vector3i& low,
+                                  const Eigen::Vector3i& high, float j0,
                                   const std::function<bool(double, double, double)>& inside,
                                   double jitter = 0, std::uint16_t soil = 0) {
   std::vector<Particle> out;

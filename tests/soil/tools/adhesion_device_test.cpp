@@ -49,19 +49,19 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity),
                                   [](int, int) { return -10.0; });
   for (const Particle& p : block) twin.points.push_back(reference::from_particle(p));
-  const ContactSettings s;
-  const reference::Reach reach{s.reach,
-                               s.ramp,
-                               s.edge,
-                               s.edge_ramp,
+  const SchemeConstants s;
+  const reference::Reach reach{s.contact_reach,
+                               s.contact_ramp,
+                               s.contact_edge,
+                               s.contact_edge_ramp,
                                kDt * cell * cell,
-                               s.opening * std::sqrt(kGravity * cell),
-                               s.settling * std::sqrt(kGravity * cell),
-                               s.falling * std::sqrt(kGravity * cell),
+                               s.contact_opening * std::sqrt(kGravity * cell),
+                               s.contact_settling * std::sqrt(kGravity * cell),
+                               s.contact_falling * std::sqrt(kGravity * cell),
                                0,
                                0,
                                -1};
-  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), s, cell);
+  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;

@@ -275,9 +275,9 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
 
 TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   Rig rig({rig::sand(35)});
-  const Pose home = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
-  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), home);
-  const auto soil = load_of(rig, home, 1.0, 0.8, 0.4);
+  const Pose start = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
+  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), start);
+  const auto soil = load_of(rig, start, 1.0, 0.8, 0.4);
   rig.solver().insert(soil);
   const double load = mass_of(soil), mass = 0.3 * load, dt = 1.6e-3;
   const Vec3 inertia = mass / 12 * Vec3(1.0, 1.36, 1.64);
@@ -291,9 +291,9 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   ToolMotion& m = driver.motion;
   for (int i = 0; i < 1000; ++i) {
     const Mat3 R = m.X_WT.linear();
-    const Eigen::AngleAxisd turn(R * home.linear().transpose());
-    const Vec3 force = -stiffness * (m.X_WT.translation() - home.translation()) - damping * m.v_WT +
-                       Vec3(0, 0, load * kGravity);
+    const Eigen::AngleAxisd turn(R * start.linear().transpose());
+    const Vec3 force = -stiffness * (m.X_WT.translation() - start.translation()) -
+                       damping * m.v_WT + Vec3(0, 0, load * kGravity);
     const Vec3 torque = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * m.w_WT);
     Mat6 inverse = Mat6::Zero();
     inverse.topLeftCorner<3, 3>() = R * inertia.cwiseInverse().asDiagonal() * R.transpose();
@@ -319,7 +319,7 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5",
               "[docs/validation.md, Buckets and carried loads]");
   EXPECT_LT(rms, 1.5);  // explicit exchange: 15-29; the servo's own motion is about 1
-  EXPECT_LT((m.X_WT.translation() - home.translation()).norm(), 0.05);
+  EXPECT_LT((m.X_WT.translation() - start.translation()).norm(), 0.05);
   EXPECT_NEAR(rig.solver().payload(0, m.X_WT), load, 0.01 * load);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_LT(driver.worst, 1e-5);
