@@ -38,7 +38,7 @@ NAVIGATION = [
     ("Start", ["README.md", "docs/getting_started.md", "docs/questions.md", "docs/glossary.md"]),
     ("How-to", ["docs/howto/*.md"]),
     ("Reference", ["docs/reference/scene.md", "docs/reference/*.md", "scenarios/README.md", "terrain/README.md",
-                   "src/planner/README.md", "src/map/README.md"]),
+                   "src/map/README.md", "src/map/README.md"]),
     ("Theory", ["docs/theory.md", "docs/soil.md", "docs/tools.md", "docs/exchange.md", "docs/machines.md", "docs/bibliography.md"]),
     ("Validation", ["docs/validation_summary.md", "docs/validation.md", "bench/README.md"]),
     ("Development", ["CONTRIBUTING.md", "src/README.md", "kernels/README.md", "tests/README.md", "CHANGELOG.md",
