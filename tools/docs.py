@@ -301,6 +301,11 @@ def text_of(element):
     return " ".join("".join(element.itertext()).split()) if element is not None else ""
 
 
+def escaped(text):
+    """Plain text for a page of reStructuredText."""
+    return re.sub(r"([\\`*|_])", r"\\\1", text)
+
+
 def api_pages(folder):
     """One page of reStructuredText for each module of src/ with public headers: {path: text}."""
     found, out = declared(folder), {}
@@ -321,7 +326,7 @@ def api_pages(folder):
                     # Overloads: as they stand, since Breathe finds them by their arguments only now and then.
                     declaration = "%s %s%s" % (text_of(element.find("type")), name, element.findtext("argsstring") or "")
                     lines += ["``%s``" % html.unescape(declaration.strip()), "",
-                              "   " + (text_of(element.find("briefdescription")) or "See the header."), ""]
+                              "   " + escaped(text_of(element.find("briefdescription")) or "See the header."), ""]
                 elif kind in ("function", "enum", "typedef"):
                     lines += [".. doxygen%s:: %s" % (kind, name), ""]
         out["docs/api/%s.rst" % module] = "\n".join(lines) + "\n"
@@ -330,7 +335,8 @@ def api_pages(folder):
 
 def build_site(all_pages):
     source, site = os.path.join(BUILD, "source"), os.path.join(BUILD, "site")
-    shutil.rmtree(source, ignore_errors=True)
+    for folder in (source, site, os.path.join(BUILD, "doctrees")):  # Breathe trips over headers that are gone
+        shutil.rmtree(folder, ignore_errors=True)
     folder = doxygen()
     api = api_pages(folder)
     for page in all_pages:
@@ -350,7 +356,6 @@ def build_site(all_pages):
     shutil.copytree(os.path.join(ROOT, "docs/site/static"), os.path.join(source, "static"))
     version = re.search(r"project\(navvy VERSION ([\d.]+)", read("CMakeLists.txt"))
     environment = dict(os.environ, NAVVY_DOCS_XML=folder, NAVVY_DOCS_VERSION=version[1] if version else "")
-    shutil.rmtree(site, ignore_errors=True)
     run(sphinx_python(), "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", os.path.join(BUILD, "doctrees"),
         source, site, env=environment)
     write(os.path.join(site, "index.html"),
