@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Awake soil under wheels becomes ground that bears them [docs/exchange.md, footings].
+// Awake soil under wheels becomes ground that bears them [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
