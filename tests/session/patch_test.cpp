@@ -46,7 +46,7 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
   std::vector<double> active(3, 0.0);  // most at once [kg]
   while (!session.done()) {
     session.step();
-    const sim::MassLedger ledger = world.mass_ledger();
+    const sim::MassLedger ledger = world.soil().mass_ledger();
     for (std::size_t i = 0; i < 3; ++i) {
       ASSERT_EQ(ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i],
                 0);

@@ -136,7 +136,7 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, wakes %lu, deposits %lu\n",
               scoop.solver().stats().particles, scoop.solver().stats().particles_peak,
               scoop.solver().stats().blocks,
-              static_cast<unsigned long>(scoop.solver().stats().wakes),
+              static_cast<unsigned long>(scoop.solver().stats().activations),
               static_cast<unsigned long>(scoop.solver().stats().deposits));
 }
 

@@ -68,7 +68,7 @@ TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesABalancedLedgerAndAUsableSta
     whole.run();
     ASSERT_GT(whole.left(), 0) << "some soil went over the edge";
     ASSERT_GT(whole.solver().stats().rebins, 2u);
-    ASSERT_GT(whole.solver().stats().wakes, 10u);
+    ASSERT_GT(whole.solver().stats().activations, 10u);
   }
   const long all = made;
   int of_solver = 0, of_steps = 0;

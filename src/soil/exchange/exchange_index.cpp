@@ -36,14 +36,14 @@ ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield:
 void ColumnIndex::group() {
   // Blocks in order of first sight, then renumbered in rising order, so that the input's order
   // leaves no trace.
-  std::vector<std::uint32_t> home(particles_.size());
+  std::vector<std::uint32_t> slots(particles_.size());
   std::vector<PlanKey> seen;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const auto [ix, iy] = grid_.column_of(particles_[i]);
     const PlanKey key = grid_.block_of(ix, iy);
     const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
     if (is_new) seen.push_back(key);
-    home[i] =
+    slots[i] =
         static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
         static_cast<std::uint32_t>(grid_.place(ix, iy));
   }
@@ -57,7 +57,7 @@ void ColumnIndex::group() {
   }
   // Counting sort by column.
   begin_.assign(keys_.size() * kColumnsPerBlock + 1, 0);
-  for (std::uint32_t& h : home) {
+  for (std::uint32_t& h : slots) {
     h = static_cast<std::uint32_t>(rank[h / kColumnsPerBlock] * kColumnsPerBlock +
                                    h % kColumnsPerBlock);
     ++begin_[h + 1];
@@ -66,8 +66,8 @@ void ColumnIndex::group() {
   // Each column's particles stand together now, in the order of the input until sort_columns.
   order_.resize(particles_.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
-  for (std::size_t i = 0; i < home.size(); ++i)
-    order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    order_[next[slots[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 void ColumnIndex::sort_columns() {

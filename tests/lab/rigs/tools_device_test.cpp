@@ -20,7 +20,7 @@ TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
 TEST(LabBlade, FeelsTheSameAtHalfTheStep) {
   // Transfers last a fixed time [docs/soil.md, transfer]; with one in every step it is 7.7 %.
   const auto force = [](double courant) {
-    return measured(run_rig("blade", {{"courant", courant}, {"gate-percent", 0}}),
+    return measured(run_rig("blade", {{"courant", courant}, {"tolerance-percent", 0}}),
                     "horizontal force");
   };
   EXPECT_NEAR(force(0.25) / force(0.5), 1, 0.01);
@@ -37,7 +37,7 @@ TEST(LabBlade, CohesionAddsItsPart) {
 
 TEST(LabBlade, FlatterBladeNeedsLessForce) {
   const std::map<std::string, double> open = {
-      {"plane", 0}, {"width", 0.6}, {"gate-percent", 0}, {"travel", 0.2}, {"from", 0.1}};
+      {"plane", 0}, {"width", 0.6}, {"tolerance-percent", 0}, {"travel", 0.2}, {"from", 0.1}};
   auto flat = open;
   flat["rake-deg"] = 45;
   const double upright = measured(run_rig("blade", open), "horizontal force");
@@ -49,7 +49,7 @@ TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
                                 {{"rake-deg", 60},
                                  {"depth", 0.15},
                                  {"length", 0.3},
-                                 {"gate-percent", 0},
+                                 {"tolerance-percent", 0},
                                  {"from", 0.2},
                                  {"travel", 0.25}},
                                 [](lab::Setup& s) {
@@ -137,7 +137,7 @@ TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
   std::map<std::string, double> small = {
       {"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
-  const char* const kept = "force it is held by / force before it stopped";
+  const char* const kept = "force after the stop / force before it";
   EXPECT_EQ(run_rig("wall", small, coarse).find(kept), nullptr);
   small["hold"] = 0.3;
   const Report report = run_rig("wall", small, coarse);

@@ -33,7 +33,7 @@ TEST(ExchangeActivation, KeepsTheMassOfEverySoilInRandomColumns) {
          static_cast<float>(random.uniform(0.9, 1.2)), 1.0f});
     const std::vector<std::int64_t> before = site.ground.mass_change();
     std::vector<std::int64_t> after = before;
-    const auto born = site.exchange.wake({ix - 1, iy, ix + 2, iy + 1}, z);
+    const auto born = site.exchange.activate({ix - 1, iy, ix + 2, iy + 1}, z);
     after = site.ground.mass_change();
     for (const Particle& p : born) {
       EXPECT_GT(p.mass, 0);
@@ -47,7 +47,7 @@ TEST(ExchangeActivation, PutsFlatGroundUnderTheStressOfItsWeight) {
   // 0.73 m: the layers are not half cells.
   for (const scene::Soil& soil : {sand(), loam()}) {
     Site site({soil});
-    site.add(site.exchange.wake({10, 10, 12, 12}, -0.73));
+    site.add(site.exchange.activate({10, 10, 12, 12}, -0.73));
     ASSERT_EQ(site.particles.size(), 2u * 2u * 15u * 4u);
     const double weight = soil.bank_density * kGravity;
     double sum = 0, expected_sum = 0;
@@ -78,7 +78,7 @@ TEST(ExchangeActivation, CarriesTheWeightOfSoilOnTopButNotOfSoilInTheAir) {
     const int z0 = 50 + (hangs ? 4 : 0);
     const auto load = fill(site, {10, 10, z0}, {11, 11, z0 + 5}, 1.13f,
                            [](double, double, double) { return true; });
-    const auto born = site.exchange.wake({10, 10, 11, 11}, -0.5, load);
+    const auto born = site.exchange.activate({10, 10, 11, 11}, -0.5, load);
     const double weight = 1600 * kGravity * (0.25 + (hangs ? 0 : extra / 1.13));
     double sum = 0;
     for (const Particle& p : born) sum -= stress_zz(site, p) / static_cast<double>(born.size());
@@ -93,7 +93,7 @@ TEST(ExchangeActivation, CutsLayersSoThatAParticleIsOfOneSoilAndState) {
   site.ground.put(5, 5, {1, mass_units(3.0), 1.2f, 2.0f});
   const std::int64_t put = mass_units(3.0);
   const double top = site.ground.height(5, 5);
-  site.add(site.exchange.wake({5, 5, 6, 6}, -0.4));
+  site.add(site.exchange.activate({5, 5, 6, 6}, -0.4));
   double volume = 0, loose_mass = 0;
   for (const Particle& p : site.particles) {
     const double z = site.ground.datum() + height_in_cells(p) * kCell;
@@ -143,7 +143,7 @@ TEST(ExchangeActivation, MotionBesideRestingSoilActivatesItRingingAndElasticWave
   // The last one moves as soil does that a wave of stress passes: it has not failed.
   for (const Case& c : {Case{0.01F, 1, 0}, Case{0.2F, 1, 6 * 6}, Case{0.2F, 0.01F, 0}}) {
     Site site({sand()});
-    site.wake({10, 10, 14, 14}, -0.3);
+    site.activate({10, 10, 14, 14}, -0.3);
     for (Particle& p : site.particles) p.v[0] = c.speed, p.shear = c.shear;
     EXPECT_EQ(site.check().activated_columns, c.woken) << c.speed << " m/s, sheared by " << c.shear;
     EXPECT_EQ(site.mass_errors(), site.closed());

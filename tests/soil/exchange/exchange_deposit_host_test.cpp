@@ -107,7 +107,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
             [](int ix, int iy) { return 0.2 * std::sin(0.2 * ix) * std::cos(0.15 * iy); });
   const std::vector<float> start = site.heights();
   for (int cycle = 0; cycle < 5; ++cycle) {
-    site.wake({8, 8, 32, 28}, -0.55);
+    site.activate({8, 8, 32, 28}, -0.55);
     site.checks(kRest);
     ASSERT_TRUE(site.particles.empty());
     EXPECT_EQ(site.mass_errors(), site.closed());
@@ -131,7 +131,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
 
 TEST(ExchangeDeposit, FlatGroundComesBackAsItWas) {
   Site site({sand()});
-  site.wake({8, 8, 32, 28}, -0.55);
+  site.activate({8, 8, 32, 28}, -0.55);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   EXPECT_EQ(site.mass_errors(), site.closed());

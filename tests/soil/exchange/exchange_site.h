@@ -106,8 +106,8 @@ struct Site {
     }
   }
   /// Wakes a rectangle and keeps what it gives.
-  void wake(const heightfield::CellRect& rect, double z_bottom) {
-    for (Particle& p : exchange.wake(rect, z_bottom, particles)) {
+  void activate(const heightfield::CellRect& rect, double z_bottom) {
+    for (Particle& p : exchange.activate(rect, z_bottom, particles)) {
       p.id = next_id++;
       particles.push_back(p);
     }

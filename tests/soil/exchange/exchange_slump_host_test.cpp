@@ -188,7 +188,7 @@ TEST(ExchangeSlump, GroundThatWasSteepHoldsUntilItIsTouched) {
 TEST(ExchangeSlump, OverSteepColumnsBesideActiveSoilActivateInstead) {
   Site site({sand()});
   cut(site, -1);
-  site.wake({18, 18, 23, 22}, -1.2);
+  site.activate({18, 18, 23, 22}, -1.2);
   const std::vector<std::int64_t> before = site.mass_errors();
   const Exchange::Result result = site.check();
   EXPECT_GT(result.activated_columns, 0);

@@ -26,7 +26,7 @@ void set_scene(Site& site) {
       site, {28, 24, 50}, {36, 32, 54}, 1.13f,
       [](double x, double y, double z) { return std::hypot(x - 32, y - 28) < 4 - 1.5 * (z - 50); },
       0.2));
-  site.wake({20, 8, 28, 14}, -0.4);
+  site.activate({20, 8, 28, 14}, -0.4);
   for (std::size_t i = 0; i < site.particles.size(); ++i)
     if (i % 37 == 0) site.particles[i].v[0] = 0.3f;
 }

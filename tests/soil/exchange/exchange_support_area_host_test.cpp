@@ -145,10 +145,10 @@ TEST(ExchangeSupportArea, DoesNotLiftAWheelByWhatStandsInIt) {
   // The wheel stands half as deep in the layer as that is high, and its load presses it flat by 20
   // mm.
   SupportArea wheel = wheel_at(site, 0.5 * kDepth);
-  wheel.give = 0.02;
+  wheel.flattening = 0.02;
   check(site, {wheel});
   // To a particle's share of a column, 12.5 mm.
-  EXPECT_NEAR(site.ground.height(24, 20), 0.5 * kDepth + wheel.give, 0.0125);
+  EXPECT_NEAR(site.ground.height(24, 20), 0.5 * kDepth + wheel.flattening, 0.0125);
   EXPECT_GT(mass_over(site, 24, 20), 0);
   EXPECT_EQ(site.mass_errors(), site.closed());
   // Nor bit by bit, as long as it moves.
@@ -156,7 +156,7 @@ TEST(ExchangeSupportArea, DoesNotLiftAWheelByWhatStandsInIt) {
     for (Particle& p : site.particles) p.v[2] = 0.1F;
     check(site, {wheel});
   }
-  EXPECT_LT(site.ground.height(24, 20), 0.5 * kDepth + wheel.give + 0.0125);
+  EXPECT_LT(site.ground.height(24, 20), 0.5 * kDepth + wheel.flattening + 0.0125);
 }
 
 TEST(ExchangeSupportArea, SoilUnderAWheelActivatesOnlyWhereAToolTouchesIt) {

@@ -85,13 +85,14 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
       // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter
       // of a cell.
       const double mass = 1.2 * full + slope * x,
-                   share = std::min(1.0, kStageStep * gradient / crowding_shear());
-      double apart = std::max(-share * 0.25 * slope / mass, -0.25 * farthest_apart());
+                   share = std::min(1.0, kStageStep * gradient / kScheme.crowding_strain);
+      double apart =
+          std::max(-share * 0.25 * slope / mass, -0.25 * kScheme.max_crowding_displacement);
       if (static_cast<double>(before[i].j) * mass <= full) apart = 0;
       crowded += apart < 0;
-      const double way = kStageStep * gradient * y + apart;
-      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]), way,
-                  2e-6 * (1 + gradient));
+      const double displacement = kStageStep * gradient * y + apart;
+      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]),
+                  displacement, 2e-6 * (1 + gradient));
       EXPECT_NEAR(static_cast<double>(after[i].x[2]), static_cast<double>(before[i].x[2]), 1e-6);
       // What is open here closes, as these nodes are heavy; no J goes below the density state.
       EXPECT_LE(after[i].j, before[i].j);
@@ -124,9 +125,9 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
       const bool closes = filled >= 1 && before[i].j == opened[1];
       closed += closes;
       // Stages pass a quarter of a transfer.
-      const double way =
-          closes ? 0.25 * closing_share() * static_cast<double>(opened[1] - state) : 0;
-      EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), way, 1e-6);
+      const double displacement =
+          closes ? 0.25 * kScheme.closing_share * static_cast<double>(opened[1] - state) : 0;
+      EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), displacement, 1e-6);
       EXPECT_EQ(after[i].j0, before[i].j0);
     }
     EXPECT_EQ(closed > 0, filled >= 1);

@@ -52,11 +52,11 @@ TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
                          static_cast<double>(i % BLOCK_NODES / 16) - 40;
     const auto mass = static_cast<double>(free_nodes[4 * i + 3]);
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(nodes[4 * i + k], above <= kHeldMargin ? 0.0f : free_nodes[4 * i + k]);
+      EXPECT_EQ(nodes[4 * i + k], above <= kScheme.held_margin ? 0.0f : free_nodes[4 * i + k]);
     // One float division more than without ground.
     EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::free_fraction_above(above), mass,
                 1e-6 * mass);
-    held += mass > 0 && above <= kHeldMargin;
+    held += mass > 0 && above <= kScheme.held_margin;
   }
   EXPECT_GT(held, 10);
 }

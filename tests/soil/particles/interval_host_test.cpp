@@ -13,7 +13,7 @@ int steps_of(double dt, double soil, double tool, double gravity = 0) {
   TransferInterval interval;
   int steps = 0;
   do {
-    interval.book(dt, kCell, soil, tool);
+    interval.count_step(dt, kCell, soil, tool);
     ++steps;
   } while (interval.holds(dt, kLength, kCell, tool, gravity));
   return steps;

@@ -378,8 +378,8 @@ TEST(Mixing, GoesByStrainAndNoFasterThanItsTime) {
     LawState state{{0, 0, 0, 0, 0, 0}, 1.2, 1, 0};
     const double c[9] = {0, rate, 0, 0, 0, 0, 0, 0, 0};
     double sigma[6];
-    reference::advance_state(c, dt, &soil, opening, dt / mixing_strain(), most_mixing(dt), &state,
-                             sigma);
+    reference::advance_state(c, dt, &soil, opening, dt / kScheme.mixing_strain, most_mixing(dt),
+                             &state, sigma);
     return state.j;
   };
   EXPECT_EQ(after(0, 1e-3, 1.1), 1.2) << "soil at rest keeps what it has";

@@ -109,7 +109,7 @@ void PlaneStrain::mix(double dt) {
   }
   for (PlanePoint& p : points) {
     const Sums& s = sums(p);
-    const double share = std::min(dt / mixing_strain() * strain_rate(p.c), most_mixing(dt));
+    const double share = std::min(dt / kScheme.mixing_strain * strain_rate(p.c), most_mixing(dt));
     p.j = mixed(p.j, p.j0, mean_opening(s.volume, s.bank, s.open), share);
   }
 }
@@ -161,7 +161,7 @@ double PlaneStrain::free_fraction_at(int i, int k) const {
   if (has_plate && k > plate.tip) room *= kernel_share(i - plate.x);
   if (wall_x0 >= 0) room *= kernel_share(i - wall_x0);
   if (wall_x1 >= 0) room *= kernel_share(wall_x1 - i);
-  return std::max(room, static_cast<double>(MIN_FREE_FRACTION));
+  return std::max(room, kScheme.min_free_fraction);
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
@@ -208,9 +208,10 @@ void PlaneStrain::update_nodes(double dt, bool first) {
       if (node.mass <= kEmpty) continue;
       energy_.gravity += dt * node.mass * (gravity.x() * node.vx + gravity.y() * node.vz);
       if (has_plate) meet_plate(node, i, k, dt);
-      if (wall_x0 >= 0 && i <= wall_x0 + kHeldMargin && (!has_plate || k <= plate.tip)) node.vx = 0;
-      if (wall_x1 >= 0 && i >= wall_x1 - kHeldMargin) node.vx = 0;
-      if (k <= floor + kHeldMargin) node.vx = node.vz = 0;
+      if (wall_x0 >= 0 && i <= wall_x0 + kScheme.held_margin && (!has_plate || k <= plate.tip))
+        node.vx = 0;
+      if (wall_x1 >= 0 && i >= wall_x1 - kScheme.held_margin) node.vx = 0;
+      if (k <= floor + kScheme.held_margin) node.vx = node.vz = 0;
       node.moved_x += dt * node.vx;
       node.moved_z += dt * node.vz;
       if (first) node.room = node.mass / free_fraction_at(i, k);
@@ -219,7 +220,7 @@ void PlaneStrain::update_nodes(double dt, bool first) {
 
 void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
   const double share =
-      crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / crowding_shear());
+      crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / kScheme.crowding_strain);
   if (!(share > 0)) return;
   const Weights at(p);
   double mass = 0, lean_x = 0, lean_z = 0;
@@ -228,8 +229,8 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
     lean_x += w * node.room * (i - at.fx);
     lean_z += w * node.room * (k - at.fz);
   });
-  p.x += crowding_displacement(share, lean_x, mass, farthest_apart());
-  p.z += crowding_displacement(share, lean_z, mass, farthest_apart());
+  p.x += crowding_displacement(share, lean_x, mass, kScheme.max_crowding_displacement);
+  p.z += crowding_displacement(share, lean_z, mass, kScheme.max_crowding_displacement);
 }
 
 void PlaneStrain::gather(double dt, bool last) {
@@ -264,7 +265,7 @@ void PlaneStrain::gather(double dt, bool last) {
       p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
     }
     if (method_.opening == PlaneMethod::Opening::kSeen)
-      p.j = seen_opening(p.j, p.j0, room, filled, closing_share() / method_.hold);
+      p.j = close_noise(p.j, p.j0, room, filled, kScheme.closing_share / method_.hold);
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

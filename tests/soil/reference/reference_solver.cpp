@@ -68,7 +68,7 @@ ReferenceSolver::ReferenceSolver(std::vector<scene::Soil> soils, double cell, co
     : soils_(std::move(soils)), cell_(cell), gravity_(gravity), ground_(std::move(ground)) {
   double fastest = 0;
   for (const scene::Soil& soil : soils_) fastest = std::max(fastest, sound_speed(soil));
-  transfer_length_ = kTransferLength * cell_ / fastest;
+  transfer_length_ = kScheme.transfer_length * cell_ / fastest;
 }
 
 std::vector<double> ReferenceSolver::openings() const {
@@ -98,7 +98,7 @@ std::vector<double> ReferenceSolver::openings() const {
 void ReferenceSolver::scatter(double dt, bool hold) {
   // All openings first: mixing compares particles as the step found them.
   const std::vector<double> opening = openings();
-  const double mixing = dt / mixing_strain(), most = most_mixing(dt);
+  const double mixing = dt / kScheme.mixing_strain, most = most_mixing(dt);
   if (!hold) nodes_.clear();
   for (auto& [at, node] : nodes_) {
     node.mass = 0;
@@ -129,7 +129,7 @@ void ReferenceSolver::update_grid(double dt, bool hold) {
   for (auto& [at, node] : nodes_) {
     const double above = at[2] - ground_(at[0], at[1]);
     // A node lighter than a mass quantum is empty, as in the kernels.
-    const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
+    const bool empty = node.mass <= kMassQuantum, fixed = above <= kScheme.held_margin;
     const Vec3 before = hold ? node.velocity : Vec3(Vec3::Zero());
     node.velocity = Vec3::Zero();
     if (!empty && !fixed)
@@ -146,9 +146,9 @@ void ReferenceSolver::gather(double dt) {
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
   const double full = packed_mass(densest, cell_), filled = filled_mass(densest, cell_),
-               spread = dt / crowding_shear();
-  const double closing = closing_share() * std::min(1.0, dt / transfer_length_);
-  const double most = farthest_apart() * std::min(1.0, dt / transfer_length_);
+               spread = dt / kScheme.crowding_strain;
+  const double closing = kScheme.closing_share * std::min(1.0, dt / transfer_length_);
+  const double most = kScheme.max_crowding_displacement * std::min(1.0, dt / transfer_length_);
   fastest_ = 0;
   for (Point& p : points) {
     Vec3 v = Vec3::Zero(), lean = Vec3::Zero();
@@ -168,7 +168,7 @@ void ReferenceSolver::gather(double dt) {
     p.v = v;
     Vec3 way = (dt / cell_) * v;
     const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
-    p.j = seen_opening(p.j, p.j0, mass, filled, closing);
+    p.j = close_noise(p.j, p.j0, mass, filled, closing);
     for (int axis = 0; axis < 3; ++axis)
       way[axis] += crowding_displacement(share, lean[axis], mass, most);
     p.x += way;
@@ -186,7 +186,7 @@ void ReferenceSolver::step(double dt) {
   scatter(dt, hold);
   update_grid(dt, hold);
   gather(dt);
-  interval_.book(dt, cell_, fastest_, 0);
+  interval_.count_step(dt, cell_, fastest_, 0);
 }
 
 Vec3 ReferenceSolver::momentum() const {

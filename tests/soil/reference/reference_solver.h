@@ -39,7 +39,7 @@ Point from_particle(const Particle& particle);
 class ReferenceSolver {
  public:
   /// `ground(i, j)`: height of the resting ground around node column (i, j) [cells]; nodes up to
-  /// soil::kHeldMargin above it are fixed.
+  /// held_margin of the scheme above it are fixed.
   ReferenceSolver(std::vector<scene::Soil> soils, double cell, const Vec3& gravity,
                   std::function<double(int, int)> ground);
 

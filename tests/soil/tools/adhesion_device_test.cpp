@@ -15,8 +15,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 constexpr double kDt = 1.6e-3;
 
@@ -49,19 +49,19 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity),
                                   [](int, int) { return -10.0; });
   for (const Particle& p : block) twin.points.push_back(reference::from_particle(p));
-  const ContactSettings s;
-  const reference::Reach reach{s.reach,
-                               s.ramp,
-                               s.edge,
-                               s.edge_ramp,
+  const SchemeConstants s;
+  const reference::Reach reach{s.contact_reach,
+                               s.contact_ramp,
+                               s.contact_edge,
+                               s.contact_edge_ramp,
                                kDt * cell * cell,
-                               s.opening * std::sqrt(kGravity * cell),
-                               s.settling * std::sqrt(kGravity * cell),
-                               s.falling * std::sqrt(kGravity * cell),
+                               s.contact_opening * std::sqrt(kGravity * cell),
+                               s.contact_settling * std::sqrt(kGravity * cell),
+                               s.contact_falling * std::sqrt(kGravity * cell),
                                0,
                                0,
                                -1};
-  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), s, cell);
+  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;
@@ -104,7 +104,7 @@ struct Slid {
 
 /// A plate of 0.8 x 0.6 m slid at 0.3 m/s over a bed, pressed so that it carries `pressure` [Pa].
 Slid slide(const scene::Soil& soil, double pressure, double share = 1) {
-  const Box bed{Vec3(9, 9.2, -0.5), Vec3(11.4, 10.8, 0)};
+  const SiteBox bed{Vec3(9, 9.2, -0.5), Vec3(11.4, 10.8, 0)};
   Rig rig({soil}, bed);
   scene::Shell shell = plate(0.8, 0.6);
   shell.friction_share = shell.adhesion_share = share;

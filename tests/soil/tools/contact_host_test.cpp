@@ -18,8 +18,18 @@ using reference::impulse_on;
 using reference::Reach;
 
 Reach shipped() {
-  const ContactSettings s;
-  return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling, s.falling, 0, 0, -1};
+  const SchemeConstants s;
+  return {s.contact_reach,
+          s.contact_ramp,
+          s.contact_edge,
+          s.contact_edge_ramp,
+          1,
+          s.contact_opening,
+          s.contact_settling,
+          s.contact_falling,
+          0,
+          0,
+          -1};
 }
 
 /// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide)
@@ -52,7 +62,7 @@ TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
   plate.vertices = {
       {0, 0, 0}, {0.1 * length, 0, 0}, {0.1 * length, 0.1 * width, 0}, {0, 0.1 * width, 0}};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const double factor = plate_area_factor(ShellGeometry(plate, cell), ContactSettings{}, cell);
+  const double factor = plate_area_factor(ShellGeometry(plate, cell), cell);
   EXPECT_GT(factor, 1.05);
   EXPECT_LT(factor, 1.3);
   const Reach r = shipped();

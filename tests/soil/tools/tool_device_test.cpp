@@ -8,8 +8,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 /// Steps one tool along; keeps sums and the worst momentum residual.
 struct Driver {
@@ -95,7 +95,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
 }
 
 TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
-  const Box bed{Vec3(9, 9, -0.5), Vec3(11.6, 11, 0)};
+  const SiteBox bed{Vec3(9, 9, -0.5), Vec3(11.6, 11, 0)};
   Rig rig({rig::sand(35)}, bed);
   // A box on its side: the mouth looks along -x, the lip is its lower edge.
   const Pose X = make_pose(10.9, 10.02, 0.16, 0, radians(-90), 0);
@@ -186,7 +186,7 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   soil.cohesion = soil.residual_cohesion = GetParam().cohesion;
   soil.tool_friction_angle = GetParam().tool_friction;
   const double width = 1.6, depth = 0.3, speed = 0.3;
-  const Box bed{Vec3(9.2, 10 - width / 2 - 0.4, -0.6), Vec3(11.2, 10 + width / 2 + 0.4, 0)};
+  const SiteBox bed{Vec3(9.2, 10 - width / 2 - 0.4, -0.6), Vec3(11.2, 10 + width / 2 + 0.4, 0)};
   Rig rig({soil}, bed);
   const double face = 9.6;
   std::vector<Particle> all = rig.fill(bed, true), cut;
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(Block, BladeTest,
                          testing::Values(BladeCase{0, 0, 0.25}, BladeCase{0, 0, 0.06}));
 
 TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
-  const Box bed{Vec3(9.4, 9.4, -0.4), Vec3(10.6, 10.6, 0)};
+  const SiteBox bed{Vec3(9.4, 9.4, -0.4), Vec3(10.6, 10.6, 0)};
   Rig rig({rig::sand(35)}, bed);
   scene::Shell plate;
   plate.name = "plate";
@@ -275,9 +275,9 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
 
 TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   Rig rig({rig::sand(35)});
-  const Pose home = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
-  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), home);
-  const auto soil = load_of(rig, home, 1.0, 0.8, 0.4);
+  const Pose start = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
+  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), start);
+  const auto soil = load_of(rig, start, 1.0, 0.8, 0.4);
   rig.solver().insert(soil);
   const double load = mass_of(soil), mass = 0.3 * load, dt = 1.6e-3;
   const Vec3 inertia = mass / 12 * Vec3(1.0, 1.36, 1.64);
@@ -291,9 +291,9 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   ToolMotion& m = driver.motion;
   for (int i = 0; i < 1000; ++i) {
     const Mat3 R = m.X_WT.linear();
-    const Eigen::AngleAxisd turn(R * home.linear().transpose());
-    const Vec3 force = -stiffness * (m.X_WT.translation() - home.translation()) - damping * m.v_WT +
-                       Vec3(0, 0, load * kGravity);
+    const Eigen::AngleAxisd turn(R * start.linear().transpose());
+    const Vec3 force = -stiffness * (m.X_WT.translation() - start.translation()) -
+                       damping * m.v_WT + Vec3(0, 0, load * kGravity);
     const Vec3 torque = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * m.w_WT);
     Mat6 inverse = Mat6::Zero();
     inverse.topLeftCorner<3, 3>() = R * inertia.cwiseInverse().asDiagonal() * R.transpose();
@@ -319,7 +319,7 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5",
               "[docs/validation.md, Buckets and carried loads]");
   EXPECT_LT(rms, 1.5);  // explicit exchange: 15-29; the servo's own motion is about 1
-  EXPECT_LT((m.X_WT.translation() - home.translation()).norm(), 0.05);
+  EXPECT_LT((m.X_WT.translation() - start.translation()).norm(), 0.05);
   EXPECT_NEAR(rig.solver().payload(0, m.X_WT), load, 0.01 * load);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_LT(driver.worst, 1e-5);
@@ -347,7 +347,7 @@ TEST(SoilTool, TwoBucketsInOneWorldFeelTheirOwnLoads) {
 }
 
 TEST(SoilTool, APlateCompactsSoftSoilForGood) {
-  const Box bed{Vec3(9.6, 9.6, -0.5), Vec3(10.4, 10.4, 0)};
+  const SiteBox bed{Vec3(9.6, 9.6, -0.5), Vec3(10.4, 10.4, 0)};
   double state[2], rebound[2];
   for (const bool soft : {false, true}) {
     scene::Soil soil = rig::sand(33);
