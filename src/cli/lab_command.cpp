@@ -138,7 +138,7 @@ scene::Soil shipped_soil(const std::string& name) {
 void set_value(scene::Soil& soil, const std::string& setting) {
   const auto [name, text] = scene_io::parse_setting(setting);
   std::vector<std::string> names;
-  for (const scene::SoilValue& value : scene::soil_values()) {
+  for (const scene::SoilValue& value : scene::soil_values(soil)) {
     names.emplace_back(value.name);
     if (name != value.name) continue;
     double number = 0;
@@ -146,7 +146,7 @@ void set_value(scene::Soil& soil, const std::string& setting) {
     // All of the text must be the number: 0.02m is a mistake.
     const auto [stop, failed] = std::from_chars(text.data(), end, number);
     if (failed != std::errc() || stop != end) throw refused("--set " + name, text, "must be a number", "");
-    soil.*value.value = number * value.factor;
+    *value.value = number * value.factor;
     return;
   }
   throw refused("--set", name, "a number of a soil, by its name in scene files", did_you_mean(names, name));

@@ -28,9 +28,9 @@ std::string key(const std::string& name, const std::string& unit) {
 nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
 
 /// Every number under its name in scene files.
-nlohmann::json soil_json(const scene::Soil& soil) {
+nlohmann::json soil_json(scene::Soil soil) {
   nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
-  for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
+  for (const scene::SoilValue& v : scene::soil_values(soil)) out[v.name] = v.written();
   return out;
 }
 

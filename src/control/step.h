@@ -27,8 +27,8 @@ struct DumpPoint {
 
 /// The description of one step: its values, and everything that is known of it before it runs.
 ///
-/// A kind of step is a class derived from this one in `activities/`, with `kElement` and a static `read` beside it
-/// (scene::step_kind), and one row of `step_kinds()`. Nobody else knows it.
+/// A kind of step is a class derived from this one in `activities/`, with `kElement`, `kText`,
+/// `describe` and `check` (scene::step_kind), and one row of `step_kinds()`. Nobody else knows it.
 class Step : public scene::Step {
  public:
   // For the operator, before and while the step runs.

@@ -17,7 +17,8 @@ DriveEngine::Point rated_point(const DriveEngine& engine) {
     if (i == 0) continue;
     // On a line T = a + b w power is a parabola, with its top at -a / (2 b).
     const DriveEngine::Point& from = engine.curve[i - 1];
-    const double b = (to.torque - from.torque) / (to.speed - from.speed), a = from.torque - b * from.speed;
+    const double b = (to.torque - from.torque) / (to.speed - from.speed),
+                 a = from.torque - b * from.speed;
     const double top = b < 0 ? -0.5 * a / b : to.speed;
     if (top > from.speed && top < to.speed) try_at(top, a + b * top);
   }
@@ -32,13 +33,27 @@ Vec2 steering_arm(const LinkageDrive& drive) {
 bool turns_freely(const LinkageDrive& drive) {
   const Vec2 arm = steering_arm(drive);
   if (!arm.allFinite()) return false;
-  // It locks where tie rod and right arm lie in one line: the left arm's end is then as far from the right king pin as
-  // both are long. Turned to the right it is the same in a mirror.
+  // It locks where tie rod and right arm lie in one line: the left arm's end is then as far from
+  // the right king pin as both are long. Turned to the right it is the same in a mirror.
   for (double angle = 0; angle < drive.max_steer + radians(0.5); angle += radians(0.5)) {
-    const double far = (Vec2(0, drive.track) + Eigen::Rotation2Dd(std::min(angle, drive.max_steer)) * arm).norm();
+    const double far =
+        (Vec2(0, drive.track) + Eigen::Rotation2Dd(std::min(angle, drive.max_steer)) * arm).norm();
     if (far > drive.tie_rod + drive.arm || far < std::abs(drive.tie_rod - drive.arm)) return false;
   }
   return true;
+}
+
+void describe_drive(Fields& f, Drive& drive) {
+  // Every alternative of the variant by its name, the default first.
+  static const std::vector<Drive> kinds = {AckermannDrive(), DifferentialDrive(), LinkageDrive()};
+  Types types{"type", "Kind of the drive.", {}, drive.index(), {}, {}};
+  for (const Drive& kind : kinds) types.names.push_back(drive_name(kind));
+  types.choose = [&drive](std::size_t i) { drive = kinds.at(i); };
+  types.describe = [&drive](std::size_t i, Fields& inner) {
+    Drive fresh = kinds.at(i);
+    std::visit([&inner](auto& kind) { kind.describe(inner); }, i == drive.index() ? drive : fresh);
+  };
+  f.types(types);
 }
 
 }  // namespace navvy::scene

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/loader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
@@ -14,42 +14,39 @@
 namespace navvy::scene_io {
 namespace {
 
-void read_pair(Element& element, scene::Materials& into, Faults& faults) {
-  scene::MaterialPair pair;
-  const std::string names = attribute(element, "materials");
-  const std::vector<std::string> words = words_of(names);
-  Fields fields(element, faults);
-  fields.attribute("materials")
-      .number("static_friction", pair.static_friction, {0, 5})
-      .required("static_friction")
-      .number("kinetic_friction", pair.kinetic_friction, {0, 5})
-      .number("restitution", pair.restitution, {0, 1})
-      .number("softness_m_per_n", pair.softness, {0, 0.01})
-      .finish();
-  if (words.size() != 2) {
-    faults.error(element, names, "a pair has two materials", "e.g. materials=\"steel stone\"");
-    return;
+/// Adds the pairs of a table to `into`, whose own pairs were read before.
+void take_pairs(Element& table, std::vector<scene::MaterialPair> pairs, scene::Materials& into,
+                Faults& faults) {
+  const std::vector<Element*> elements = children_of(table, {"pair"});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    scene::MaterialPair& pair = pairs[i];
+    const Element& element = *elements.at(i);
+    const std::vector<std::string> words = words_of(pair.names);
+    if (words.size() != 2) {
+      faults.error(element, pair.names, "a pair has two materials",
+                   "e.g. materials=\"steel stone\"");
+      continue;
+    }
+    pair.materials = {words[0], words[1]};
+    const Element* kinetic = element.FirstChildElement("kinetic_friction");
+    if (kinetic == nullptr) pair.kinetic_friction = pair.static_friction;
+    if (kinetic != nullptr && pair.kinetic_friction > pair.static_friction)
+      faults.error(*kinetic, text_of(*kinetic),
+                   "must not exceed static_friction: friction at rest is the greater one",
+                   "exchange the two, or remove kinetic_friction if both are the same");
+    if (into.pair(words[0], words[1]) != nullptr)
+      faults.error(element, pair.names, "this pair is in the table already",
+                   "remove one of them; the order of names is free");
+    else
+      into.pairs.push_back(std::move(pair));
   }
-  pair.materials = {words[0], words[1]};
-  // One number serves for both.
-  if (const Element* kinetic = fields.child("kinetic_friction")) {
-    if (pair.kinetic_friction > pair.static_friction)
-      faults.error(*kinetic, text_of(*kinetic), "must not exceed static_friction: what rests holds at least as well",
-                   "exchange the two, or leave kinetic_friction out where both are the same");
-  } else {
-    pair.kinetic_friction = pair.static_friction;
-  }
-  if (into.pair(words[0], words[1]) != nullptr) {
-    faults.error(element, names, "this pair is in the table already", "remove one of them; the order of names is free");
-    return;
-  }
-  into.pairs.push_back(std::move(pair));
 }
 
 /// Names in the table, each once.
 std::vector<std::string> known_in(const scene::Materials& table) {
   std::set<std::string> names;
-  for (const scene::MaterialPair& pair : table.pairs) names.insert(pair.materials.begin(), pair.materials.end());
+  for (const scene::MaterialPair& pair : table.pairs)
+    names.insert(pair.materials.begin(), pair.materials.end());
   return {names.begin(), names.end()};
 }
 
@@ -60,7 +57,8 @@ struct Use {
   bool stands;  ///< what never moves meets neither the ground nor what stands beside it
 };
 
-Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule, const std::string& remedy) {
+Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
+             const std::string& remedy) {
   const scene::MachineInWorld& placed = world.machines[use.machine];
   return {Fault::Severity::kError,
           placed.machine.file.empty() ? world.file : placed.machine.file,
@@ -75,7 +73,8 @@ Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
 
 std::string materials_file(const Element& file) {
   std::error_code ignored;
-  const std::filesystem::path path = std::filesystem::path(Document::of(file).directory()) / text_of(file);
+  const std::filesystem::path path =
+      std::filesystem::path(Document::of(file).directory()) / text_of(file);
   if (std::filesystem::is_regular_file(path, ignored)) return path.string();
   return text_of(file).find('/') == std::string::npos ? find_data("terrain/" + text_of(file)) : "";
 }
@@ -89,28 +88,36 @@ void read_materials_file(const std::string& file, scene::Materials& into, Faults
     faults.error(*document->root(), "", "a table of materials needs <navvy:materials>");
     return;
   }
-  // Tables must not refer to others: no loops to follow.
-  Fields(*table, faults).each("pair", [&](Element& pair) { read_pair(pair, into, faults); }).finish();
+  scene::Materials read;
+  read_element(*table, read, nullptr, faults);
+  // A table refers to no other one, so there are no loops.
+  for (const char* name : {"file", "ground"})
+    if (const Element* child = table->FirstChildElement(name))
+      faults.error(*child, text_of(*child), "unknown element", "only a scene's own table has it");
+  take_pairs(*table, std::move(read.pairs), into, faults);
 }
 
 scene::Materials read_materials(Element& element, Faults& faults) {
-  scene::Materials out;
-  std::string file;
-  Fields fields(element, faults);
-  fields.text("file", file).text("ground", out.ground).each("pair", [](Element&) {}).finish();
-  // The file first: what stands in the scene is blamed for a pair that is told twice.
-  if (const Element* child = fields.child("file"); child != nullptr && !file.empty()) {
+  scene::Materials read, out;
+  read_element(element, read, nullptr, faults);
+  out.ground = read.ground;
+  out.file = read.file;
+  // The file first, so that a second entry of a pair is reported in the scene.
+  if (const Element* child = element.FirstChildElement("file"); child && !read.file.empty()) {
     if (const std::string path = materials_file(*child); !path.empty())
       read_materials_file(path, out, faults);
     else
-      faults.error(*child, file, why_no_file(file),
-                   "paths count from the scene file; a bare name may be a shipped table, such as materials.sdf");
+      faults.error(*child, read.file, why_no_file(read.file),
+                   "paths count from the scene file; a bare name may be a shipped table, such as "
+                   "materials.sdf");
   }
-  for (Element* pair = element.FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
-    read_pair(*pair, out, faults);
-  const std::vector<std::string> known = known_in(out);
-  if (!out.ground.empty() && std::find(known.begin(), known.end(), out.ground) == known.end())
-    faults.error(*fields.child("ground"), out.ground, "no pair has this material", faults.nearest(out.ground, known));
+  take_pairs(element, std::move(read.pairs), out, faults);
+  if (!out.ground.empty()) {
+    const Element& at = child_or_self(element, "ground");
+    const std::vector<std::string> known = known_in(out);
+    if (std::find(known.begin(), known.end(), out.ground) == known.end())
+      faults.error(at, out.ground, "no pair has this material", faults.nearest(out.ground, known));
+  }
   return out;
 }
 
@@ -124,7 +131,8 @@ void check_materials(const scene::Scene& world, Faults& faults) {
       const scene::LinkMaterial& material = machine.links[l].material;
       // Machines that move as told do not meet the ground, nor each other.
       const bool stands = machine.kinematic || (l == 0 && machine.fixed_base);
-      if (!material.name.empty() && seen.emplace(material.name, stands).second) uses.push_back({m, &material, stands});
+      if (!material.name.empty() && seen.emplace(material.name, stands).second)
+        uses.push_back({m, &material, stands});
     }
   }
   std::set<std::set<std::string>> told;
@@ -138,9 +146,12 @@ void check_materials(const scene::Scene& world, Faults& faults) {
     }
     const auto look = [&](const std::string& other) {
       const bool both_known = std::find(known.begin(), known.end(), other) != known.end();
-      if (!both_known || world.materials.pair(name, other) != nullptr || !told.insert({name, other}).second) return;
-      faults.add(at_use(world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",
-                        "add <pair materials=\"" + name + " " + other + "\">"));
+      if (!both_known || world.materials.pair(name, other) != nullptr ||
+          !told.insert({name, other}).second)
+        return;
+      faults.add(at_use(
+          world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",
+          "add <pair materials=\"" + name + " " + other + "\">"));
     };
     if (!use.stands && !world.materials.ground.empty()) look(world.materials.ground);
     for (const Use& other : uses)

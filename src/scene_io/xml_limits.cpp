@@ -6,6 +6,7 @@
 
 #include "core/limits.h"
 #include "core/utf8.h"
+#include "scene_io/schema.h"
 
 namespace navvy::scene_io {
 
@@ -13,7 +14,8 @@ namespace {
 
 bool starts_name(char c) {
   const auto byte = static_cast<unsigned char>(c);
-  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' || byte == ':' || byte >= 0x80;
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' ||
+         byte == ':' || byte >= 0x80;
 }
 
 /// Control characters that XML allows are blanks of a text.
@@ -25,68 +27,36 @@ bool is_control(char c) {
 /// Character references can spell what the file's bytes may not: "&#0;", "&#xD800;".
 void check_value(const Element& at, const char* value, Faults& faults) {
   const std::string_view text = value;
-  if (first_bad_utf8(text) == std::string_view::npos && std::none_of(text.begin(), text.end(), is_control)) return;
+  if (first_bad_utf8(text) == std::string_view::npos &&
+      std::none_of(text.begin(), text.end(), is_control))
+    return;
   faults.error(at, "", "holds a character that is none of Unicode's, or a control character",
                "take character references such as &#xD800; out");
 }
 
-struct Count {
-  const char* parent;
-  const char* child;
-  std::size_t most;
-};
-// Lists that readers hold against each other, or that are dear one by one.
-const Count kCounts[] = {
-    {"world", "include", limits::kMachines},
-    {"world", "model", limits::kMachines},
-    {"world", "navvy:soil", limits::kSoils},
-    {"world", "navvy:camera", limits::kMachines},
-    {"world", "navvy:hitch", limits::kMachines},
-    {"world", "navvy:record", limits::kMachines},
-    {"world", "light", limits::kMachines},
-    {"sdf", "navvy:soil", limits::kSoils},
-    {"navvy:ground", "layer", limits::kGroundLayers},
-    {"navvy:ground", "patch", limits::kGroundParts},
-    {"navvy:ground", "awake", limits::kGroundParts},
-    {"navvy:ground", "slope", limits::kGroundParts},
-    {"navvy:ground", "hills", limits::kGroundParts},
-    {"navvy:ground", "stockpile", limits::kGroundParts},
-    {"navvy:ground", "trench", limits::kGroundParts},
-    {"navvy:ground", "bank", limits::kGroundParts},
-    {"navvy:ground", "block", limits::kGroundParts},
-    {"navvy:design", "area", limits::kDesignAreas},
-    {"navvy:materials", "pair", limits::kMaterialPairs},
-    {"patch", "layer", limits::kGroundLayers},
-    {"model", "link", limits::kLinks},
-    {"model", "joint", limits::kLinks},
-    {"model", "frame", limits::kLinks},
-    {"model", "navvy:joint", limits::kLinks},
-    {"model", "navvy:cylinder", limits::kLinks},
-    {"model", "navvy:wheel", limits::kLinks},
-    {"model", "navvy:track", limits::kLinks},
-    {"navvy:track", "roller_m", limits::kLinks},
-    {"model", "navvy:shell", limits::kShells},
-    {"model", "navvy:bucket", limits::kShells},
-    {"model", "navvy:bed", limits::kShells},
-    {"include", "navvy:joint", limits::kLinks},
-    {"link", "visual", limits::kShapes},
-    {"link", "collision", limits::kShapes},
-    {"trajectory", "joint", limits::kLinks},
-};
+/// Checks the number of children of one kind.
+bool check_count(const Element& element, const char* child, std::size_t most, Faults& faults) {
+  std::size_t found = 0;
+  for (const Element* e = element.FirstChildElement(child); e; e = e->NextSiblingElement(child))
+    ++found;
+  if (found <= most) return true;
+  faults.error(
+      element, std::to_string(found),
+      "at most " + std::to_string(most) + " <" + child + "> in one <" + element.Name() + ">",
+      "scenarios/README.md lists the limits of files");
+  return false;
+}
 
 bool check_counts(const Element& element, Faults& faults) {
   bool good = true;
-  for (const Count& count : kCounts) {
-    if (std::strcmp(count.parent, element.Name()) != 0) continue;
-    std::size_t found = 0;
-    for (const Element* e = element.FirstChildElement(count.child); e; e = e->NextSiblingElement(count.child)) ++found;
-    if (found <= count.most) continue;
-    faults.error(
-        element, std::to_string(found),
-        std::string("at most ") + std::to_string(count.most) + " <" + count.child + "> in one <" + count.parent + ">",
-        "scenarios/README.md lists the limits of files");
-    good = false;
-  }
+  for (const SchemaNode* child : schema().children(element.Name()))
+    if (child->repeats)
+      good = check_count(element, child->name.c_str(), child->most, faults) && good;
+  // Frames belong to SDF alone, the joints of a trajectory to a kind of step.
+  if (std::strcmp(element.Name(), "model") == 0)
+    good = check_count(element, "frame", limits::kLinks, faults) && good;
+  if (std::strcmp(element.Name(), "trajectory") == 0)
+    good = check_count(element, "joint", limits::kLinks, faults) && good;
   std::size_t steps = 0;
   if (std::strcmp(element.Name(), "navvy:program") == 0)
     for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) ++steps;
@@ -99,8 +69,8 @@ bool check_counts(const Element& element, Faults& faults) {
   return good;
 }
 
-/// False where the rest is not to be read: the readers' work is not bounded then. Faults of single values are told and
-/// reading goes on.
+/// Returns false if the rest must not be read, as the readers' work is not bounded. Faults of
+/// single values are reported, and reading goes on.
 bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   const auto most = [&](const char* what, std::size_t number) {
     faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,
@@ -120,7 +90,8 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   }
   for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) {
     if (node->ToText()) check_value(element, node->Value(), faults);
-    if (const Element* child = node->ToElement()) good = check_element(*child, depth + 1, faults) && good;
+    if (const Element* child = node->ToElement())
+      good = check_element(*child, depth + 1, faults) && good;
   }
   return good;
 }
@@ -161,7 +132,8 @@ Fault too_large(const std::string& file, std::size_t bytes) {
   Fault fault;
   fault.file = file;
   fault.value = std::to_string(bytes) + " bytes";
-  fault.rule = "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
+  fault.rule =
+      "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
   fault.remedy = "put meshes into OBJ files and machines into files of their own";
   return fault;
 }
@@ -172,15 +144,18 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
   if (text.size() > limits::kXmlBytes) {
     fault = too_large(file, text.size());
   } else if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos) {
-    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
+    fault.line = 1 + static_cast<int>(std::count(
+                         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
     fault.rule = "the file must be text in UTF-8";
     fault.remedy = "save it as UTF-8: iconv -f latin1 -t utf-8 OLD > NEW";
   } else if (const std::size_t elements = count_elements(text); elements > limits::kXmlElements) {
     fault.value = std::to_string(elements) + " elements";
-    fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) + ", those in comments too";
+    fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) +
+                 ", those in comments too";
     fault.remedy = "split it, or put meshes into OBJ files";
   } else if (const std::size_t tag = overloaded_tag(text); tag != std::string_view::npos) {
-    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
+    fault.line = 1 + static_cast<int>(std::count(
+                         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
     fault.rule = "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element";
     fault.remedy = "scenarios/README.md lists the limits of files";
   } else {
@@ -197,10 +172,12 @@ bool check_name(const Element& at, const std::string& name, Faults& faults) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == ',' || c == '"';
   });
   if (plain && name.size() <= limits::kNameBytes) return true;
-  faults.error(at, name,
-               plain ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
-                     : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
-               "use letters, digits, blanks, _ and -");
+  faults.error(
+      at, name,
+      plain
+          ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
+          : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
+      "use letters, digits, blanks, _ and -");
   return false;
 }
 

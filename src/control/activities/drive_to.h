@@ -11,10 +11,20 @@ namespace navvy::control {
 struct DriveTo final : Step, DriveGoal {
   /// Name in scene files.
   static constexpr const char* kElement = "drive_to";
+  static constexpr const char* kText = "Drives along a straight line or curve to a place.";
   double tolerance = 0.15;  ///< of the origin from the target at the end; more is a warning [m]
 
-  /// Elements: <target_m>, <heading_deg>, <speed_m_per_s>, <tolerance_m>; the target must lie on the site.
-  static DriveTo read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("target_m", target, {-1e6, 1e6}, "Target in W, on the site.", scene::kNeeded);
+    f("heading_deg", heading, {-360, 360},
+      "Heading at the target, from W's x; by default along the line from the start.",
+      scene::given(has_heading));
+    f("speed_m_per_s", speed, {-20, 20}, "Speed; negative: backwards.");
+    f("tolerance_m", tolerance, {0.01, 5},
+      "Distance from the target at the end that does not count as a failure.");
+  }
+  /// Checks the speed, that the machine has a drive, and that the target is on the site.
+  void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   /// One phase: commands the drive alone.
   std::unique_ptr<Activity> activity(Workplace& place) const override;

@@ -9,11 +9,15 @@ namespace navvy::control {
 struct Swing final : Step {
   /// Name in scene files.
   static constexpr const char* kElement = "swing";
+  static constexpr const char* kText = "Turns the upper structure, with the bucket held.";
   explicit Swing(double angle_in = 0) : angle(angle_in) {}
   double angle;  ///< [rad]
 
-  /// Elements: <angle_deg>.
-  static Swing read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("angle_deg", angle, {-3600, 3600}, "Position of the swing joint.", scene::kNeeded);
+  }
+  /// Checks that the machine has a swing joint.
+  void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// One phase: a move of one axis.

@@ -12,11 +12,16 @@ namespace navvy::control {
 struct Unhitch final : Step {
   /// Name in scene files.
   static constexpr const char* kElement = "unhitch";
+  static constexpr const char* kText = "Opens a hitch of the machine.";
   explicit Unhitch(std::string hitch_in = "") : hitch(std::move(hitch_in)) {}
   std::string hitch;  ///< of the scene, by its name
 
-  /// Elements: <hitch>.
-  static Unhitch read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("hitch", hitch, scene::Refers::kHitch, "A navvy:hitch whose parent or child the machine is.",
+      scene::kNeeded);
+  }
+  /// The hitch is checked when all machines have been read.
+  void check(const scene::StepSource&) {}
   const char* element() const override { return kElement; }
   std::optional<std::string> opens() const override { return hitch; }
   /// One phase of one control step.

@@ -9,11 +9,14 @@ namespace navvy::control {
 struct Wait final : Step {
   /// Name in scene files.
   static constexpr const char* kElement = "wait";
+  static constexpr const char* kText = "Waits.";
   explicit Wait(double duration_in = 1) : duration(duration_in) {}
   double duration;  ///< [s]
 
-  /// Elements: <duration_s>.
-  static Wait read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("duration_s", duration, {0, 1e6}, "Time to wait.", scene::kNeeded);
+  }
+  void check(const scene::StepSource&) {}
   const char* element() const override { return kElement; }
   /// One phase: holds what was commanded.
   std::unique_ptr<Activity> activity(Workplace& place) const override;

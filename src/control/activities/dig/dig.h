@@ -14,6 +14,7 @@ namespace navvy::control {
 /// came.
 struct Dig final : Step {
   static constexpr const char* kElement = "dig";
+  static constexpr const char* kText = "Digs a straight trench by whole cycles, until floor and length are reached.";
   Vec2 from = Vec2::Zero(),
        to = Vec2::Zero();         ///< ends of the centre line at the surface [m] in W; far end first or not
   double depth = 0.8;             ///< below the surface at the start [m]
@@ -23,9 +24,19 @@ struct Dig final : Step {
   double pass_depth = 0.25;       ///< depth of one slice [m]
   std::optional<int> max_cycles;  ///< so many and no more; without, until the trench is done
 
-  /// Elements: <from_m>, <to_m>, <depth_m>, <dump_at_m> and what has a default; all places must lie on the site, the
-  /// depth above rock.
-  static Dig read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("from_m", from, {-1e6, 1e6}, "One end of the trench's centre line in W.", scene::kNeeded);
+    f("to_m", to, {-1e6, 1e6}, "The other end.", scene::kNeeded);
+    f("depth_m", depth, {0.02, 20}, "Depth below the ground at the start.", scene::kNeeded);
+    f("width_m", width, {0.05, 50}, "Width; by default that of the bucket's cut.");
+    f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
+    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
+    f("pass_depth_m", pass_depth, {0.02, 5}, "Depth of one pass.");
+    f("max_cycles", max_cycles, {1, 100000},
+      "Number of cycles; by default until the trench is done, at most 60.");
+  }
+  /// Checks that the machine can dig and that trench and spoil are on the site and above rock.
+  void check(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// Digging: phases of the cycle, and a look round at the end.
