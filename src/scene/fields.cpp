@@ -88,18 +88,18 @@ std::string short_text(double value, int digits) {
   return text;
 }
 
-std::string exact_text(double si_value, double factor) {
+std::string exact_text(double in_si, double factor) {
   char text[40];
   // Adding zero turns -0 into 0: no run can tell them apart.
-  const double value = (si_value + 0.0) / factor;
+  const double value = (in_si + 0.0) / factor;
   for (const int digits : {12, 15, 16, 17}) {
     const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, digits);
     double back = 0;
     std::from_chars(text, end.ptr, back);
-    if (back * factor == si_value) return {text, end.ptr};
+    if (back * factor == in_si) return {text, end.ptr};
   }
   // A value that no text in the file's unit gives is written in SI units.
-  const auto end = std::to_chars(text, std::end(text), si_value);
+  const auto end = std::to_chars(text, std::end(text), in_si);
   return std::string(text, end.ptr) + (factor != 1 ? " (SI)" : "");
 }
 

@@ -37,7 +37,7 @@ Unit unit_of(std::string_view name);
 /// Returns `value` with at most `digits` significant digits.
 std::string short_text(double value, int digits = 9);
 /// Returns the shortest text in the file's unit that reads back to exactly this SI value.
-std::string exact_text(double si_value, double factor = 1);
+std::string exact_text(double in_si, double factor = 1);
 
 /// Kind of object that the text of a field names.
 enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kMachine, kHitch };
@@ -106,7 +106,7 @@ struct Group {
   const char* text;
   Mark mark;
   bool present = true;         ///< the struct has a value, see `make`
-  std::function<void()> make;  ///< creates an optional value when the element is read; may be empty
+  std::function<void()> make = {};  ///< creates an optional value when the element is read; may be empty
 };
 
 class Fields;

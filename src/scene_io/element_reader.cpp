@@ -163,7 +163,7 @@ void ElementReader::read_attribute(const Field& field) {
   attributes_.push_back(field.name);
   if (mixed_) return;
   std::string& out = *std::get<std::string*>(field.value);
-  if (element_.Attribute(field.name) != nullptr) out = attribute(element_, field.name);
+  if (element_.Attribute(field.name) != nullptr) out = scene_io::attribute(element_, field.name);
   if (field.mark.has(Mark::kNeeded) && out.empty())
     faults_.error(element_, "", std::string("needs an attribute ") + field.name + "=\"...\"",
                   field.text);
@@ -252,7 +252,7 @@ void ElementReader::list(const scene::List& list) {
 
 void ElementReader::types(const scene::Types& types) {
   attributes_.emplace_back(types.attribute);
-  const std::string type = attribute(element_, types.attribute);
+  const std::string type = scene_io::attribute(element_, types.attribute);
   std::size_t index = 0;
   while (index < types.names.size() && !type.empty() && types.names[index] != type) ++index;
   if (index == types.names.size()) {

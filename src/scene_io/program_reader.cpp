@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/program_reader.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "scene_io/element_reader.h"
@@ -12,9 +13,9 @@ namespace {
 /// The element of one step.
 class XmlStep final : public scene::StepSource {
  public:
-  XmlStep(Element& element, const scene::Machine* machine, const scene::StartGround* ground,
+  XmlStep(Element& element, const scene::Machine* on_machine, const scene::StartGround* on_ground,
           Faults& faults)
-      : StepSource(machine, ground), element_(element), faults_(faults) {}
+      : StepSource(on_machine, on_ground), element_(element), faults_(faults) {}
 
   void read(scene::Step& step) const override { read_element(element_, step, nullptr, faults_); }
   bool has(const char* name) const override { return scene_io::has(element_, name); }

@@ -10,6 +10,7 @@
 #include "scene/soil_values.h"
 #include "scene_io/assembly.h"
 #include "scene_io/design_reader.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/hitch_reader.h"
 #include "scene_io/instance_reader.h"
