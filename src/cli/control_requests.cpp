@@ -15,7 +15,7 @@
 #include "core/sealed.h"
 #include "planner/queries.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::cli {
 
@@ -23,7 +23,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRequests[] = {"heights", "changed", "image", "info", "reset", "save", "load", "watch"};
+constexpr const char* kRequests[] = {"heights", "changed", "image", "info",
+                                     "reset",   "save",    "load",  "watch"};
 /// A million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 
@@ -34,12 +35,14 @@ constexpr double kMostCells = 1e6;
 
 double number_in(const std::string& key, const json& value, double least, double most) {
   if (!value.is_number() || !(value.get<double>() >= least) || !(value.get<double>() <= most))
-    refuse(key, value, "must be a number from " + shown(json(least)) + " to " + shown(json(most)), "mend it");
+    refuse(key, value, "must be a number from " + shown(json(least)) + " to " + shown(json(most)),
+           "mend it");
   return value.get<double>();
 }
 
 std::string text_in(const std::string& key, const json& value) {
-  if (!value.is_string() || value.get<std::string>().empty() || value.get<std::string>().size() > 1000)
+  if (!value.is_string() || value.get<std::string>().empty() ||
+      value.get<std::string>().size() > 1000)
     refuse(key, value, "must be a text of 1 to 1000 bytes", "e.g. {\"" + key + "\": \"name\"}");
   return value.get<std::string>();
 }
@@ -48,17 +51,21 @@ void must_be_true(const std::string& key, const json& value) {
   if (value != json(true)) refuse(key, value, "must be true", "send {\"" + key + "\": true}");
 }
 
-/// A controller's slip costs no script or map: what is there and holds something must be a snapshot.
+/// A controller's slip costs no script or map: what is there and holds something must be a
+/// snapshot.
 void require_snapshot_or_nothing(const json& what, const std::string& path) {
   std::error_code code;
-  if (is_sealed(path) || !std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) == 0)
+  if (is_sealed(path) || !std::filesystem::is_regular_file(path, code) ||
+      std::filesystem::file_size(path, code) == 0)
     return;
-  refuse("save", what, "is there and is no snapshot, so it stays", "name a new file, or remove this one");
+  refuse("save", what, "is there and is no snapshot, so it stays",
+         "name a new file, or remove this one");
 }
 
 /// As a PNG goes into a line of text [RFC 4648].
 std::string base64(const std::vector<char>& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   out.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -81,23 +88,25 @@ std::string shown(const std::string& text) {
   return out;
 }
 
-std::string shown(const json& value) { return shown(value.dump(-1, ' ', false, json::error_handler_t::replace)); }
+std::string shown(const json& value) {
+  return shown(value.dump(-1, ' ', false, json::error_handler_t::replace));
+}
 
-ControlRequests::ControlRequests(session::Session& session, double rate, ControlDesk desk)
+ControlRequests::ControlRequests(session::Session& session, double rate, ControlServices services)
     : session_(session),
       world_(session.world()),
       rate_(rate),
-      desk_(std::move(desk)),
+      services_(std::move(services)),
       start_(saved(session)),
-      feed_(planner::options_for(session.world().description(), session.world().ground(), planner::all_layers(),
-                                 session.design())) {
+      feed_(planner::options_for(session.world().description(), session.world().ground(),
+                                 planner::all_layers(), session.design())) {
   // What changes before the first question is known to have changed.
   now();
 }
 
 bool ControlRequests::is_request(const json& line) {
-  return line.is_object() &&
-         std::any_of(std::begin(kRequests), std::end(kRequests), [&](const char* key) { return line.contains(key); });
+  return line.is_object() && std::any_of(std::begin(kRequests), std::end(kRequests),
+                                         [&](const char* key) { return line.contains(key); });
 }
 
 planner::UpdateFeed::Update ControlRequests::now() {
@@ -107,7 +116,8 @@ planner::UpdateFeed::Update ControlRequests::now() {
 json ControlRequests::answer(const json& line) {
   moved_ = false;
   const std::string key = line.begin().key();
-  if (line.size() != 1) refuse(key, line, "a line asks for one thing and drives nothing", "send two lines");
+  if (line.size() != 1)
+    refuse(key, line, "a line asks for one thing and drives nothing", "send two lines");
   const json& what = line.begin().value();
   json out;
   if (key == "heights") out = heights(what);
@@ -122,7 +132,7 @@ json ControlRequests::answer(const json& line) {
     out = go_back([&] { load_saved(start_, session_); });
   }
   const bool file = key == "save" || key == "load";
-  if (file && !desk_.files) refuse(key, what, "files are not to be had here", "use reset");
+  if (file && !services_.files) refuse(key, what, "files are not to be had here", "use reset");
   if (key == "watch") {
     const std::size_t before = world_.outputs().size();
     session_.watch(text_in(key, what));
@@ -160,11 +170,12 @@ json ControlRequests::go_back(const std::function<void()>& load) {
   return {{"time", world_.time()}, {"steps", world_.steps()}};
 }
 
-/// {"min_m": [x, y], "max_m": [x, y], "cell_m": 0.2, "layer": "slope"}: heights are bilinear at the cells' centres,
-/// other layers are those of the columns that hold them.
+/// {"min_m": [x, y], "max_m": [x, y], "cell_m": 0.2, "layer": "slope"}: heights are bilinear at the
+/// cells' centres, other layers are those of the columns that hold them.
 json ControlRequests::heights(const json& what) {
   if (!what.is_object())
-    refuse("heights", what, "must be an object", R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
+    refuse("heights", what, "must be an object",
+           R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
   const planner::UpdateFeed::Update newest = now();
   const planner::TerrainMap& map = newest->map;
   Vec2 low = map.origin(), high = low + map.cell() * Vec2(map.nx(), map.ny());
@@ -177,7 +188,8 @@ json ControlRequests::heights(const json& what) {
     } else if (key == "layer") {
       layer = planner::layer_named(text_in(name, value));
     } else if (key == "min_m" || key == "max_m") {
-      if (!value.is_array() || value.size() != 2) refuse(name, value, "must be [x, y]", "two numbers in metres");
+      if (!value.is_array() || value.size() != 2)
+        refuse(name, value, "must be [x, y]", "two numbers in metres");
       Vec2& corner = key == "min_m" ? low : high;
       corner = Vec2(number_in(name, value[0], -1e7, 1e7), number_in(name, value[1], -1e7, 1e7));
     } else {
@@ -188,8 +200,10 @@ json ControlRequests::heights(const json& what) {
   // A rectangle that is a whole number of cells but for rounding is not given one more.
   const Vec2 cells = ((high - low) / cell - Vec2::Constant(1e-6)).array().ceil().matrix();
   if (!((high - low).array() > 0).all() || cells.x() * cells.y() > kMostCells)
-    refuse("heights", what, "must be a rectangle of 1 to 1000000 cells", "max_m above min_m, or a larger cell_m");
-  const int nx = std::max(1, static_cast<int>(cells.x())), ny = std::max(1, static_cast<int>(cells.y()));
+    refuse("heights", what, "must be a rectangle of 1 to 1000000 cells",
+           "max_m above min_m, or a larger cell_m");
+  const int nx = std::max(1, static_cast<int>(cells.x())),
+            ny = std::max(1, static_cast<int>(cells.y()));
   json values = json::array();
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
@@ -227,7 +241,8 @@ json ControlRequests::changed(const json& what) {
   if (update == nullptr) return out;
   const planner::TerrainMap& map = update->map;
   for (const heightfield::CellRect& r : update->rects) {
-    const Vec2 low = map.origin() + map.cell() * Vec2(r.x0, r.y0), high = map.origin() + map.cell() * Vec2(r.x1, r.y1);
+    const Vec2 low = map.origin() + map.cell() * Vec2(r.x0, r.y0),
+               high = map.origin() + map.cell() * Vec2(r.x1, r.y1);
     out["rects_m"].push_back({low.x(), low.y(), high.x(), high.y()});
   }
   out["since"] = update->since;
@@ -243,8 +258,8 @@ json ControlRequests::image(const json& what) const {
   if (std::find(names.begin(), names.end(), name) == names.end())
     refuse("image", what, "no camera of this name in the scene",
            names.empty() ? "add a <navvy:camera>" : suggestion(name, names));
-  if (!desk_.draw) refuse("image", what, "nobody draws here", "ask the program navvy");
-  const Picture picture = desk_.draw(name);
+  if (!services_.draw) refuse("image", what, "nobody draws here", "ask the program navvy");
+  const Picture picture = services_.draw(name);
   return {{"camera", name},
           {"time", world_.time()},
           {"width", picture.width},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller may ask between two steps: maps, pictures, states (scenarios/README.md, "Driving it from another
-// program").
+// What a controller may ask between two steps: maps, pictures, states (scenarios/README.md,
+// "Driving it from another program").
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,25 @@ struct Picture {
 };
 
 /// What the program lends to its controller.
-struct ControlDesk {
+struct ControlServices {
   /// Draws what a camera of the scene sees now; nothing: no pictures. @throws Error.
   std::function<Picture(const std::string& camera)> draw;
   bool files = true;  ///< states may be saved to and loaded from files
 };
 
-/// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info": true},
-/// {"reset": true}, {"save": "file"}, {"load": "file"}, {"watch": "machine/link"}. Simulated time stands still
-/// meanwhile; the map begins with the session, is brought up to date when it is asked for and costs nothing otherwise.
+/// Answers one request a line: {"heights": {...}}, {"changed": N}, {"image": "camera"}, {"info":
+/// true}, {"reset": true}, {"save": "file"}, {"load": "file"}, {"watch": "machine/link"}. Simulated
+/// time stands still meanwhile; the map begins with the session, is brought up to date when it is
+/// asked for and costs nothing otherwise.
 class ControlRequests {
  public:
   /// Keeps the session's present state for `reset` (some MiB for each million particles).
-  ControlRequests(session::Session& session, double rate, ControlDesk desk);
+  ControlRequests(session::Session& session, double rate, ControlServices services);
 
   /// Whether the line asks for something, and so drives nothing.
   static bool is_request(const nlohmann::json& line);
-  /// The answer, an object under the request's key. @throws Error for what cannot be answered: the session is then as
-  /// it was.
+  /// The answer, an object under the request's key. @throws Error for what cannot be answered: the
+  /// session is then as it was.
   nlohmann::json answer(const nlohmann::json& line);
   /// Whether the last answer put the session into another state: its outputs are others now.
   bool moved() const { return moved_; }
@@ -58,7 +59,7 @@ class ControlRequests {
   session::Session& session_;
   const sim::World& world_;
   double rate_;
-  ControlDesk desk_;
+  ControlServices services_;
   std::vector<char> start_;
   planner::UpdateFeed feed_;
   bool moved_ = false;

@@ -13,20 +13,23 @@
 
 namespace navvy::cli {
 
-/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line {"inputs": {name:
-/// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} ends the
-/// run.
+/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line
+/// {"inputs": {name: value}} (only the inputs that change; the first one of a machine takes it from
+/// its program). {"end": true} ends the run.
 ///
-/// Any number of requests may come before that line (control_requests.h); each is answered by one line. After one that
-/// puts the session into another state the outputs are printed again.
+/// Any number of requests may come before that line (control_requests.h); each is answered by one
+/// line. After one that puts the session into another state the outputs are printed again.
 ///
-/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...}; simulated time stands still
-/// until one comes that can be used. A controller that goes away, closing either stream, ends the run too.
+/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...};
+/// simulated time stands still until one comes that can be used. A controller that goes away,
+/// closing either stream, ends the run too.
 class ControlStdio {
  public:
   /// @param stop asked while it waits for its controller: true ends the wait
-  ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk = {});
-  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone, or `stop` said so.
+  ControlStdio(session::Session& session, double rate, std::function<bool()> stop,
+               ControlServices services = {});
+  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone,
+  /// or `stop` said so.
   bool exchange();
   /// How the controller went away without {"end": true}; empty while it is there.
   const std::string& gone() const { return gone_; }

@@ -34,34 +34,42 @@ namespace {
 struct SoilOption {
   const char* name;
   const char* help;
-  double scene::Soil::*value;      ///< null for the two that set more than one number or another one
+  /// Null for the two that set more than one number or another one.
+  double scene::Soil::*value;
   double factor = 1;               ///< of what is given, for SI
   std::vector<double> given = {};  ///< more than one: an axis of a sweep
 };
 
 constexpr double kDegree = kPi / 180;
 
-/// What a person wrote; soil and geometry are worked out only when the command runs, so that a fault of one is not
-/// hidden behind a fault of the other in the parser.
+/// What a person wrote; soil and geometry are worked out only when the command runs, so that a
+/// fault of one is not hidden behind a fault of the other in the parser.
 struct LabOptions {
   std::string rig, device, json, plot, soil;
   std::vector<double> cell;                     ///< more than one: an axis of a sweep
   std::map<std::string, std::string> geometry;  ///< by Parameter::name, as written
   std::vector<SoilOption> soil_values = {
-      {"--phi-deg", "friction angle phi (plane strain) [deg]", &scene::Soil::friction_angle, kDegree},
+      {"--phi-deg", "friction angle phi (plane strain) [deg]", &scene::Soil::friction_angle,
+       kDegree},
       {"--repose-deg", "angle of repose t instead of phi: sin phi = tan t [deg]", nullptr, kDegree},
-      {"--cohesion-pa", "cohesion c, residual cohesion too unless the soil's is lower [Pa]", nullptr},
+      {"--cohesion-pa", "cohesion c, residual cohesion too unless the soil's is lower [Pa]",
+       nullptr},
       {"--density", "bank density [kg/m3]", &scene::Soil::bank_density},
-      {"--young-pa", "Young's modulus, softened for speed; 200 x cohesion where that is more and none is given [Pa]",
+      {"--young-pa",
+       "Young's modulus, softened for speed; 200 x cohesion where that is more and none is given "
+       "[Pa]",
        &scene::Soil::young_modulus},
       {"--poisson", "Poisson's ratio [-]", &scene::Soil::poisson},
       {"--swell", "loose volume / bank volume [-]", &scene::Soil::swell},
-      {"--dilatancy-deg", "dilatancy angle psi in bank state [deg]; needs a swell", &scene::Soil::dilatancy_angle,
-       kDegree},
-      {"--fast-phi-deg", "mu(I): friction angle of fast flow [deg]", &scene::Soil::fast_friction_angle, kDegree},
+      {"--dilatancy-deg", "dilatancy angle psi in bank state [deg]; needs a swell",
+       &scene::Soil::dilatancy_angle, kDegree},
+      {"--fast-phi-deg", "mu(I): friction angle of fast flow [deg]",
+       &scene::Soil::fast_friction_angle, kDegree},
       {"--grain-m", "mu(I): grain diameter [m]", &scene::Soil::grain_diameter},
-      {"--inertial-number", "mu(I): inertial number at half the growth [-]", &scene::Soil::inertial_number},
-      {"--delta-deg", "friction angle of soil on tool [deg]", &scene::Soil::tool_friction_angle, kDegree},
+      {"--inertial-number", "mu(I): inertial number at half the growth [-]",
+       &scene::Soil::inertial_number},
+      {"--delta-deg", "friction angle of soil on tool [deg]", &scene::Soil::tool_friction_angle,
+       kDegree},
       {"--adhesion-pa", "adhesion of soil on tool [Pa]", &scene::Soil::adhesion},
   };
   std::vector<std::string> settings;  ///< NAME=VALUE of scene::soil_values
@@ -79,7 +87,8 @@ std::string joined(std::string text) {
   return text;
 }
 
-/// Breaks text between words; `between` stands between two lines and ends with the second one's indent.
+/// Breaks text between words; `between` stands between two lines and ends with the second one's
+/// indent.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& between = "\n") {
   std::string out;
   std::size_t column = 0, at = 0;
@@ -106,8 +115,10 @@ std::string described(const std::string& text) { return wrapped(text, kWidth - k
 
 int list_rigs() {
   std::puts(
-      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` draws it in words.\n");
-  for (const lab::Rig& rig : lab::rigs()) std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
+      "draws it in words.\n");
+  for (const lab::Rig& rig : lab::rigs())
+    std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
   return kOk;
 }
 
@@ -145,11 +156,13 @@ void set_value(scene::Soil& soil, const std::string& setting) {
     const char* end = text.data() + text.size();
     // All of the text must be the number: 0.02m is a mistake.
     const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || stop != end) throw refused("--set " + name, text, "must be a number", "");
+    if (failed != std::errc() || stop != end)
+      throw refused("--set " + name, text, "must be a number", "");
     *value.value = number * value.factor;
     return;
   }
-  throw refused("--set", name, "a number of a soil, by its name in scene files", did_you_mean(names, name));
+  throw refused("--set", name, "a number of a soil, by its name in scene files",
+                did_you_mean(names, name));
 }
 
 /// The value given for an option in SI units; kNone when it was not given.
@@ -159,7 +172,8 @@ double given(const LabOptions& options, const std::string& name) {
   return lab::kNone;
 }
 
-/// The rig's soil, or a shipped one, changed as the options say; later kinds of option win over earlier ones.
+/// The rig's soil, or a shipped one, changed as the options say; later kinds of option win over
+/// earlier ones.
 scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   if (!options.soil.empty()) soil = shipped_soil(options.soil);
   // An angle of repose first: a phi given beside it wins.
@@ -168,12 +182,15 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   if (!std::isnan(repose)) soil.friction_angle = lab::friction_from_repose(repose);
   if (!std::isnan(cohesion)) {
     const double before = std::exchange(soil.cohesion, cohesion);
-    // A residual cohesion that was the whole one follows it, and it is never more than the whole one.
-    if (cohesion != before && (soil.residual_cohesion == before || soil.residual_cohesion > cohesion))
+    // A residual cohesion that was the whole one follows it, and it is never more than the whole
+    // one.
+    if (cohesion != before &&
+        (soil.residual_cohesion == before || soil.residual_cohesion > cohesion))
       soil.residual_cohesion = cohesion;
   }
   for (const SoilOption& option : options.soil_values)
-    if (option.value != nullptr && !option.given.empty()) soil.*option.value = option.given.front() * option.factor;
+    if (option.value != nullptr && !option.given.empty())
+      soil.*option.value = option.given.front() * option.factor;
   for (const std::string& setting : options.settings) set_value(soil, setting);
   const auto is_set = [&](const std::string& name) {
     return std::any_of(options.settings.begin(), options.settings.end(),
@@ -204,7 +221,8 @@ Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
     const std::string& name = parameter.name;
     const auto given = options.geometry.find(name);
     if (given == options.geometry.end()) continue;
-    const std::vector<std::string> parts = lab::listed("lab " + rig.name + " --" + name, given->second);
+    const std::vector<std::string> parts =
+        lab::listed("lab " + rig.name + " --" + name, given->second);
     if (parts.size() < 2) continue;
     lab::SweepAxis axis{name, parameter.unit, {}};
     for (const std::string& part : parts) {
@@ -213,7 +231,8 @@ Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
       axis.values.push_back(*value);
     }
     out.axes.push_back(axis);
-    out.put.emplace_back([name](LabOptions& one, double value) { one.geometry[name] = exact_text(value); });
+    out.put.emplace_back(
+        [name](LabOptions& one, double value) { one.geometry[name] = exact_text(value); });
   }
   if (options.cell.size() > 1) {
     out.axes.push_back({"cell", "m", options.cell});
@@ -221,8 +240,10 @@ Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
   }
   for (std::size_t i = 0; i < options.soil_values.size(); ++i) {
     if (options.soil_values[i].given.size() < 2) continue;
-    out.axes.push_back({std::string(options.soil_values[i].name).substr(2), "", options.soil_values[i].given});
-    out.put.emplace_back([i](LabOptions& one, double value) { one.soil_values[i].given = {value}; });
+    out.axes.push_back(
+        {std::string(options.soil_values[i].name).substr(2), "", options.soil_values[i].given});
+    out.put.emplace_back(
+        [i](LabOptions& one, double value) { one.soil_values[i].given = {value}; });
   }
   return out;
 }
@@ -238,8 +259,8 @@ lab::Setup setup_of(const LabOptions& options, const lab::Rig& rig, device::Devi
   return setup;
 }
 
-/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any other, but scripts
-/// want to know: it has a status of its own.
+/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any
+/// other, but scripts want to know: it has a status of its own.
 int run_rig(const LabOptions& options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
   // Before the runs, which may take an hour.
@@ -274,8 +295,9 @@ int run_rig(const LabOptions& options) {
     std::fputs(lab::text_of(lab::table_of(rig, sweep)).c_str(), stdout);
   if (!options.json.empty())
     write_file_atomically(options.json, (lists.axes.empty() ? runs.front() : runs).dump(1) + "\n");
-  if (!options.plot.empty()) write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
-  return missed ? kGateMissed : kOk;
+  if (!options.plot.empty())
+    write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
+  return missed ? kOutOfTolerance : kOk;
 }
 
 /// Names an option that the rig does not have, with the nearest that it has.
@@ -307,22 +329,25 @@ std::string type_name(const lab::Parameter& parameter) {
 /// Arguments of an example with every option joined to its value.
 std::string in_pairs(std::string arguments) {
   arguments = joined(std::move(arguments));
-  for (std::size_t at = 0; (at = arguments.find(kJoint + std::string("--"), at)) != std::string::npos;)
+  for (std::size_t at = 0;
+       (at = arguments.find(kJoint + std::string("--"), at)) != std::string::npos;)
     arguments[at] = ' ';
   return arguments;
 }
 
-/// The rig in words and the ways of running it, below the options. A command's lines end as a shell wants them, ready
-/// to be copied.
+/// The rig in words and the ways of running it, below the options. A command's lines end as a shell
+/// wants them, ready to be copied.
 std::string footer(const lab::Rig& rig) {
   std::string out = "\n" + wrapped(rig.drawing, kWidth);
   for (const lab::Example& example : rig.examples)
     out += "\n\n" + wrapped(example.what + ":", kWidth) + "\n  " +
-           wrapped("navvy lab " + rig.name + " " + in_pairs(example.arguments), kWidth - 4, " \\\n    ");
+           wrapped("navvy lab " + rig.name + " " + in_pairs(example.arguments), kWidth - 4,
+                   " \\\n    ");
   return out;
 }
 
-void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options, Action& action) {
+void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options,
+             Action& action) {
   CLI::App* command = parent.add_subcommand(rig.name, rig.summary);
   command->footer(footer(rig));
   // An unknown option is refused by us, with the nearest known one.
@@ -331,12 +356,15 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
     command
         ->add_option_function<std::string>(
             "--" + parameter.name,
-            [options, name = parameter.name](const std::string& written) { options->geometry[name] = written; },
+            [options, name = parameter.name](const std::string& written) {
+              options->geometry[name] = written;
+            },
             described(description(parameter)))
         ->type_name(type_name(parameter))
         ->default_str(parameter.text(parameter.value))
         ->group("Geometry and procedure");
-  command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")->group("Soil");
+  command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
+      ->group("Soil");
   // All rigs share the options of the soil; only one rig is run.
   for (SoilOption& value : options->soil_values)
     command->add_option(value.name, value.given, described(value.help))
@@ -345,7 +373,8 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->group("Soil");
   command
       ->add_option("--set", options->settings,
-                   described("NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02; "
+                   described("NAME=VALUE: any number of the soil by its name in scene files, as "
+                             "opening_strain=0.02; "
                              "repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
@@ -353,15 +382,20 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
       ->allow_extra_args(false)
       ->check(above_zero)
       ->default_str(lab::short_text(rig.default_cell));
-  command->add_option("--device", options->device,
-                      described("OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE "
-                                "decides"));
+  command->add_option(
+      "--device", options->device,
+      described("OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE "
+                "decides"));
   command->add_option("--json", options->json, "write inputs, results and series to this file");
-  command->add_option("--plot", options->plot,
-                      described("draw the first result over the first list to this SVG file; any number takes a list, "
-                                "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
-  command->add_flag("--energy", options->energy,
-                    described("also tell where the soil's energy came from and went; takes up to three times as long"));
+  command->add_option(
+      "--plot", options->plot,
+      described(
+          "draw the first result over the first list to this SVG file; any number takes a list, "
+          "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
+  command->add_flag(
+      "--energy", options->energy,
+      described(
+          "also tell where the soil's energy came from and went; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;
@@ -377,14 +411,16 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
 void add_lab(CLI::App& app, Action& action) {
   // Shared with the callbacks, which run after this function has returned.
   auto options = std::make_shared<LabOptions>();
-  CLI::App* command = app.add_subcommand("lab", "virtual soil laboratory: one experiment, measured against theory");
+  CLI::App* command =
+      app.add_subcommand("lab", "virtual soil laboratory: one experiment, measured against theory");
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();
-    // `navvy lab` alone lists the rigs; a word behind it that is no rig is refused with the nearest.
+    // `navvy lab` alone lists the rigs; a word behind it that is no rig is refused with the
+    // nearest.
     action = [extras] {
       if (!extras.empty()) lab::find_rig(extras.front());
       return list_rigs();

@@ -61,8 +61,10 @@ class ProgressLine {
     watch_.restart();
     // One line, cleared to its end.
     std::fprintf(stderr,
-                 "\r%7.1f / %.0f s  x%.2f real time  %6d particles  cycle %d  %-10s  at most %3.0f s left \033[K",
-                 p.time, p.duration, p.real_time_factor, p.particles, p.cycles, p.phase.c_str(), p.remaining);
+                 "\r%7.1f / %.0f s  x%.2f real time  %6d particles  cycle %d  %-10s  at most %3.0f "
+                 "s left \033[K",
+                 p.time, p.duration, p.real_time_factor, p.particles, p.cycles, p.phase.c_str(),
+                 p.remaining);
     shown_ = true;
   }
   void end() {
@@ -77,7 +79,9 @@ class ProgressLine {
 };
 
 /// Named by the scene and not by its file: a scene read from a run's folder goes back there.
-std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
+std::string default_out(const scene::Scene& world) {
+  return "out/" + (world.name.empty() ? "run" : world.name);
+}
 
 /// "12.5" for people.
 std::string short_text(double value) {
@@ -87,21 +91,23 @@ std::string short_text(double value) {
 }
 
 /// What a controller may ask of the recorder.
-ControlDesk desk_of(record::Recorder& recorder) {
-  ControlDesk desk;
-  desk.draw = [&recorder](const std::string& camera) {
+ControlServices services_of(record::Recorder& recorder) {
+  ControlServices services;
+  services.draw = [&recorder](const std::string& camera) {
     const render::Image image = recorder.draw(camera);
-    return Picture{image.width, image.height,
-                   planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
+    return Picture{
+        image.width, image.height,
+        planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
   };
-  return desk;
+  return services;
 }
 
 /// A controller's turn, if there is one. False: it told the run to end.
 bool exchange(ControlStdio* control, record::Recorder& recorder, PublishedMap* published) {
   if (control == nullptr) return true;
   const bool go_on = control->exchange();
-  // Also where the controller ends right after it: what is written next is of the state as it is now.
+  // Also where the controller ends right after it: what is written next is of the state as it is
+  // now.
   if (control->take_moved()) {
     recorder.restart();
     if (published != nullptr) published->restart();
@@ -109,7 +115,8 @@ bool exchange(ControlStdio* control, record::Recorder& recorder, PublishedMap* p
   return go_on;
 }
 
-/// The map of the end. @throws what keeps it from readers, after the recorder has closed as "failed".
+/// The map of the end. @throws what keeps it from readers, after the recorder has closed as
+/// "failed".
 void publish_end(PublishedMap* published, record::Recorder& recorder) {
   if (published == nullptr) return;
   try {
@@ -120,8 +127,8 @@ void publish_end(PublishedMap* published, record::Recorder& recorder) {
   }
 }
 
-/// Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it. Throws nothing of its
-/// own: the failure is what the user reads.
+/// Also the ground of a run that failed is shown: that of its end, as terrain_end.tif has it.
+/// Throws nothing of its own: the failure is what the user reads.
 void publish_end_of_failure(PublishedMap* published) {
   if (published == nullptr) return;
   try {
@@ -138,40 +145,43 @@ std::string interrupted_by(const ControlStdio* control) {
 }
 
 /// Writes what a run leaves that nothing failed in; its exit status. `by`: what interrupted it.
-int close_run(const RunOptions& options, const session::Session& session, record::Recorder& recorder,
-              PublishedMap* published, const std::string& by, bool told_to_end) {
+int close_run(const RunOptions& options, const session::Session& session,
+              record::Recorder& recorder, PublishedMap* published, const std::string& by,
+              bool asked_to_end) {
   publish_end(published, recorder);
   const bool complete = session.complete();
   recorder.finish(!by.empty() ? "interrupted" : complete ? "finished" : "incomplete", by);
   if (!by.empty()) {
     // Else its last line would be that of a run that came to its end.
-    std::fprintf(options.control.empty() ? stdout : stderr, "interrupted: %s, at %s s\n", by.c_str(),
-                 short_text(session.world().time()).c_str());
+    std::fprintf(options.control.empty() ? stdout : stderr, "interrupted: %s, at %s s\n",
+                 by.c_str(), short_text(session.world().time()).c_str());
     return kInterrupted;
   }
-  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off is told, and no
-  // failure.
-  const bool cut_as_asked = (options.scene.duration > 0 || told_to_end) && !session.fell_short();
+  // Whoever gives --duration, or says "end", asks for no more than that: a program that it cuts off
+  // is told, and no failure.
+  const bool cut_as_asked = (options.scene.duration > 0 || asked_to_end) && !session.fell_short();
   return complete || cut_as_asked ? kOk : kIncomplete;
 }
 
-/// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed as "failed".
-int step_to_the_end(const RunOptions& options, session::Session& session, record::Recorder& recorder,
-                    StopSignals& signals, PublishedMap* published) {
+/// Steps until done or interrupted. @throws whatever a step throws, after the recorder has closed
+/// as "failed".
+int step_to_the_end(const RunOptions& options, session::Session& session,
+                    record::Recorder& recorder, StopSignals& signals, PublishedMap* published) {
   ProgressLine line(options.quiet || !options.control.empty());
   // A controller replaces nothing but the inputs that it sends.
   std::unique_ptr<ControlStdio> control;
   // The line of control ends its wait when Ctrl-C comes.
-  const ControlDesk desk = desk_of(recorder);
-  bool snapshot_due = !options.snapshot.empty(), told_to_end = false;
+  const ControlServices services = services_of(recorder);
+  bool snapshot_due = !options.snapshot.empty(), asked_to_end = false;
   try {
     if (!options.control.empty())
-      control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked, desk);
-    // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands of its step's
-    // start.
+      control = std::make_unique<ControlStdio>(session, options.control_rate, StopSignals::asked,
+                                               services);
+    // Order within a step: control, snapshot, step, record. A snapshot therefore holds the commands
+    // of its step's start.
     while (!session.done() && !StopSignals::asked()) {
-      told_to_end = !exchange(control.get(), recorder, published);
-      if (told_to_end) break;
+      asked_to_end = !exchange(control.get(), recorder, published);
+      if (asked_to_end) break;
       if (snapshot_due && session.world().time() >= options.snapshot_at) {
         session.save(options.snapshot);
         snapshot_due = false;
@@ -183,12 +193,14 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
       line.show(recorder.progress());
     }
     // The state of the end is one, too.
-    if (snapshot_due && session.world().time() >= options.snapshot_at - 0.5 * session.world().dt()) {
+    if (snapshot_due &&
+        session.world().time() >= options.snapshot_at - 0.5 * session.world().dt()) {
       session.save(options.snapshot);
       snapshot_due = false;
     }
   } catch (const std::exception& error) {
-    // The first cause is what the user reads; a second one in closing the files is only logged by the recorder.
+    // The first cause is what the user reads; a second one in closing the files is only logged by
+    // the recorder.
     line.end();
     signals.obeyed();
     recorder.finish("failed", error.what());
@@ -204,16 +216,18 @@ int step_to_the_end(const RunOptions& options, session::Session& session, record
   // From here on nobody hurries: the files are closed in their order.
   const std::string by = interrupted_by(control.get());
   signals.obeyed();
-  const int code = close_run(options, session, recorder, published, by, told_to_end);
+  const int code = close_run(options, session, recorder, published, by, asked_to_end);
   return snapshot_due && code != kInterrupted ? kFile : code;
 }
 
 /// The programs that did not come to their end, one a line: what a user must not miss.
-void tell_programs(std::FILE* say, const session::Session& session) {
+void print_programs(std::FILE* say, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
     if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
-    const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
-    std::fprintf(say, "incomplete: %s\n", session::told(report, name, "the controller ended the run").c_str());
+    const std::string& name =
+        session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
+    std::fprintf(say, "incomplete: %s\n",
+                 session::told(report, name, "the controller ended the run").c_str());
   }
 }
 
@@ -223,51 +237,59 @@ void require_snapshot(const std::string& path) {
   try {
     require_regular(path);
   } catch (const FileError& error) {
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, error.what(), "name a snapshot's file"});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, error.what(),
+                           "name a snapshot's file"});
   }
   if (std::ifstream(path).is_open()) return;
   // Where snapshots come from is what a user asks next.
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path, "no such snapshot, or it cannot be read",
-                         "--snapshot FILE --snapshot-at T writes one; a run that stopped itself leaves failed.snapshot "
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", path,
+                         "no such snapshot, or it cannot be read",
+                         "--snapshot FILE --snapshot-at T writes one; a run that stopped itself "
+                         "leaves failed.snapshot "
                          "among its results"});
 }
 
-/// Nobody's file is lost to a slip: what is there and holds something must be a snapshot, and what the run writes
-/// itself stays its own.
+/// Nobody's file is lost to a slip: what is there and holds something must be a snapshot, and what
+/// the run writes itself stays its own.
 void require_place_of_snapshot(const std::string& path, const std::string& out) {
   if (path.empty()) return;
   const auto refuse = [&](const char* rule, const char* remedy) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--snapshot", path, rule, remedy});
   };
   std::error_code code;
-  if (!is_sealed(path) && std::filesystem::is_regular_file(path, code) && std::filesystem::file_size(path, code) > 0)
+  if (!is_sealed(path) && std::filesystem::is_regular_file(path, code) &&
+      std::filesystem::file_size(path, code) > 0)
     refuse("is there and is no snapshot, so it stays", "name a new file, or remove this one");
   const auto place = [&code](const std::filesystem::path& one) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(one, code), code);
   };
   const std::filesystem::path in = place(path);
   if (in.parent_path() == place(out) && record::RunFolder::writes(in.filename().string()))
-    refuse("is a name that the run gives to a file of its own", "choose another name, or another folder");
+    refuse("is a name that the run gives to a file of its own",
+           "choose another name, or another folder");
 }
 
-/// A snapshot that the run does not come to, or one with nothing behind it, is a slip: told before the first step.
+/// A snapshot that the run does not come to, or one with nothing behind it, is a slip: told before
+/// the first step.
 void require_times(const RunOptions& options, const session::Session& session) {
   const double now = session.world().time(), end = session.world().description().recording.duration;
   if (!options.snapshot.empty() && options.snapshot_at > end)
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "--snapshot-at", short_text(options.snapshot_at),
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--snapshot-at",
+                           short_text(options.snapshot_at),
                            "the run lasts " + short_text(end) + " s at most",
                            "choose an earlier moment, or a longer --duration"});
   if (!options.resume.empty() && session.done())
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--resume", options.resume,
                            "it was taken at " + short_text(now) +
-                               " s, and there is nothing left to run: the duration is " + short_text(end) +
-                               " s, or all programs have ended",
+                               " s, and there is nothing left to run: the duration is " +
+                               short_text(end) + " s, or all programs have ended",
                            "choose a longer --duration, or an earlier snapshot"});
 }
 
 int run(const RunOptions& options) {
   if (!options.control.empty() && options.control != "stdio")
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control, "only 'stdio' is known",
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control,
+                           "only 'stdio' is known",
                            "leave it out to let the scene's program drive"});
   // Before anything that may take long, such as a driver that compiles.
   StopSignals signals;
@@ -290,7 +312,8 @@ int run(const RunOptions& options) {
   // Taken before minutes are spent, emptied when the run begins.
   auto folder = std::make_unique<record::RunFolder>(
       record_options.directory,
-      std::vector<std::string>{options.resume, description.file, description.ground.file, description.design.file});
+      std::vector<std::string>{options.resume, description.file, description.ground.file,
+                               description.design.file});
   // The scene is sound from here on; a device may still be missing.
   device::Device device(options.scene.device);
   // Said before the run: the first thing to look at when it is slow.
@@ -306,7 +329,8 @@ int run(const RunOptions& options) {
   for (const std::string& link : options.watch) session.watch(link);
   if (options.energy) session.keep_soil_energy();
   // What comes out other than asked is said before the first step.
-  const std::string rates = record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
+  const std::string rates =
+      record::rates_note(session.world(), options.control.empty() ? 0 : options.control_rate);
   if (!options.quiet && !rates.empty()) log_info(rates);
   // Hours must not end at a path that cannot be written.
   if (!options.snapshot.empty()) require_writable(options.snapshot);
@@ -319,10 +343,11 @@ int run(const RunOptions& options) {
     recorder.finish("failed", error.what());
     throw;
   }
-  const int code = step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
+  const int code =
+      step_to_the_end(options, session, recorder, signals, published ? &*published : nullptr);
   // Standard output belongs to the controller when there is one.
   std::FILE* say = options.control.empty() ? stdout : stderr;
-  if (code != kInterrupted) tell_programs(say, session);
+  if (code != kInterrupted) print_programs(say, session);
   std::fprintf(say, "results: %s/summary.json\n", record_options.directory.c_str());
   return code;
 }
@@ -335,24 +360,28 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
   // What follows leaves the scene alone and goes into the run.
-  command->add_option("--out", options->out, "directory of the results")->check([](const std::string& text) {
-    // What an unset variable of a shell leaves; the default would be another folder than the one that was meant.
-    return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>" : "";
-  });
-  // Options that need each other are named by pointer: where the library looks up their names, memory that ends is the
-  // end of the program.
-  CLI::Option* control = command->add_option(
-      "--control", options->control,
-      "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
+  command->add_option("--out", options->out, "directory of the results")
+      ->check([](const std::string& text) {
+        // What an unset variable of a shell leaves; the default would be another folder than the
+        // one that was meant.
+        return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>"
+                            : "";
+      });
+  // Options that need each other are named by pointer: where the library looks up their names,
+  // memory that ends is the end of the program.
+  CLI::Option* control = command->add_option("--control", options->control,
+                                             "stdio: print one JSON line of outputs and read one "
+                                             "of inputs per control step, in lock step");
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
       ->check(CLI::Range(0.001, 1e5))
       ->needs(control);
-  CLI::Option* snapshot =
-      command->add_option("--snapshot", options->snapshot, "file to save the state to, at --snapshot-at");
+  CLI::Option* snapshot = command->add_option("--snapshot", options->snapshot,
+                                              "file to save the state to, at --snapshot-at");
   CLI::Option* snapshot_at =
-      command->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")
+      command
+          ->add_option("--snapshot-at", options->snapshot_at, "simulated time of the snapshot [s]")
           ->check(not_negative)
           ->needs(snapshot);
   // Either of the two alone is a slip.
@@ -364,23 +393,27 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->needs(resume);
   command
       ->add_option("--hash-every", options->hash_every,
-                   "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
+                   "simulated seconds between rows of hashes.csv: what the state and each part of "
+                   "it hash to")
       ->check(above_zero);
-  CLI::Option* publish = command->add_option(
-      "--publish", options->publish.place,
-      "the map as it changes, for other processes: tcp:PORT (on 127.0.0.1), tcp:HOST:PORT, or a new folder");
+  CLI::Option* publish = command->add_option("--publish", options->publish.place,
+                                             "the map as it changes, for other processes: tcp:PORT "
+                                             "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
       ->check(CLI::Range(0.001, 1e4))
       ->needs(publish);
-  command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")->needs(publish);
-  command->add_option(
-      "--watch", options->watch,
-      "MACHINE/LINK: pose, velocity and angular velocity of this link among the outputs; may be repeated");
-  command->add_flag(
-      "--energy", options->energy,
-      "also tell in the summary where the soil's energy came from and went; takes up to three times as long");
+  command
+      ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
+      ->needs(publish);
+  command->add_option("--watch", options->watch,
+                      "MACHINE/LINK: pose, velocity and angular velocity of this link among the "
+                      "outputs; may be repeated");
+  command->add_flag("--energy", options->energy,
+                    "also tell in the summary where the soil's energy came from and went; takes up "
+                    "to three times as long");
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
-  command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
+  command->footer(
+      "Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

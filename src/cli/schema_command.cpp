@@ -41,8 +41,8 @@ int print_schema(const SchemaOptions& options) {
 
 void add_schema(CLI::App& app, Action& action) {
   auto options = std::make_shared<SchemaOptions>();
-  CLI::App* command =
-      app.add_subcommand("schema", "print the elements of scene files with unit, default and range");
+  CLI::App* command = app.add_subcommand(
+      "schema", "print the elements of scene files with unit, default and range");
   command->add_option("part", options->part,
                       "element to print with all it holds, e.g. soil; default all");
   command->add_flag("--json", options->json, "print JSON for programs");

@@ -13,15 +13,15 @@
 
 #include "cli/exit_code.h"
 #include "device/kernel_cache.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 
 namespace navvy::cli {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// The first and the second are told apart from one that came twice: `timeout` and other wrappers signal a process and
-// then its group.
+// The first and the second are told apart from one that came twice: `timeout` and other wrappers
+// signal a process and then its group.
 constexpr int kTwice = 500;  // [ms]
 
 std::atomic<int> signals{0}, last{0};
@@ -29,10 +29,11 @@ int wake[2] = {-1, -1};
 sigset_t before;
 
 [[noreturn]] void leave(bool again) {
-  record::leave_last_words("interrupted",
-                           again ? "stopped from outside a second time: what was not written by then is missing"
-                                 : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
-                                   "not answer; results are those of the last checkpoint");
+  record::write_crash_summary(
+      "interrupted",
+      again ? "stopped from outside a second time: what was not written by then is missing"
+            : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
+              "not answer; results are those of the last checkpoint");
   std::fputs(again ? "interrupted: by a second signal, nothing more is waited for\n"
                    : "interrupted: the OpenCL driver is busy and is not waited for\n",
              stderr);
@@ -42,9 +43,10 @@ sigset_t before;
 
 }  // namespace
 
-// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which delete what they
-// are writing before they pass the signal on, and the build then fails as if the kernels were wrong. Blocked here,
-// before any other thread is there to inherit it, the signals wait for the one thread that asks for them.
+// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which
+// delete what they are writing before they pass the signal on, and the build then fails as if the
+// kernels were wrong. Blocked here, before any other thread is there to inherit it, the signals
+// wait for the one thread that asks for them.
 StopSignals::StopSignals() {
   signals = last = 0;
   if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
@@ -67,7 +69,8 @@ StopSignals::~StopSignals() {
   const char byte = 0;
   if (::write(wake[1], &byte, 1) < 0) over_ = true;  // the thread looks up by itself
   watcher_.join();
-  // The second of two at once may still be on its way, and would end the process by itself before its status is told.
+  // The second of two at once may still be on its way, and would end the process by itself before
+  // its status is told.
   if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
 }
@@ -75,7 +78,8 @@ StopSignals::~StopSignals() {
 bool StopSignals::asked() { return signals > 0; }
 
 std::string StopSignals::name() {
-  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}})
+  for (const auto& [signal, name] :
+       {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}})
     if (last == signal) return name;
   return "";
 }

@@ -11,8 +11,8 @@
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "planner/path_file.h"
+#include "record/crash_summary.h"
 #include "record/hash_log.h"
-#include "record/last_words.h"
 #include "record/map_recorder.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
@@ -29,7 +29,7 @@ struct Recorder::State {
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
-        last_words(folder->path("summary.reserve"), folder->path("summary.json")),
+        crash_summary(folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         frames(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
@@ -40,10 +40,11 @@ struct Recorder::State {
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
-  LastWords last_words;
+  CrashSummary crash_summary;
   Telemetry telemetry;
   sim::FrameBuilder frames;
-  std::unique_ptr<render::Renderer> renderer, drawer;  // of frames; without those, of pictures that somebody asks for
+  // Of frames; without those, of pictures that somebody asks for
+  std::unique_ptr<render::Renderer> renderer, drawer;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
@@ -74,27 +75,28 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
   try {
     state_->write_start();
   } catch (const std::exception& error) {
-    leave_last_words("failed", error.what());
+    write_crash_summary("failed", error.what());
     throw;
   }
 }
 
 void Recorder::State::write_start() {
-  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can be left that says
-  // how it ended.
+  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can
+  // be left that says how it ended.
   write_summary(false);
   // What it was comes next.
   const scene::Scene& scene = session.world().description();
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
-  write_file_atomically(path("run.json"),
-                        run_json({kRunFormat, navvy_version(), options.command, scene.file, session.device_name()}));
+  write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
+                                                    scene.file, session.device_name()}));
   write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
   sample_when_due();
   // The renderer takes a graphics context, which runs without pictures do not need.
   if (options.render) renderer = std::make_unique<render::Renderer>();
   draw_when_due();
-  if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
+  if (options.hash_every > 0)
+    hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
   if (!scene.records.empty()) maps = std::make_unique<MapRecorder>(session, *folder);
   map_when_due();
   checkpoint(true);
@@ -103,7 +105,8 @@ void Recorder::State::write_start() {
 Recorder::~Recorder() = default;
 
 bool Recorder::State::due(double rate) const {
-  // By the step's number, counted from time zero: a resumed run records the steps that the whole one would.
+  // By the step's number, counted from time zero: a resumed run records the steps that the whole
+  // one would.
   return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
 }
 
@@ -111,8 +114,9 @@ bool Recorder::State::due(double rate) const {
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
-    rows += planner::path_rows(session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
-                               report.paths);
+    rows += planner::path_rows(
+        session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
+        report.paths);
   if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
 }
 
@@ -174,7 +178,7 @@ void Recorder::State::checkpoint(bool force) {
 /// Kept ready as well, for whoever has to leave it in a hurry.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
-  last_words.keep(text);
+  crash_summary.keep(text);
   write_file_atomically(path("summary.json"), text);
   summary_bytes = text.size();
   since_summary.restart();
@@ -204,8 +208,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  // Each file for itself: one that the disk refuses keeps none of the others from being written, and the summary, which
-  // comes last, tells of it.
+  // Each file for itself: one that the disk refuses keeps none of the others from being written,
+  // and the summary, which comes last, tells of it.
   std::exception_ptr first;
   const auto attempt = [&](const auto& write) {
     try {
@@ -213,7 +217,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception& error) {
       // The first cause is what the user reads.
       if (s.status.status == "failed")
-        log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + error.what());
+        log(LogLevel::kError,
+            std::string("results of the failed run are incomplete: ") + error.what());
       else
         s.status.message = error.what();
       s.status.status = "failed";
@@ -247,7 +252,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception&) {
       text.clear();
     }
-    if (text.empty() || !s.last_words.write(text)) leave_last_words("failed", s.status.message.c_str());
+    if (text.empty() || !s.crash_summary.write(text))
+      write_crash_summary("failed", s.status.message.c_str());
   }
   // A failed run has told its cause already.
   if (first && status != "failed") std::rethrow_exception(first);
@@ -262,7 +268,8 @@ render::Image Recorder::draw(const std::string& camera) {
       const Lap lap(s.status.render_time);
       return (s.renderer ? *s.renderer : *s.drawer).render(s.frames.build(), s.frames.camera(each));
     }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera, "no camera of this name in the scene", ""});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera,
+                         "no camera of this name in the scene", ""});
 }
 
 RunProgress Recorder::progress() const {

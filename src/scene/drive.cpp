@@ -6,17 +6,17 @@
 
 namespace navvy::scene {
 
-DriveEngine::Point rated_point(const DriveEngine& engine) {
-  DriveEngine::Point best;
+CombustionEngine::Point rated_point(const CombustionEngine& engine) {
+  CombustionEngine::Point best;
   const auto try_at = [&](double speed, double torque) {
     if (speed * torque > best.speed * best.torque) best = {speed, torque};
   };
   for (std::size_t i = 0; i < engine.curve.size(); ++i) {
-    const DriveEngine::Point& to = engine.curve[i];
+    const CombustionEngine::Point& to = engine.curve[i];
     try_at(to.speed, to.torque);
     if (i == 0) continue;
     // On a line T = a + b w power is a parabola, with its top at -a / (2 b).
-    const DriveEngine::Point& from = engine.curve[i - 1];
+    const CombustionEngine::Point& from = engine.curve[i - 1];
     const double b = (to.torque - from.torque) / (to.speed - from.speed),
                  a = from.torque - b * from.speed;
     const double top = b < 0 ? -0.5 * a / b : to.speed;

@@ -32,7 +32,7 @@ struct Powertrain {
 
 /// A combustion engine or motor that turns a drive line through gears, in place of the governed
 /// motor: either with a torque curve, or a source of speed up to its largest torque. SI units.
-struct DriveEngine {
+struct CombustionEngine {
   enum class Kind { kTorqueCurve, kSpeedSource };
   struct Point {
     double speed = 0;   ///< [rad/s]
@@ -72,7 +72,7 @@ struct DriveEngine {
   }
 };
 /// Returns the point of greatest power of a torque curve.
-DriveEngine::Point rated_point(const DriveEngine& engine);
+CombustionEngine::Point rated_point(const CombustionEngine& engine);
 
 /// Lets two shafts of a drive line turn at different speeds. The slower one gets more torque than
 /// the faster one by the locking torque: zero if open, any if locked, and at most preload + bias x
@@ -105,10 +105,10 @@ struct AckermannDrive : Powertrain {
   double max_steer = radians(35);  ///< [rad]
   double wheelbase = 2.8;
   double track = 1.94;
-  double steer_rate = radians(30);    ///< [rad/s]
-  Differential axles;                 ///< between the wheels of each driven axle
-  Differential centre;                ///< between the foremost driven axle and the others
-  std::optional<DriveEngine> engine;  ///< without: the governed motor of Powertrain
+  double steer_rate = radians(30);         ///< [rad/s]
+  Differential axles;                      ///< between the wheels of each driven axle
+  Differential centre;                     ///< between the foremost driven axle and the others
+  std::optional<CombustionEngine> engine;  ///< without: the governed motor of Powertrain
 
   void describe(Fields& f) {
     Powertrain::describe(f);
@@ -182,7 +182,7 @@ inline const Powertrain& powertrain(const Drive& drive) {
 }
 
 /// Returns the engine of a drive, null if it has a governed motor.
-inline const DriveEngine* drive_engine(const Drive& drive) {
+inline const CombustionEngine* drive_engine(const Drive& drive) {
   const auto* steered = std::get_if<AckermannDrive>(&drive);
   if (steered == nullptr) steered = std::get_if<LinkageDrive>(&drive);
   return steered != nullptr && steered->engine ? &*steered->engine : nullptr;

@@ -105,8 +105,9 @@ struct Group {
   const char* name;
   const char* text;
   Mark mark;
-  bool present = true;         ///< the struct has a value, see `make`
-  std::function<void()> make = {};  ///< creates an optional value when the element is read; may be empty
+  bool present = true;  ///< the struct has a value, see `make`
+  /// Creates an optional value when the element is read; may be empty.
+  std::function<void()> make = {};
 };
 
 class Fields;

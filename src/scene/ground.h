@@ -95,7 +95,7 @@ struct GroundPatch {
 
 /// Soil that is active at the start: the columns of a rectangle from a height up. For scenes and
 /// tests that begin with soil in motion; elsewhere tools activate soil.
-struct AwakeSoil {
+struct ActiveSoil {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
   double bottom = 0;                            ///< height in W [m]
 
@@ -154,7 +154,7 @@ struct StartGround {
   std::vector<GroundFeature> features;
   std::vector<GroundLayer> layers;  ///< at least one
   std::vector<GroundPatch> patches;
-  std::vector<AwakeSoil> awake;
+  std::vector<ActiveSoil> active;
 
   void describe(Fields& f) {
     f("file", file,
@@ -181,7 +181,7 @@ struct StartGround {
     f("layer", layers, limits::kGroundLayers,
       "Layers of soil from the surface down; a world of one soil needs none.");
     f("patch", patches, limits::kGroundParts, "Other layers in a rectangle; later ones win.");
-    f("awake", awake, limits::kGroundParts, "Soil in a rectangle that starts as particles.");
+    f("awake", active, limits::kGroundParts, "Soil in a rectangle that starts as particles.");
     using Kind = GroundFeature::Kind;
     f.list("shape", features, limits::kGroundParts,
            std::vector<Start<GroundFeature>>{

@@ -25,7 +25,7 @@ struct SolverSettings {
   double max_step = 0.0017;
   double control_rate = 0;  ///< [1/s]; 0: none
   int max_particles = 2000000;
-  double awake_zone = 1;
+  double active_zone = 1;
   bool exchange = true;  ///< false: ground neither activates nor deposits soil (rigs, tests)
 
   void describe(Fields& f) {
@@ -38,7 +38,7 @@ struct SolverSettings {
       "Rate whose period is a whole number of base steps.", kShown);
     f("max_particles", max_particles, {1000, limits::kParticles},
       "Budget of particles. Beyond it, the ground farthest from the tools is not activated.");
-    f("awake_zone", awake_zone, {0.5, 4},
+    f("awake_zone", active_zone, {0.5, 4},
       "Factor of the zone around and below a tool in which soil is active.");
     f.derived("exchange", exchange);
   }

@@ -24,7 +24,7 @@ void check_differential(const Element* element, const scene::Differential& read,
                  "remove them, or write limited_slip");
 }
 
-void check_curve(Element& element, const scene::DriveEngine& engine, Faults& faults) {
+void check_curve(Element& element, const scene::CombustionEngine& engine, Faults& faults) {
   const std::vector<Element*> points = children_of(element, {"point"});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Element& speed = child_or_self(*points[i], "speed_rpm");
@@ -39,8 +39,9 @@ void check_curve(Element& element, const scene::DriveEngine& engine, Faults& fau
 }
 
 /// Reports elements of one kind of engine in an engine of the other kind.
-void check_engine_kind(const Element& element, const scene::DriveEngine& engine, Faults& faults) {
-  const bool source = engine.kind == scene::DriveEngine::Kind::kSpeedSource;
+void check_engine_kind(const Element& element, const scene::CombustionEngine& engine,
+                       Faults& faults) {
+  const bool source = engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
   for (const char* name : {"point", "braking_torque_nm", "shared_with_pump"})
     if (source && has(element, name))
       faults.error(element, name, "a speed_source has no such element",
@@ -81,12 +82,12 @@ void finish_engine(Element& drive_element, scene::AckermannDrive& drive, Faults&
                    "remove it, or <engine>");
   // Elements with faults of their own are not reported a second time.
   if (faults.blamed(*element) || !drive.engine) return;
-  scene::DriveEngine& engine = *drive.engine;
+  scene::CombustionEngine& engine = *drive.engine;
   check_curve(*element, engine, faults);
   check_engine_kind(*element, engine, faults);
   check_gears(*element, engine.gears, faults);
   if (faults.blamed(*element) || !engine.shared_with_pump) return;
-  const scene::DriveEngine::Point rated = scene::rated_point(engine);
+  const scene::CombustionEngine::Point rated = scene::rated_point(engine);
   drive.engine_power = rated.speed * rated.torque;
 }
 

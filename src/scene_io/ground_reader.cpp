@@ -38,8 +38,8 @@ void check_rectangles(Element& element, const scene::StartGround& ground, Faults
     check_layers(*patch, ground.patches[i++].layers, faults);
   }
   i = 0;
-  for (Element* awake : children_of(element, {"awake"})) {
-    check_rectangle(*awake, ground.awake[i].min, ground.awake[i].max, faults);
+  for (Element* active : children_of(element, {"awake"})) {
+    check_rectangle(*active, ground.active[i].min, ground.active[i].max, faults);
     ++i;
   }
 }

@@ -73,14 +73,14 @@ void Faults::add(Fault fault) {
 }
 
 bool Faults::count(Fault::Severity severity) {
-  Told& told_of = told(severity);
-  if (++told_of.all <= limits::kFaultsShown) return true;
-  if (told_of.all == limits::kFaultsShown + 1) {
-    told_of.rest_at = list_.size();
+  Told& reported_ = told(severity);
+  if (++reported_.all <= limits::kFaultsShown) return true;
+  if (reported_.all == limits::kFaultsShown + 1) {
+    reported_.rest_at = list_.size();
     list_.push_back({severity, "", 0, "", "", "", "mend those above first"});
   }
-  list_[told_of.rest_at].rule =
-      "and " + std::to_string(told_of.all - limits::kFaultsShown) + " more that are not shown";
+  list_[reported_.rest_at].rule =
+      "and " + std::to_string(reported_.all - limits::kFaultsShown) + " more that are not shown";
   return false;
 }
 

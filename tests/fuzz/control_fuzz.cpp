@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then the world takes a step
-// with the inputs that were set. One session serves all; it is put back to its start whenever something was set.
+// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then
+// the world takes a step with the inputs that were set. One session serves all; it is put back to
+// its start whenever something was set.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -21,7 +22,8 @@ namespace {
 
 using namespace navvy;
 
-const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil name="s"/>
+const char* const kScene =
+    R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil name="s"/>
 <navvy:ground><size_m>4 4</size_m><depth_m>0.5</depth_m></navvy:ground>
 <navvy:solver><cell_m>0.5</cell_m><max_particles>1000</max_particles></navvy:solver>
 <model name="m"><static>true</static><link name="a"/><link name="b"><pose>0 0 1 0 0 0</pose>
@@ -31,7 +33,8 @@ const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name
 
 struct Driven {
   device::Device device;
-  session::Session session{scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
+  session::Session session{
+      scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
   std::vector<char> start = saved(session);
   int input = ::memfd_create("input", 0);
 
@@ -64,11 +67,12 @@ NAVVY_FUZZ_TARGET(control) {
   fuzz::hold(::pwrite(STDIN_FILENO, data, size, 0) == static_cast<ssize_t>(size));
   fuzz::hold(::lseek(STDIN_FILENO, 0, SEEK_SET) == 0);
   cli::ControlStdio controller(
-      driven.session, 1, [] { return false; }, cli::ControlDesk{{}, false});
+      driven.session, 1, [] { return false; }, cli::ControlServices{{}, false});
   while (controller.exchange()) {
   }
   // Only a line that names inputs changes something; the others cost no step.
-  if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos) return 0;
+  if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos)
+    return 0;
   try {
     driven.session.step();
   } catch (const Error&) {

@@ -31,16 +31,19 @@ TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
     }
 }
 
-TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
+TEST(SoilValues, ReportsValuesOutsideByTheirSceneNameAndUnit) {
   Soil soil;
   soil.name = "mud";
   soil.friction_angle = radians(75);
   soil.poisson = std::nan("");
   soil.residual_cohesion = 2 * soil.cohesion;
   const std::string all = messages(soil);
-  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"), std::string::npos) << all;
+  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"),
+            std::string::npos)
+      << all;
   EXPECT_NE(all.find("soil[mud]/poisson: 'nan'"), std::string::npos) << all;
-  EXPECT_NE(all.find("soil[mud]/residual_cohesion_pa: '10000': must not exceed cohesion_pa, 5000"), std::string::npos)
+  EXPECT_NE(all.find("soil[mud]/residual_cohesion_pa: '10000': must not exceed cohesion_pa, 5000"),
+            std::string::npos)
       << all;
 }
 
@@ -70,7 +73,7 @@ TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
   EXPECT_EQ(soil.loose_cohesion, 700) << "its own";
 }
 
-TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) {
+TEST(SoilValues, SoilTooSoftForItsCohesionGetsTheRequiredStiffnessAndItsCost) {
   Soil clay;
   clay.name = "clay";
   clay.cohesion = 50e3;
@@ -79,11 +82,12 @@ TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) 
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->severity, Fault::Severity::kWarning);
   const std::string text = warning->text();
-  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 86 %", "0.30 of its depth",
-                           "1e+07", "2.0 times as many steps"})
+  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 86 %",
+                           "0.30 of its depth", "1e+07", "2.0 times as many steps"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   clay.young_modulus = 0.5e6;
-  EXPECT_NE(too_soft(clay)->text().find("less than 63 %"), std::string::npos) << too_soft(clay)->text();
+  EXPECT_NE(too_soft(clay)->text().find("less than 63 %"), std::string::npos)
+      << too_soft(clay)->text();
   clay.young_modulus = 5e6;
   EXPECT_FALSE(too_soft(clay));
   clay.cohesion = 0;

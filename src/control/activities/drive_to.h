@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "control/program_step.h"
 #include "control/pursuit.h"
-#include "control/step.h"
 
 namespace navvy::control {
 
-/// Drive (rear-wheel drive, Ackermann steering) until the machine's origin is at `target`, facing `heading`; then brake
-/// and stand for half a second. Gives up after 30 s and three times the way's own time.
-struct DriveTo final : Step, DriveGoal {
+/// Drive (rear-wheel drive, Ackermann steering) until the machine's origin is at `target`, facing
+/// `heading`; then brake and stand for half a second. Gives up after 30 s and three times the way's
+/// own time.
+struct DriveTo final : ProgramStep, DriveGoal {
   /// Name in scene files.
   static constexpr const char* kElement = "drive_to";
   static constexpr const char* kText = "Drives along a straight line or curve to a place.";
@@ -27,7 +28,7 @@ struct DriveTo final : Step, DriveGoal {
   void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   /// One phase: commands the drive alone.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
   /// Upright on the present ground, at the target.
   std::optional<Pose> station(const scene::Machine& machine, const Pose& X_WB,

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
-/// Go to a pose along a planned path, forwards and backwards, round ground that the machine cannot drive on.
+/// Go to a pose along a planned path, forwards and backwards, round ground that the machine cannot
+/// drive on.
 ///
-/// The path is planned when the program begins, so that a way that is not there is told before anything moves, and anew
-/// when the step begins elsewhere, when ground within `clearance` of what is left of the path is no longer traversable,
-/// when the machine is off it, and when it ends beside the goal. Where there is none the machine stands for
-/// `retry` and tries again, `tries` times in all; then the program ends with the state no_path.
-struct GoTo final : Step {
+/// The path is planned when the program begins, so that a way that is not there is told before
+/// anything moves, and anew when the step begins elsewhere, when ground within `clearance` of what
+/// is left of the path is no longer traversable, when the machine is off it, and when it ends
+/// beside the goal. Where there is none the machine stands for `retry` and tries again, `tries`
+/// times in all; then the program ends with the state no_path.
+struct GoTo final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "go_to";
-  static constexpr const char* kText = "Drives to a pose along a planned path, around ground that the machine cannot drive on.";
+  static constexpr const char* kText =
+      "Drives to a pose along a planned path, around ground that the machine cannot drive on.";
   Vec2 target = Vec2::Zero();          ///< of the base link's origin, [m] in W
   double heading = 0;                  ///< [rad]
   double speed = 1;                    ///< at most, forwards and backwards [m/s]
@@ -43,11 +46,13 @@ struct GoTo final : Step {
   void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   bool needs_planner() const override { return true; }
-  std::optional<PathQuery> path_ahead(const PlanePose& from) const override { return query(from, 0); }
+  std::optional<PathQuery> path_ahead(const PlanePose& from) const override {
+    return query(from, 0);
+  }
   /// Phases: plan, turn (the wheels, standing), drive, stop, no_path.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
-  /// The goal must be clear of ground that is not traversable at the start; where an earlier step digs or dumps, that
-  /// is a warning.
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
+  /// The goal must be clear of ground that is not traversable at the start; where an earlier step
+  /// digs or dumps, that is a warning.
   void check_reach(ReachCheck& check) const override;
   /// Upright on the present ground, at the goal.
   std::optional<Pose> station(const scene::Machine& machine, const Pose& X_WB,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
 /// Turn the upper structure to this angle of the swing joint, the bucket held.
-struct Swing final : Step {
+struct Swing final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "swing";
   static constexpr const char* kText = "Turns the upper structure, with the bucket held.";
@@ -21,7 +21,7 @@ struct Swing final : Step {
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// One phase: a move of one axis.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
 };
 

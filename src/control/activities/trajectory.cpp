@@ -14,16 +14,19 @@ namespace {
 
 using scene::kDegree;
 
-constexpr double kShortAngle = radians(3), kShortWay = 0.03;  // of a joint: a servo's lag under load is less [m]
-constexpr double kSettle = 0.3;                               // [s] before a joint at rest counts as held
-constexpr double kAtRest = 0.02;                              // [rad/s|m/s]
-constexpr double kPatience = 5;                               // [s] for joints that are slower than their positions
+// Of a joint: a servo's lag under load is less [m]
+constexpr double kShortAngle = radians(3), kShortPath = 0.03;
+// [s] before a joint at rest counts as held
+constexpr double kSettle = 0.3;
+constexpr double kAtRest = 0.02;  // [rad/s|m/s]
+// [s] for joints that are slower than their positions
+constexpr double kPatience = 5;
 
-// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at the end it looks: a
-// joint that is on its way is waited for, one that is held ends the program.
+// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at
+// the end it looks: a joint that is on its way is waited for, one that is held ends the program.
 class Following final : public Activity {
  public:
-  Following(Workplace& place, const Trajectory& step) : Activity(place), step_(step) {
+  Following(OperatorContext& place, const Trajectory& step) : Activity(place), step_(step) {
     for (const std::string& name : step.joints) joints_.push_back(place.machine.joint_index(name));
   }
   const char* phase() const override { return "trajectory"; }
@@ -60,10 +63,12 @@ class Following final : public Activity {
       const scene::Joint& joint = place_.machine.joints[j];
       const vehicle::JointState& now = seen.joints[j];
       const double rest = std::abs(step_.positions.back()[i] - now.position);
-      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortWay : kShortAngle)) continue;
+      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortPath : kShortAngle))
+        continue;
       on_the_way = true;
       if (late < kSettle) continue;
-      // A joint that lies beside its target and moves may well be driven off by what holds it: patience has an end.
+      // A joint that lies beside its target and moves may well be driven off by what holds it:
+      // patience has an end.
       if (late > kPatience || now.stalled || std::abs(now.velocity) < kAtRest)
         return fall_short(StepState::kBlocked, held_text(joint, now, rest, "its last position"));
     }
@@ -103,9 +108,9 @@ void check_column(const scene::StepSource& source, const Trajectory::Column& col
   // One position is enough to find the mistake; the slack covers the rounding of degrees.
   for (const double position : column.positions())
     if (position < joint.lower - 1e-6 || position > joint.upper + 1e-6)
-      return fault(std::to_string(position * f),
-                   "must be within the joint's limits, " + std::to_string(joint.lower * f) +
-                       " to " + std::to_string(joint.upper * f));
+      return fault(std::to_string(position * f), "must be within the joint's limits, " +
+                                                     std::to_string(joint.lower * f) + " to " +
+                                                     std::to_string(joint.upper * f));
 }
 
 }  // namespace
@@ -136,27 +141,28 @@ void Trajectory::check(const scene::StepSource& source) {
                    "", item);
     check_column(source, column, item);
     // The file has a row per joint, the operator a row per time.
-    for (std::size_t k = 0; k < times.size() && k < given.size(); ++k)
-      positions[k][j] = given[k];
+    for (std::size_t k = 0; k < times.size() && k < given.size(); ++k) positions[k][j] = given[k];
   }
 }
 
 void Trajectory::check_machine(const scene::Machine& machine) const {
   // Programs built in C++ may be anything: the run relies on what is asked here.
   const auto fail = [&](const std::string& value, const std::string& rule) {
-    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/trajectory", value,
-                           rule, "give every joint one position for each time"});
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
+                           machine.name + "/navvy:program/trajectory", value, rule,
+                           "give every joint one position for each time"});
   };
   if (times.empty()) fail("", "a trajectory needs at least one time");
   if (positions.size() != times.size())
     fail(std::to_string(positions.size()) + " rows", "needs one row of positions for each time");
   for (const auto& row : positions)
-    if (row.size() != joints.size()) fail(std::to_string(row.size()), "a row needs one position for each joint");
+    if (row.size() != joints.size())
+      fail(std::to_string(row.size()), "a row needs one position for each joint");
   for (const std::string& name : joints)
     if (machine.joint_index(name) < 0) fail(name, "no joint of this name in the machine");
 }
 
-std::unique_ptr<Activity> Trajectory::activity(Workplace& place) const {
+std::unique_ptr<Activity> Trajectory::activity(OperatorContext& place) const {
   return std::make_unique<Following>(place, *this);
 }
 

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
-/// Open-loop joint positions over time, linear between knots; times count from the start of this step.
-struct Trajectory final : Step {
+/// Open-loop joint positions over time, linear between knots; times count from the start of this
+/// step.
+struct Trajectory final : ProgramStep {
   /// Positions of one joint, as a file gives them.
   struct Column {
     std::string joint;
@@ -29,7 +30,8 @@ struct Trajectory final : Step {
 
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
-  static constexpr const char* kText = "Moves joints through positions over time, linear between them.";
+  static constexpr const char* kText =
+      "Moves joints through positions over time, linear between them.";
   std::vector<std::string> joints;
   std::vector<Column> columns;                 ///< of a file
   std::vector<double> times;                   ///< [s], increasing
@@ -45,7 +47,7 @@ struct Trajectory final : Step {
   /// @throws InputError for anything that the reader would have refused, too.
   void check_machine(const scene::Machine& machine) const override;
   /// One phase: commands its joints alone.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
 }  // namespace navvy::control

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it out.
+// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it
+// out.
 #include "control/activities/dig/dig.h"
 
 #include "control/activities/dig/digging.h"
@@ -26,6 +27,8 @@ void Dig::check(const scene::StepSource& source) {
                  "there is rock below; make the ground deeper");
 }
 
-std::unique_ptr<Activity> Dig::activity(Workplace& place) const { return std::make_unique<Digging>(place, *this); }
+std::unique_ptr<Activity> Dig::activity(OperatorContext& place) const {
+  return std::make_unique<Digging>(place, *this);
+}
 
 }  // namespace navvy::control
