@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Open-loop joint positions over time, linear between knots; times count from the start of this
-/// step.
-struct Trajectory final : ProgramStep {
+/// Moves joints along open-loop positions over time, linear between knots; times count from the
+/// start of this step.
+struct Trajectory final : ActivityStep {
   /// Positions of one joint, as a file gives them.
   struct Column {
     std::string joint;
@@ -30,12 +30,16 @@ struct Trajectory final : ProgramStep {
 
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
+  /// Sentence for the reference of scene elements.
   static constexpr const char* kText =
       "Moves joints through positions over time, linear between them.";
   std::vector<std::string> joints;
-  std::vector<Column> columns;                 ///< of a file
-  std::vector<double> times;                   ///< [s], increasing
-  std::vector<std::vector<double>> positions;  ///< [knot][joint], [rad] or [m]
+  /// Times of the knots [s], increasing.
+  std::vector<double> times;
+  /// Positions as [knot][joint], [rad] or [m].
+  std::vector<std::vector<double>> positions;
+  /// Positions as read, one entry per joint.
+  std::vector<Column> columns;
 
   void describe(scene::Fields& f) override {
     f("times_s", times, {0, 1e6}, "Times from the start of the step, increasing.", scene::kNeeded);
@@ -44,9 +48,10 @@ struct Trajectory final : ProgramStep {
   /// Checks times and joints, and fills `joints` and `positions` from `columns`.
   void check(const scene::StepSource& source);
   const char* element() const override { return kElement; }
-  /// @throws InputError for anything that the reader would have refused, too.
+  /// Checks the trajectory against the machine. @throws InputError also for anything that the
+  /// reader would have refused.
   void check_machine(const scene::Machine& machine) const override;
-  /// One phase: commands its joints alone.
+  /// Returns an activity with one phase, which commands only its joints.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
