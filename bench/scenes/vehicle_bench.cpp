@@ -3,7 +3,7 @@
 // beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam:
 // vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time;
 // `particles` counts machines and bodies. What ground and ruts came to hold in memory goes to
-// stderr, by columns of the tiles that were touched and by columns that a wheel or belt moved.
+// stderr, by columns of the tiles that were touched and by columns that a wheel or track moved.
 #include <malloc.h>
 
 #include <cstdio>
