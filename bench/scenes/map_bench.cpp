@@ -5,9 +5,9 @@
 //   map_full:100m, :1km            the whole map of the same ground, for comparison
 //   map_ask:heights, :clearances   a million heights, 100 000 clearances, on one core
 //   map_trench:whole, :publish, :wire
-//                                  SECONDS simulated of `trench`, all layers published at 10 Hz over
-//                                  TCP to a reader: time of the loop, of publishing, and from a
-//                                  step's end to the reader
+//                                  SECONDS simulated of `trench`, all layers published at 10 Hz
+//                                  over TCP to a reader: time of the loop, of publishing, and from
+//                                  a step's end to the reader
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

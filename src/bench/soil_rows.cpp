@@ -208,8 +208,8 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case has this word in its name",
-                           "one of:" + names});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only,
+                           "no case has this word in its name", "one of:" + names});
   for (const SoilCase* c : wanted) {
     // Beside its row, so that other load on the machine affects both alike.
     const Peak peak = measure_peak(device);

@@ -63,7 +63,7 @@ void each_energy(const Visit& visit) {
   visit("apart", &EnergyAccount::apart);
 }
 
-/// Reports the account as people and files get it: tell(name, [J]) for every member, then for the
+/// Reports the account as people and files get it: report(name, [J]) for every member, then for the
 /// residual.
 template <class Sink>
 void report_energy(const EnergyAccount& account, const Sink& report) {

@@ -18,7 +18,7 @@ void Solver::State::check_masses() {
     if (counted[soil] == masses.in_particles()[soil]) continue;
     throw SimulationError(here() + "the particles of '" + world.soils[soil].name + "' weigh " +
                           std::to_string(counted[soil] - masses.in_particles()[soil]) +
-                          " units of 2^-24 kg more than booked");
+                          " units of 2^-24 kg more than recorded");
   }
 }
 
@@ -99,7 +99,7 @@ static void visit(Archive& a, SolverStats& stats) {
   a("particles_peak", stats.particles_peak);
   a("blocks", stats.blocks);
   a("rebins", stats.rebins);
-  a("wakes", stats.activations);
+  a("activations", stats.activations);
   a("deposits", stats.deposits);
   a("shell_crossings", stats.shell_crossings);
   a("max_speed", stats.max_speed);

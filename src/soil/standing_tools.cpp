@@ -137,6 +137,6 @@ bool StandingTools::apply(double dt, std::span<const ToolMotion> motions,
   return ended;
 }
 
-void StandingTools::visit(Archive& a) { a.fixed("seats", contacts_); }
+void StandingTools::visit(Archive& a) { a.fixed("contacts", contacts_); }
 
 }  // namespace navvy::soil

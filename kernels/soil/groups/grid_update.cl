@@ -5,7 +5,7 @@
 // In, Out: as in soil/lanes/grid_update.cl.
 //
 // Parallel: one work-group per active block, one node per work-item. Repeatable: tiles are added in
-// the order of soil/lanes/grid_update.cl, so that the sum of a node has the same bits. Host:
+// the order of soil/lanes/grid_update.cl, so that the sum of a node is bit-identical. Host:
 // src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
 #include "soil/node.h"

@@ -97,8 +97,8 @@ Report run(const Setup& setup) {
   const double yields = std::asin(std::min(1.0, std::sqrt(3.0) * (1 - k0) / (1 + 2 * k0)));
   const bool bears = setup.is("stressed", "yes") &&
                      (setup.soil.friction_angle > yields || setup.soil.cohesion > 0);
-  const std::string range = "soil that bears K0 stress (phi above " + short_text(degrees(yields)) +
-                            ", or cohesion), stressed at the start";
+  const std::string range = "soil that carries K0 stress (phi above " +
+                            short_text(degrees(yields)) + ", or cohesion), stressed at the start";
   report
       .add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0,
            std::string("nu / (1 - nu), elastic rest ") + kSource)

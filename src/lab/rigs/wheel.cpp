@@ -246,7 +246,7 @@ Report run(const Setup& setup) {
   report.note(
       "torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
       "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
-          " bears at most about this");
+          " carries at most about this");
   // Soil dissipates energy: a negative value means that the contact creates some.
   report.note("power in: torque x turning less pull x speed",
               -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius -

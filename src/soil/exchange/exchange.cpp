@@ -340,7 +340,7 @@ void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone>
   fit_budget(zones, index.particles().size(), time, plan);
 
   update_rest(index, elapsed, rest);
-  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not
+  // Deposition comes before activation, because it refers to the given particles: new ones are not
   // among them. Columns slide last, on ground that has both.
   deposit(index, zones, plan, time, result);
   activate_planned(index, plan, result);
@@ -361,7 +361,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles,
     s.decide(index, zones, support_areas, time, elapsed, result);
     return result;
   }
-  // The other rules see the ground with what was booked, and the particles without.
+  // The other rules see the ground with the deposited soil, and the particles without it.
   std::vector<Particle> left;
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -385,7 +385,7 @@ std::vector<Particle> Exchange::activate(const heightfield::CellRect& rect, doub
   State& s = *state_;
   std::vector<Particle> born;
   const ColumnIndex index(resting, s.ground, s.grid);
-  // Rows of the ground's own order, so that new particles come alike in every run.
+  // In the ground's own order of rows, so that new particles come in the same order in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
       s.activator.activate(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
@@ -401,7 +401,7 @@ void Exchange::State::visit(Archive& a) {
   a("over_budget", over_budget);
   a("standing", standing);
   a("slump", slump);
-  // Times that are no numbers would keep blocks awake or at rest for ever.
+  // Times that are not numbers would keep blocks active or at rest for ever.
   for (const auto& [block, time] : rest) a.require(std::isfinite(time), "rest", "must be finite");
   for (const auto& [block, time] : deposited)
     a.require(std::isfinite(time), "deposited", "must be finite");

@@ -9,10 +9,11 @@ namespace navvy::soil {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-/// Columns around the rim that count with it [cells]: the ground between two of them is what a tyre
-/// feels, and an edge that stands may not run under it.
+/// Columns around the rim that count with it [cells]: a tyre stands on the ground between two of
+/// them, and no standing edge may reach under it.
 constexpr double kAround = 1;
-/// Ground so near below the rim is met [cells]: more than a rut sinks between two checks.
+/// Distance below the rim at which ground counts as met [cells]: more than a rut sinks between two
+/// checks.
 constexpr double kNear = 0.25;
 
 double slope(const Vec3& direction) {
@@ -27,7 +28,7 @@ SupportPlacement::SupportPlacement(const SupportArea& area, const heightfield::G
     : area_(area), origin_(ground.origin()), cell_(ground.cell()) {
   ahead_ = area.ahead_W.head<2>().normalized();
   left_ = Vec2(-ahead_.y(), ahead_.x());
-  // As ruts do: a narrow tyre feels the ground between the columns to either side of it.
+  // As ruts do: a narrow tyre stands on the ground between the columns to either side of it.
   area_.half_width = std::max(area.half_width, cell_);
   const double time = interval + area.ready;
   travel_ = time * area.v_W.head<2>().dot(ahead_);
@@ -63,7 +64,7 @@ double SupportPlacement::underside(double along, double across, double widened) 
 
 bool SupportPlacement::meets(int ix, int iy, double height) const {
   const Vec2 at = along_across(ix, iy);
-  // The nearest that the middle comes on its way.
+  // The closest position of the middle during its travel.
   const double along = at.x() - std::clamp(at.x(), std::min(travel_, 0.0), std::max(travel_, 0.0));
   return height > underside(along, at.y(), kAround * cell_) - fall_;
 }

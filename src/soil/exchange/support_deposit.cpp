@@ -11,11 +11,12 @@
 namespace navvy::soil {
 namespace {
 
-/// Columns beside a tool's box are the tool's as well: between two checks it goes 0.3 of a column.
+/// Columns beside a tool's box belong to the tool, too: between two checks it moves by 0.3 of a
+/// column.
 constexpr int kBesideTool = 1;
-/// Soil this far below a tool is not touched [cells], as in the rule that wakes before tools.
+/// Soil this far below a tool is not touched [cells], as in the rule that activates ahead of tools.
 constexpr double kUnderTool = 1;
-/// Shares of a footing's soil are counted in this height [m].
+/// Unit of height in which shares of a support area's soil are counted [m].
 constexpr double kShareUnit = 1e-7;
 
 }  // namespace
@@ -41,7 +42,7 @@ bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& inde
   return false;
 }
 
-// From the column's surface up, as heightfield::LooseSoil does it.
+// From the column's surface up, as in heightfield::LooseSoil.
 const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
   const auto [place, is_new] = stacks_.try_emplace(PlanKey{iy, ix});
   Stack& out = place->second;
@@ -61,7 +62,8 @@ const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
   return out;
 }
 
-// By the place of each particle: counted by column a level layer's height would scatter by 6 cm.
+// By the position of each particle: counted by column, the height of a level layer would scatter by
+// 6 cm.
 double SupportDeposit::smoothed(int ix, int iy) {
   double height = 0;
   for (int dy = -1; dy <= 1; ++dy)
@@ -87,7 +89,8 @@ double SupportDeposit::smoothed(int ix, int iy) {
 SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area,
                                                     std::set<PlanKey>& claimed) {
   PendingDeposit out;
-  std::vector<std::int64_t> taken;  // mass over each column, for soil too thin to show in heights
+  // Mass over each column, for soil too thin to show in heights.
+  std::vector<std::int64_t> taken;
   bool shows = false;
   const heightfield::CellRect& rect = area.rect();
   for (int iy = rect.y0; iy < rect.y1; ++iy)
@@ -97,7 +100,7 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area
       if (soil.grains.empty() || soil.touched || !area.meets(ix, iy, soil.top)) continue;
       if (tool_touches(zones_, ix, iy, (soil.top - ground_.datum()) / ground_.cell())) continue;
       if (!claimed.insert({iy, ix}).second) continue;
-      // What would stand in the wheel stays.
+      // Soil that would reach into the wheel stays active.
       const double ground = ground_.height(ix, iy),
                    clearance = std::max(0.0, area.height_limit(ix, iy) - ground);
       double filled = 0;
@@ -121,7 +124,7 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area
 int SupportDeposit::deposit(std::span<const SupportPlacement> support_areas,
                             std::vector<std::uint8_t>& removed, std::set<PlanKey>& blocks) {
   std::set<PlanKey> claimed;
-  // All are planned before any is booked, as one footing's soil is another one's neighbour.
+  // All are planned before any is deposited, as the soil of one support area neighbours another.
   std::vector<PendingDeposit> pending_deposits;
   for (const SupportPlacement& area : support_areas)
     pending_deposits.push_back(plan(area, claimed));

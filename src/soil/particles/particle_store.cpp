@@ -405,7 +405,7 @@ void ParticleStore::visit(Archive& a) {
     place(records);
     return;
   }
-  a.size("homes", particle_blocks_.size());
+  a.size("blocks", particle_blocks_.size());
   if (particle_blocks_.empty()) return;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
@@ -427,7 +427,7 @@ void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_
   };
   std::uint64_t particle_blocks = 0;
   for (std::size_t from = 0; from < records.size(); from = end_of_block(from)) ++particle_blocks;
-  particle_blocks = a.size("homes", particle_blocks);
+  particle_blocks = a.size("blocks", particle_blocks);
   if (a.loading()) records.clear();
   BlockWords particle_block;
   BlockKey before;
@@ -441,7 +441,7 @@ void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_
     a.item(h, [&] {
       particle_block.visit(a);
       // Tables are built from keys that are sorted and unique.
-      a.require(h == 0 || before < particle_block.key(), "block", "homes must ascend");
+      a.require(h == 0 || before < particle_block.key(), "block", "blocks must ascend");
       before = particle_block.key();
       if (a.loading()) particle_block.give(a, records, soils);
     });

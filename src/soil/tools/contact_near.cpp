@@ -290,7 +290,7 @@ void Contact::Registered::visit(Archive& a) {
   a("J_W", J_W);
   a("L_W", L_W);
   a("felt_for", summed_time);
-  a("told", has_mean);
+  a("has_mean", has_mean);
   a("force_W", force_W);
   a("moment_W", moment_W);
   a.require(std::isfinite(summed_time) && summed_time >= 0, "felt_for",

@@ -17,7 +17,7 @@ constexpr double kStill = 1e-3, kStillTime = 0.8;
 constexpr double kLevel = 0.25;
 /// The same on a slope, where the lower edge carries more load and sinks deeper; no more than
 /// contact reaches.
-// Tuned by Seat.ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns.
+// Tuned by RestingContact.ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns.
 constexpr double kSloping = 0.5;
 /// The contact ends when a corner has moved by this share of a cell (columns that return may lift a
 /// body that has collision shapes, too), or when the load exceeds the initial one by this factor:
@@ -198,16 +198,15 @@ bool RestingContact::apply(const scene::Shell& shell, const ToolMotion& motion, 
 
 void RestingContact::visit(Archive& a) {
   a("still", still);
-  a("taken", engaged);
+  a("engaged", engaged);
   a("X_WT", X_WT);
   a("up", up);
-  a("bears", initial_load);
+  a("initial_load", initial_load);
   a("load", load);
   a("friction", friction);
   a.require(std::isfinite(still + initial_load + load + friction) && still >= 0 &&
                 initial_load >= 0 && friction >= 0,
-            "still",
-            "must be finite and not negative, as must the load that is borne and the friction");
+            "still", "must be finite and not negative, as must the initial load and the friction");
   a.require(std::abs(up.norm() - 1) < 1e-9 && up.z() > 0, "up",
             "must be a direction that leads upward");
   a.require(std::isfinite(X_WT.matrix().sum()) && X_WT.translation().norm() < limits::kFarthest,

@@ -47,7 +47,7 @@ TEST(ExchangeState, MassBalanceHoldsThroughRandomWork) {
   Random random(11);
   int woken = 0, deposited = 0, slumped = 0;
   for (int n = 0; n < 120; ++n) {
-    // Soil moves about as if a solver ran, then rests again.
+    // Soil moves as if a solver ran, then rests again.
     for (Particle& p : site.particles) {
       const bool moves = n % 40 < 8 && random.uniform() < 0.05;
       p.v[0] = moves ? static_cast<float>(random.uniform(-0.5, 0.5)) : 0.0f;

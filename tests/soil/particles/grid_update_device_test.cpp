@@ -10,7 +10,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Node velocities and masses per room, four numbers each, of all active blocks.
+/// Returns node velocities and masses per free volume, four numbers each, of all active blocks.
 std::vector<float> nodes_of(Stages& stages, const Vec3& dv) {
   stages.enqueue_scatter();
   stages.enqueue_grid(dv);
@@ -40,7 +40,7 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
 }
 
 TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
-  // Ground through the middle of the strewn particles.
+  // Ground through the middle of the scattered particles.
   const std::vector<Particle> particles = strewn(200);
   Stages open(particles), stages(particles, 40);
   const std::vector<float> free_nodes = nodes_of(open, Vec3::Zero()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tool that stands: its soil goes back to columns, which bear it until more is asked of them.
+// A tool that stands: its soil becomes columns, which support it until the load grows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace navvy::soil {
 namespace {
 
-constexpr double kMass = 300, kHeight = 0.3;  // 8 kPa on ground of 5 kPa
+// 8 kPa on ground of 5 kPa.
+constexpr double kMass = 300, kHeight = 0.3;
 
 scene::Soil ground_of(double tool_friction_degrees) {
   scene::Soil out = lab::cohesive(28, 5000);
@@ -19,11 +20,11 @@ scene::Soil ground_of(double tool_friction_degrees) {
   return out;
 }
 
-/// A site whose ground wakes and takes soil back, with a box laid on it.
+/// A site whose ground exchanges soil with particles, with a box on it.
 class RestingBody : public lab::Site {
  public:
   RestingBody() : RestingBody(0, lab::cohesive(28, 5000)) {}
-  /// On ground that rises along x by `slope` [rad].
+  /// Makes ground that rises along x by `slope` [rad].
   RestingBody(double slope, const scene::Soil& soil)
       : Site(rig::Rig::device(), {soil}, 0.1, options(slope)) {
     scene::Shell shell = lab::closed_box(0.6, 0.6, kHeight);
@@ -37,7 +38,7 @@ class RestingBody : public lab::Site {
   lab::Tool& box() { return tool(box_); }
   double height() { return box().motion.X_WT.translation().z(); }
   int active() const { return solver().stats().particles; }
-  /// Until no particle is left; false when some are after 15 s.
+  /// Runs until no particle is left; returns false when some are after 15 s.
   bool come_to_rest() {
     for (int i = 0; i < 30; ++i) {
       run(0.5);
@@ -91,7 +92,7 @@ TEST(RestingContact, IsLeftByABodyThatIsLiftedOrPushedAside) {
     const Vec3 before = site.box().motion.X_WT.translation();
     site.box().force_W = push;
     site.run(0.3);
-    // Half of what it would go without any ground is more than friction of 20 degrees takes away.
+    // Half of its displacement without any ground is more than friction of 20 degrees removes.
     EXPECT_GT((site.box().motion.X_WT.translation() - before).norm(), 0.05) << push;
     EXPECT_EQ(site.solver().ledger().error(), 0);
   }
@@ -137,7 +138,7 @@ TEST(RestingContact, ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns) {
     const Vec3 before = site.box().motion.X_WT.translation();
     site.run(2);
     EXPECT_EQ(site.active(), 0) << degrees;
-    // Rows are solved in sixty sweeps: what they leave is far below what would be seen in a day.
+    // Rows are solved in sixty iterations: their error is far below what a day would show.
     EXPECT_LT((site.box().motion.X_WT.translation() - before).norm(), 1e-6)
         << degrees << " deg, [m] in 2 s";
     EXPECT_NEAR(site.box().impulse.force_W.z() / (kMass * kGravity), 1, 1e-6) << degrees;
