@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reference pages of docs/reference, made from what the program itself prints.
 
-  reference.py write [NAVVY]    writes commands.md, laboratory.md, soils.md, machines.md, channels.md
+  reference.py write [NAVVY]    writes scene.md, commands.md, laboratory.md, soils.md, machines.md, channels.md
   reference.py check [NAVVY]    fails when a page is not what `write` would make it
   reference.py selftest
 
@@ -168,7 +168,11 @@ def channels(program):
     return "\n".join(out).rstrip() + "\n"
 
 
-PAGES = {"commands.md": commands, "laboratory.md": laboratory, "soils.md": soils, "machines.md": machines,
+def scene_elements(program):
+    return output(program, "schema", "--markdown")
+
+
+PAGES = {"scene.md": scene_elements, "commands.md": commands, "laboratory.md": laboratory, "soils.md": soils, "machines.md": machines,
          "channels.md": channels}
 
 
@@ -190,6 +194,7 @@ def write(program, only_check=False):
         else:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(after)
+            print("docs: %s/%s is renewed" % (FOLDER, name))
     return good or not only_check
 
 
