@@ -103,7 +103,7 @@ def soils(program):
                 if found[1] not in names_of_values:
                     names_of_values.append(found[1])
     out = ["# Soils\n", NOTE, "The shipped soils, used in a scene by `<navvy:soil ref=\"NAME\"/>`. The elements are",
-           "described in the [reference](../README.md#reference), their use in [make your own soil](../howto/soil.md).\n"]
+           "described in [scene elements](scene.md), their use in [make your own soil](../howto/soil.md).\n"]
     for start in range(0, len(names), 4):
         some = names[start:start + 4]
         out += ["| Element | " + " | ".join("`%s`" % name for name in some) + " | Range |",
