@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads worlds, machines and soils from SDF 1.9 files with `navvy:` extension elements
-// (scenarios/README.md documents them all). Every reader collects all faults of all files involved
+// (docs/reference/scene.md lists them all). Every reader collects all faults of all files involved
 // before it throws; warnings go to core/log.h.
 #pragma once
 

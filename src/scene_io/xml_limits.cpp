@@ -43,7 +43,7 @@ bool check_count(const Element& element, const char* child, std::size_t most, Fa
   faults.error(
       element, std::to_string(found),
       "at most " + std::to_string(most) + " <" + child + "> in one <" + element.Name() + ">",
-      "scenarios/README.md lists the limits of files");
+      "docs/reference/limits.md lists the limits of files");
   return false;
 }
 
@@ -74,7 +74,7 @@ bool check_counts(const Element& element, Faults& faults) {
 bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   const auto most = [&](const char* what, std::size_t number) {
     faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,
-                 "scenarios/README.md lists the limits of files");
+                 "docs/reference/limits.md lists the limits of files");
     return false;
   };
   if (std::strlen(element.Name()) > limits::kNameBytes)
@@ -157,7 +157,7 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
     fault.line = 1 + static_cast<int>(std::count(
                          text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
     fault.rule = "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element";
-    fault.remedy = "scenarios/README.md lists the limits of files";
+    fault.remedy = "docs/reference/limits.md lists the limits of files";
   } else {
     return true;
   }
