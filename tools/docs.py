@@ -15,7 +15,7 @@ column headings:
   <!-- generated: end -->
 
 Reads README.md files and docs/ as they are, so the same pages read well on a code host and in the
-site. The site is made by Sphinx with MyST; the library's pages come from the headers through Doxygen
+site. Sphinx with MyST makes the site; the library's pages come from the headers through Doxygen
 and Breathe. Every warning is an error. Reference pages need a built navvy (build/release or
 build/ci) and are left alone without one.
 """
@@ -316,7 +316,7 @@ def run(*command, **more):
 
 
 def sphinx_python():
-    """Returns the Python that has Sphinx: this one, or Debian's if another one is first on the path."""
+    """Returns a Python that has Sphinx: this one, or Debian's."""
     for python in (sys.executable, "/usr/bin/python3"):
         done = subprocess.run(
             [python, "-c", "import sphinx, myst_parser, breathe, sphinx_rtd_theme"],
