@@ -15,16 +15,17 @@ namespace {
 using scene::FieldSource;
 using scene::kDegree;
 
-// Of a joint: a servo's lag under load is less [m]
+// Tolerance of a joint's position [m]: a servo's lag under load is smaller.
 constexpr double kShortAngle = radians(3), kShortPath = 0.03;
-// [s] before a joint at rest counts as held
+// Time [s] after which a joint at rest counts as held.
 constexpr double kSettle = 0.3;
 constexpr double kAtRest = 0.02;  // [rad/s|m/s]
-// [s] for joints that are slower than their positions
+// Extra time [s] for joints that are slower than their positions.
 constexpr double kPatience = 5;
 
-// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at
-// the end it looks: a joint that is on its way is waited for, one that is held ends the program.
+// Open loop: joints are not observed while they move, and the step ends by the clock. Only at the
+// end are they checked: the step waits for a joint that still moves; a joint that is held ends the
+// program.
 class Following final : public Activity {
  public:
   Following(OperatorContext& place, const Trajectory& step) : Activity(place), step_(step) {
@@ -37,26 +38,26 @@ class Following final : public Activity {
   bool update(const Observation& seen, double, Command& out) override {
     const std::vector<double>& times = step_.times;
     const double t = std::clamp(phase_time(), times.front(), times.back());
-    // Between knots k and n; one knot alone is held.
+    // Between knots k and n; a single knot is held.
     std::size_t k = 0;
     while (k + 2 < times.size() && times[k + 1] <= t) ++k;
     const std::size_t n = std::min(k + 1, times.size() - 1);
     const double span = times[n] - times[k];
     const double u = span > 0 ? (t - times[k]) / span : 1;
-    // One row of positions a knot.
+    // One row of positions per knot.
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double q = step_.positions[k][i] + u * (step_.positions[n][i] - step_.positions[k][i]);
       const auto joint = static_cast<std::size_t>(joints_[i]);
       out.joints[joint] = vehicle::JointInput{vehicle::JointMode::kPosition, q};
       if (!place_.arm) continue;
-      // The next step's move begins where this one has led the arm.
+      // The next step's move starts where this one has led the arm.
       for (std::size_t axis = 0; axis < 4; ++axis)
         if (joint == place_.joint(axis)) place_.handover.q[axis] = q;
     }
     return phase_time() >= times.back() && arrive(seen, phase_time() - times.back());
   }
 
-  /// Whether the step is over `late` [s] after its last time.
+  /// Returns true when the step is over `late` [s] after its last time.
   bool arrive(const Observation& seen, double late) {
     bool on_the_way = false;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -68,8 +69,8 @@ class Following final : public Activity {
         continue;
       on_the_way = true;
       if (late < kSettle) continue;
-      // A joint that lies beside its target and moves may well be driven off by what holds it:
-      // patience has an end.
+      // A joint beside its target that moves may be driven off by what holds it, so patience is
+      // limited.
       if (late > kPatience || now.stalled || std::abs(now.velocity) < kAtRest)
         return fall_short(StepState::kBlocked, held_text(joint, now, rest, "its last position"));
     }
@@ -80,10 +81,11 @@ class Following final : public Activity {
   std::vector<int> joints_;  // indices in Machine::joints
 };
 
-/// Whether the machine has the joint, in the unit that it is given in, and gets there.
+/// Checks that the machine has the joint, in the unit given, and that the joint reaches the
+/// position.
 void check_joint(FieldSource& fields, const scene::Machine* machine, const std::string& name,
                  bool in_degrees, const std::vector<double>& positions) {
-  // A machine that could not be read has been told of already.
+  // A machine that could not be read has already been reported.
   if (!machine || machine->links.empty()) return;
   const int index = machine->joint_index(name);
   if (index < 0) {
@@ -93,8 +95,7 @@ void check_joint(FieldSource& fields, const scene::Machine* machine, const std::
     return;
   }
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
-  // The unit in the element's name must be the joint's: 90 read as metres would be a fault of
-  // another kind.
+  // The unit in the element's name must be the joint's: 90 read as metres would be another fault.
   const bool turns = joint.type == scene::Joint::Type::kRevolute;
   if (!turns && joint.type != scene::Joint::Type::kPrismatic) {
     fields.error("", name, "only revolute and prismatic joints can be moved");
@@ -104,7 +105,7 @@ void check_joint(FieldSource& fields, const scene::Machine* machine, const std::
         turns ? "a revolute joint needs <positions_deg>" : "a prismatic joint needs <positions_m>");
   } else if (joint.has_limits) {
     const double f = turns ? 1 / kDegree : 1;
-    // The first one beyond them is enough to find the slip; rounding of degrees is let pass.
+    // The first position beyond the limits suffices; rounding of degrees is tolerated.
     for (const double position : positions) {
       if (position >= joint.lower - 1e-6 && position <= joint.upper + 1e-6) continue;
       fields.error("", std::to_string(position * f),
@@ -115,7 +116,7 @@ void check_joint(FieldSource& fields, const scene::Machine* machine, const std::
   }
 }
 
-/// One joint's positions over the times; its name is added to the step.
+/// Reads one joint's positions over the times and adds its name to the step.
 std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machine,
                                Trajectory& step) {
   std::string name;
@@ -124,15 +125,15 @@ std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machin
       .list("positions_deg", in_degrees, {-36000, 36000}, kDegree)
       .list("positions_m", in_metres, {-1e4, 1e4})
       .finish();
-  // Faulty ones, too, so that columns and names stay side by side.
+  // Faulty joints are added too, so that columns and names correspond.
   step.joints.push_back(name);
-  // Exactly one of the two.
+  // Exactly one of the two elements.
   const bool turns = fields.has("positions_deg");
   if (turns == fields.has("positions_m")) {
     fields.error("", "", "needs either <positions_deg> or <positions_m>");
     return {};
   }
-  // Both lists are SI by now.
+  // Both lists are in SI units here.
   const std::vector<double>& positions = turns ? in_degrees : in_metres;
   if (positions.size() != step.times.size())
     fields.error("", std::to_string(positions.size()) + " positions",
@@ -154,7 +155,7 @@ Trajectory Trajectory::read(const scene::StepSource& source) {
             [&](FieldSource& joint) { columns.push_back(read_joint(joint, source.machine, step)); })
       .required("joint")
       .finish();
-  // Equal times would be a jump, for which no joint has a servo.
+  // Equal times would be a jump, which no servo can follow.
   for (std::size_t i = 1; i < step.times.size(); ++i)
     if (step.times[i] <= step.times[i - 1]) {
       fields.error("times_s", fields.written("times_s"), "times must increase");
@@ -162,7 +163,7 @@ Trajectory Trajectory::read(const scene::StepSource& source) {
     }
   if (fields.has("times_s") && step.times.empty())
     fields.error("times_s", "", "needs at least one time");
-  // The file gives a row a joint, the operator wants a row a time.
+  // The file has a row per joint; the operator needs a row per time.
   step.positions.assign(step.times.size(), std::vector<double>(columns.size(), 0.0));
   for (std::size_t j = 0; j < columns.size(); ++j)
     for (std::size_t k = 0; k < step.times.size() && k < columns[j].size(); ++k)
@@ -171,7 +172,7 @@ Trajectory Trajectory::read(const scene::StepSource& source) {
 }
 
 void Trajectory::check_machine(const scene::Machine& machine) const {
-  // Programs built in C++ may be anything: the run relies on what is asked here.
+  // Programs built in C++ are unchecked, and the run relies on these conditions.
   const auto fail = [&](const std::string& value, const std::string& rule) {
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
                            machine.name + "/navvy:program/trajectory", value, rule,

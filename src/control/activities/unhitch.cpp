@@ -24,7 +24,7 @@ class LettingGo final : public Activity {
 }  // namespace
 
 Unhitch Unhitch::read(const scene::StepSource& source) {
-  // Whether the machine has such a hitch is asked when all machines have been read.
+  // The loader checks that the machine has such a hitch when all machines have been read.
   Unhitch step;
   source.fields.text("hitch", step.hitch).required("hitch").finish();
   return step;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it
-// out.
+// The dig step as a scene describes it; dig_reach.cpp checks its targets, digging.h carries it out.
 #include "control/activities/dig/dig.h"
 
 #include "control/activities/dig/digging.h"
@@ -13,7 +12,7 @@ Dig Dig::read(const scene::StepSource& source) {
   scene::FieldSource& fields = source.fields;
   int cycles = 0;
   const scene::Machine* machine = source.machine;
-  // Who says nothing digs as wide as the bucket cuts.
+  // The default width is that of the bucket's cut.
   if (machine && !machine->buckets.empty()) step.width = machine->buckets[0].width;
   fields.vec2("from_m", step.from, kPlace)
       .required("from_m")
@@ -29,7 +28,7 @@ Dig Dig::read(const scene::StepSource& source) {
       .whole("max_cycles", cycles, {1, 100000})
       .finish();
   if (cycles > 0) step.max_cycles = cycles;
-  // What inverse kinematics needs; the swing joint is asked for by the operator.
+  // Joints that inverse kinematics needs; the operator requires the swing joint.
   const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() &&
                    !machine->arm.stick.empty() && !machine->arm.bucket.empty();
   source.require(can,
