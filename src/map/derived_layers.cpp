@@ -12,13 +12,14 @@
 namespace navvy::map {
 namespace {
 
-// Columns; a window of 129 x 129 costs a tenth of a millisecond a column
+// Largest window [columns to each side]: one of 129 x 129 costs a tenth of a millisecond per
+// column.
 constexpr int kWidestReach = 64;
 
-/// NaN is the one number that differs from itself.
+/// Returns false for NaN, the one number that differs from itself.
 bool known(float value) { return value == value; }
 
-/// Height gained per column along one axis; NaN where neither neighbour is known.
+/// Returns the height gained per column along one axis; NaN where neither neighbour is known.
 double gradient(float before, float here, float after) {
   const auto z = static_cast<double>(here);
   if (known(before) && known(after))
@@ -63,7 +64,7 @@ float slope_at(const ElevationPatch& patch, int ix, int iy) {
 
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   if (!known(patch.at(ix, iy))) return kUnknown;
-  // Each pair once, from its column with less x or y; the greatest of them depends on no order.
+  // Visits each pair once, from its column with less x or y; the maximum depends on no order.
   float most = 0;
   for (int y = iy - reach; y <= iy + reach; ++y)
     for (int x = ix - reach; x <= ix + reach; ++x) {
@@ -95,7 +96,7 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   sxz -= sx * sz / n, syz -= sy * sz / n, szz -= sz * sz / n;
   const double det = sxx * syy - sxy * sxy;
   if (!(det > 1e-9 * sxx * syy)) return kUnknown;
-  // Fewer than three known columns, or all in one line, bear no plane: refused above.
+  // Fewer than three known columns, or all in one line, determine no plane: refused above.
   const double a = (sxz * syy - syz * sxy) / det, b = (syz * sxx - sxz * sxy) / det;
   return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
 }

@@ -21,18 +21,18 @@ namespace {
 
 using heightfield::Ground;
 
-/// Height that two roundings to whole quanta of mass may make [m]: 2^-24 kg are 1e-8 m of any soil
+/// Height [m] that two roundings to whole quanta of mass may make: 2^-24 kg are 1e-8 m of any soil
 /// in columns of 0.05 m.
 constexpr double kQuanta = 1e-7;
 
-/// The site again, with its surface from `file`. A run writes its whole site, so the file's cells
-/// are the columns.
+/// Builds the site again with its surface from `file`. A run writes its whole site, so the cells of
+/// the file are the columns.
 Ground reread(const scene::Scene& scene, const Ground& start, const std::string& file) {
   scene::Scene end = scene;
   end.ground.file = file;
   end.ground.has_at = end.ground.at_is_local = false;
   end.ground.size = start.cell() * Vec2(start.nx(), start.ny());
-  // As they lay, also where they were steeper than repose.
+  // Heights are taken as they are, also where they were steeper than repose.
   end.ground.steep = scene::SteepGround::kHold;
   end.ground.features.clear();
   Ground ground = heightfield::make_ground(end);
@@ -96,12 +96,14 @@ class RunColumns final : public SiteColumns {
   std::unordered_map<int, std::vector<float>> tiles_;
 };
 
+/// Returns the limits of the first machine that gives some.
 TraversabilityLimits limits_for(const scene::Scene& scene) {
   for (const scene::MachineInWorld& placed : scene.machines)
     if (placed.machine.traversability.given) return limits_of(placed.machine);
   return {};
 }
 
+/// Returns true when one of the layers needs this knowledge.
 bool any_needs(const std::vector<MapLayer>& layers, LayerNeeds needs) {
   return std::any_of(layers.begin(), layers.end(),
                      [&](MapLayer layer) { return info(layer).needs == needs; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles that maps share, those that are computed when somebody asks, and dense copies for writers.
+// Tiles that maps share, tiles that are computed on demand, and dense copies for writers.
 #include "map/terrain_map.h"
 
 #include <algorithm>
@@ -14,8 +14,7 @@ namespace navvy::map {
 
 using heightfield::CellRect;
 
-/// Filled in by const calls: atomic, and never changed once set. Shared by all maps that have the
-/// source.
+/// Filled in by const calls: atomic, and never changed once set. All maps with the source share it.
 struct LayerTiles::Asked {
   Asked(MapLayer l, std::shared_ptr<const LayerSource> s, std::size_t tiles)
       : layer(l), source(std::move(s)), values(tiles) {}
@@ -79,11 +78,11 @@ bool LayerTiles::shares(const LayerTiles& other, int tx, int ty) const {
 
 bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   const std::size_t number = tile_of(ix, iy), at = place(ix, iy);
-  std::shared_ptr<Tile>& tile = tiles_[number];
+  std::shared_ptr<WrittenTile>& tile = tiles_[number];
   const float* known = present(number);
   // From its source at once: who writes one column of a tile writes more.
   if (known == nullptr && asked_) {
-    auto fresh = std::make_shared<Tile>();
+    auto fresh = std::make_shared<WrittenTile>();
     compute(number, fresh->values);
     fresh->edition = edition;
     tile = std::move(fresh);
@@ -94,7 +93,7 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   if (!tile || tile->edition != edition) {
     // A map of an earlier edition may hold it; how many do is not asked, as their threads may drop
     // it this moment.
-    auto fresh = std::make_shared<Tile>();
+    auto fresh = std::make_shared<WrittenTile>();
     if (known != nullptr)
       std::copy(known, known + fresh->values.size(), fresh->values.begin());
     else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers
-// lock for a moment only.
+// Maps share their tiles, so an update is a few pointers: publishing copies nothing, and readers
+// hold the lock only briefly.
 #include "map/update_feed.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using heightfield::CellRect;
 
-/// Counts the columns of one tile of which any layer differs.
+/// Counts the columns of one tile in which any layer differs.
 class TileComparison {
  public:
   TileComparison(const TerrainMap& a, const TerrainMap& b) : a_(a), b_(b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are
-// known.
+// The tables of rosbag2 as ROS 2 Humble makes them; the metadata come last, when counts and times
+// are known.
 #include <sqlite3.h>
 
 #include <algorithm>
