@@ -11,10 +11,10 @@ static_assert(std::endian::native == std::endian::little,
               "numbers are written as they lie in memory");
 
 std::string header(const char* descr, int nx, int ny) {
-  // A dictionary as Python prints it.
+  // The header is a dictionary as Python prints it.
   std::string dict = std::string("{'descr': '") + descr + "', 'fortran_order': False, 'shape': (" +
                      std::to_string(ny) + ", " + std::to_string(nx) + "), }";
-  // Magic, version and length count too; the data begin at a multiple of 64.
+  // The data begin at a multiple of 64 bytes, counting magic, version and length.
   dict.append(63 - (10 + dict.size()) % 64, ' ');
   dict += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);

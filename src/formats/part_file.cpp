@@ -13,7 +13,7 @@ namespace navvy::formats {
 
 PartFile::PartFile(const std::string& path)
     : path_(path), part_(partial_name(path)), file_(nullptr) {
-  // Asked first: gigabytes are not written for a place that is then refused.
+  // Checked first, before gigabytes are written for a place that is then refused.
   require_writable(path);
   file_ = std::fopen(part_.c_str(), "wb");
   if (file_ == nullptr) fail();
@@ -34,7 +34,7 @@ void PartFile::write(const void* data, std::size_t count) {
 void PartFile::commit() {
   std::FILE* file = file_;
   file_ = nullptr;
-  // A full disk may show only here.
+  // Buffered bytes are written here, so a full disk may show only now.
   if (std::fclose(file) != 0) {
     const int code = errno;
     ::unlink(part_.c_str());

@@ -54,7 +54,7 @@ void PublishedMap::restart() {
 }
 
 void PublishedMap::finish() {
-  // The end need not be a moment of the rate.
+  // The end may fall between two moments of the rate.
   publish();
   publisher_->finish();
   check();

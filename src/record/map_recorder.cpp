@@ -134,7 +134,7 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
   if (!faults.empty()) throw InputError(std::move(faults));
   for (const scene::MapRecord& record : scene.records) taken_.insert(record.name);
   for (const scene::MapRecord& record : scene.records) {
-    // Pictures and points need the surface.
+    // Pictures and points need the elevation.
     std::vector<map::MapLayer> layers = layers_of(record);
     layers.push_back(map::MapLayer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
@@ -192,7 +192,7 @@ void MapRecorder::observe() {
     if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
     if (stream->bag) write_arrays(*stream);
     if (!map_due) continue;
-    // One view for all: it costs a pass over the particles.
+    // All records share one view, because it costs a pass over the particles.
     if (!view) view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     stream->maker.update(*view);
     const map::TerrainMap map = stream->maker.map();
@@ -205,7 +205,7 @@ void MapRecorder::observe() {
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(
                       sim::sample_number(world.steps(), world.dt(), record.rate)));
-    // All its files are the run's before they are there.
+    // All its files are listed as the run's before they exist.
     const std::string name = "maps/" + stream->label + number + format.extension;
     for (const std::string& file : formats::files_of(format, name)) folder_.path(file);
     format.write(map, stream->layers, folder_.directory() + "/" + name);

@@ -105,7 +105,8 @@ const std::string& type_name(MessageKind kind) {
 }
 
 const std::string& definition(MessageKind kind) {
-  // The kind's own fields, then every type they name, each after a line of 80 signs and its name.
+  // The definition has the fields of the message, then every type that they name, each after a line
+  // of 80 equal signs and its name.
   static const std::map<MessageKind, std::string> texts = [] {
     std::map<MessageKind, std::string> out;
     for (int i = 0; i < kMessageKinds; ++i) {
