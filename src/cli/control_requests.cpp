@@ -287,8 +287,8 @@ json ControlRequests::info() const {
             {"cell_m", ground.cell()},
             {"nx", ground.nx()},
             {"ny", ground.ny()}}},
-          {"inputs", units(world_.inputs())},
-          {"outputs", units(world_.outputs())},
+          {"inputs", units(world_.inputs().channels())},
+          {"outputs", units(world_.outputs().channels())},
           {"layers", layers},
           {"cameras", cameras}};
 }

@@ -2,16 +2,16 @@
 #include "control/odometry.h"
 
 #include <cmath>
-#include <variant>
 #include <vector>
 
 #include "core/error.h"
+#include "scene/drive_kinds.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
 
-/// The first driven wheel of a side that has an encoder.
+/// Returns the first driven wheel of a side that has an encoder.
 CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
   const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(machine);
   for (std::size_t w = 0; w < about.size(); ++w)
@@ -25,7 +25,7 @@ CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
                          "add <navvy:encoder> with the wheel's joint"});
 }
 
-/// sin(x) / x.
+/// Returns sin(x) / x.
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 }  // namespace
@@ -41,7 +41,7 @@ DifferentialOdometry::DifferentialOdometry(double track, const CountedWheel& lef
     : track_(track), left_(left), right_(right) {}
 
 DifferentialOdometry DifferentialOdometry::of(const scene::Machine& machine) {
-  const auto* drive = std::get_if<scene::DifferentialDrive>(&machine.drive);
+  const scene::DifferentialDrive* drive = scene::differential_drive(machine.drive);
   if (!machine.has_drive || drive == nullptr)
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
                            "machine[" + machine.name + "]", "",

@@ -23,8 +23,7 @@ struct CellRect {
   std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
   /// Returns the intersection with `other`, which may be empty.
   CellRect cut(const CellRect& other) const;
-  /// Grows to the smallest rectangle that also holds the column or the other rectangle.
-  void include(int ix, int iy);
+  /// Grows to the smallest rectangle that holds both.
   void include(const CellRect& other);
 };
 

@@ -69,9 +69,6 @@ class Ground final : public Terrain {
   /// Returns the mass now minus the mass at the start over all touched tiles, per soil, recounted
   /// from the columns [kMassQuantum].
   std::vector<std::int64_t> mass_change() const;
-  /// Sums (height now - height at the start) x cell^2 over all touched tiles, positive and negative
-  /// parts separately [m3].
-  void volume_change(double& raised, double& lowered) const;
 
   /// Returns the bounding rectangle of what changed after sequence number `sequence`: exact for
   /// recent numbers, a superset for older ones. Only the soil uses it, because its own state holds

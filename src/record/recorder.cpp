@@ -272,6 +272,11 @@ render::Image Recorder::draw(const std::string& camera) {
                          "no camera of this name in the scene", ""});
 }
 
+double wall_time_left(double simulated, double real_time_factor) {
+  // The last step may end a rounding error after the duration; "-0 s left" would be printed then.
+  return real_time_factor > 0 && simulated > 0 ? simulated / real_time_factor : 0;
+}
+
 RunProgress Recorder::progress() const {
   const State& s = *state_;
   const sim::World& world = s.session.world();
@@ -281,8 +286,8 @@ RunProgress Recorder::progress() const {
   // What a resumed run had done before does not count as its own speed.
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
-  out.remaining = out.real_time_factor > 0 ? (out.duration - out.time) / out.real_time_factor : 0;
-  out.particles = world.soil_counts().particles;
+  out.remaining = wall_time_left(out.duration - out.time, out.real_time_factor);
+  out.particles = world.soil().counts().particles;
   out.cycles = static_cast<int>(s.session.cycles().size());
   out.frames = s.status.frames;
   out.phase = world.description().machines.empty() ? "" : s.session.phase(0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small set-ups shared by the tests of the soil: the laboratory's site, soil and shells as these
-// tests want them.
+// Small setups shared by the soil tests: the laboratory's site, soils and shells.
 #pragma once
 
 #include <cstdint>
@@ -27,19 +26,19 @@ inline scene::Soil sand(double friction_degrees = 33) { return lab::clean_sand(f
 /// that particles will fill.
 class Rig : public lab::Site {
  public:
-  explicit Rig(const std::vector<scene::Soil>& soils, const Box& pit = {}, double cell = 0.1,
+  explicit Rig(const std::vector<scene::Soil>& soils, const SiteBox& pit = {}, double cell = 0.1,
                int cells = 200, const Vec2& origin = Vec2::Zero())
       : Site(device(), soils, cell, options(pit, cell * cells, origin)) {}
 
-  /// One device for all tests of a program: kernels build once.
+  /// Returns one device for all tests of a program: kernels build once.
   static device::Device& device() {
     static device::Device shared;
     return shared;
   }
   double datum() const { return ground().datum(); }
-  /// Particles on a lattice of half a cell; `depth_stress`: with the stress of resting ground whose
-  /// top is the box's.
-  std::vector<Particle> fill(const Box& box, bool depth_stress = false, int soil = 0) const {
+  /// Returns particles on a lattice of half a cell; `depth_stress`: with the stress of resting
+  /// ground whose top is the box's.
+  std::vector<Particle> fill(const SiteBox& box, bool depth_stress = false, int soil = 0) const {
     std::vector<Particle> out = Site::fill(box, {}, soil);
     if (depth_stress) rest(out, box.high.z());
     return out;
@@ -53,7 +52,7 @@ class Rig : public lab::Site {
   std::uint64_t digest() const { return hash_of(solver()).digest(); }
 
  private:
-  static lab::SiteOptions options(const Box& pit, double size, const Vec2& origin) {
+  static lab::SiteOptions options(const SiteBox& pit, double size, const Vec2& origin) {
     lab::SiteOptions out;
     out.size = size;
     out.corner = origin;

@@ -36,7 +36,7 @@ class Tipping final : public ActivityWith<Memory> {
   const char* phase() const override { return "tip"; }
 
   void begin(const Observation& seen) override {
-    // The time allowed grows with the way: a ram is slow, and slower under load.
+    // The time limit grows with the angle: a ram is slow, and slower under load.
     m.way = std::abs(step_.angle - seen.joints[joint_].position);
     tell(CycleEvent::kTipStart);
   }
@@ -44,14 +44,14 @@ class Tipping final : public ActivityWith<Memory> {
  private:
   bool update(const Observation& seen, double dt, Command& out) override {
     const vehicle::JointState& bed = seen.joints[joint_];
-    // Every step anew: an input may have moved the bed in between.
+    // Commanded in every step, because an input may have moved the bed in between.
     out.joints[joint_] = vehicle::JointInput{vehicle::JointMode::kPosition, step_.angle};
     const bool late = phase_time() > std::min(kTipPatience, 10 + m.way / kSlowRate);
     const double rest = std::abs(step_.angle - bed.position);
     // `standing` stays positive once the bed has arrived.
     if (m.standing > 0 || rest < kArrived) m.standing += dt;
     if (m.standing == 0 && late) {
-      // What fell out until here counts as tipped.
+      // Soil that fell out until here counts as tipped.
       tell(CycleEvent::kTipEnd);
       return fall_short(StepState::kStalled,
                         "the bed stopped " + number_text(degrees(rest), "deg") +
@@ -68,27 +68,18 @@ class Tipping final : public ActivityWith<Memory> {
 
 }  // namespace
 
-Tip Tip::read(const scene::StepSource& source) {
-  Tip step;
-  scene::FieldSource& fields = source.fields;
+void Tip::check(const scene::StepSource& source) const {
   const scene::Machine* machine = source.machine;
-  fields.number("angle_deg", step.angle, {-360, 360}, scene::kDegree)
-      .required("angle_deg")
-      .number("hold_s", step.hold, {0, 600})
-      .finish();
   source.require(machine && !machine->beds.empty(), "tip needs a machine with <navvy:bed>");
-  if (!machine || machine->beds.empty() || !fields.has("angle_deg")) return step;
-  // Limits can only be asked of a machine that has the bed, an angle that was given, and a joint
-  // that exists.
+  if (!machine || machine->beds.empty() || !source.has("angle_deg")) return;
   const int index = machine->joint_index(machine->beds[0].joint);
-  if (index < 0) return step;
+  if (index < 0) return;
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
-  if (joint.has_limits && (step.angle < joint.lower - 1e-6 || step.angle > joint.upper + 1e-6))
-    fields.error("angle_deg", fields.written("angle_deg"),
-                 "must lie within the limits of the bed's joint, " +
+  if (joint.has_limits && (angle < joint.lower - 1e-6 || angle > joint.upper + 1e-6))
+    source.error("angle_deg", source.written("angle_deg"),
+                 "must be within the limits of the bed's joint, " +
                      std::to_string(joint.lower / scene::kDegree) + " to " +
                      std::to_string(joint.upper / scene::kDegree));
-  return step;
 }
 
 void Tip::check_machine(const scene::Machine& machine) const {

@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Tip the bed to an angle of its joint, at the pace its cylinder allows, and keep it there for a
-/// while. It stays until the next tip, also while the machine drives.
-struct Tip final : ProgramStep {
+/// Tips the bed to an angle of its joint at the pace its cylinder allows, and holds it there for a
+/// while. The bed stays there until the next tip, also while the machine drives.
+struct Tip final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "tip";
+  /// Sentence for the reference of scene elements.
+  static constexpr const char* kText =
+      "Tips the bed at the pace of its cylinder; it stays there until the next tip.";
   explicit Tip(double angle_in = 0, double hold_in = 0) : angle(angle_in), hold(hold_in) {}
-  double angle;  ///< [rad]
-  double hold;   ///< after it has arrived [s]
+  /// Target angle of the bed's joint [rad].
+  double angle;
+  /// Time to hold after arrival [s].
+  double hold;
 
-  /// Elements: <angle_deg>, <hold_s>; the angle must lie within the limits of the bed's joint.
-  static Tip read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("angle_deg", angle, {-360, 360}, "Position of the bed's joint.", scene::kNeeded);
+    f("hold_s", hold, {0, 600}, "Time to wait after the bed has arrived.");
+  }
+  /// Checks that the machine has a bed and the angle is within the limits of its joint.
+  void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   void check_machine(const scene::Machine& machine) const override;
-  /// One phase: commands the bed's joint alone.
+  /// Returns an activity with one phase, which commands only the bed's joint.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

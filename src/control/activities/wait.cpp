@@ -6,7 +6,7 @@
 namespace navvy::control {
 namespace {
 
-// Without memory: the clock that every activity has is enough.
+// Without state: the clock that every activity has suffices.
 class Resting final : public Activity {
  public:
   Resting(OperatorContext& place, const Wait& step) : Activity(place), step_(step) {}
@@ -23,12 +23,6 @@ class Resting final : public Activity {
 };
 
 }  // namespace
-
-Wait Wait::read(const scene::StepSource& source) {
-  Wait step;
-  source.fields.number("duration_s", step.duration, {0, 1e6}).required("duration_s").finish();
-  return step;
-}
 
 std::unique_ptr<Activity> Wait::activity(OperatorContext& place) const {
   return std::make_unique<Resting>(place, *this);
