@@ -42,7 +42,7 @@ enum class MapLayer : std::uint8_t {
   /// Simulated time of the last observed change [s]; unknown where none was observed.
   kDisturbedAt,
   /// 1 where the soil may still move, 0 where it is at rest.
-  kAwake,
+  kActive,
   /// Elevation minus elevation at the start [m].
   kChange,
   /// Components of the unit upward normal in W.

@@ -28,7 +28,7 @@ TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& option
 
 /// Returns the map of the ground at the end of a run of `scene` that began on `start`, from the
 /// heights that the run wrote (`terrain_end.tif`). It has elevation and the layers that follow from
-/// it, elevation_start and target. The band `loose_depth` of the file gives loose_depth and awake;
+/// it, elevation_start and target. The band `loose_depth` of the file gives loose_depth and active;
 /// a run whose soil had all come to rest writes no such band, and both are 0 then. Soil, density
 /// and the time of changes are unknown, because the file does not hold them. Columns that did not
 /// change have exactly the heights of the start; others are rounded as in the file. The time of the

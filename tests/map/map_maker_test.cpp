@@ -242,8 +242,8 @@ TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   EXPECT_NEAR(map.at(MapLayer::kElevation, 9, 6), 0.125, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kLooseDepth, 20, 7), 0.1, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kElevation, 20, 7), 0.1, 1e-6);
-  EXPECT_EQ(map.at(MapLayer::kAwake, 20, 7), 1);
-  EXPECT_EQ(map.at(MapLayer::kAwake, 21, 7), 0);
+  EXPECT_EQ(map.at(MapLayer::kActive, 20, 7), 1);
+  EXPECT_EQ(map.at(MapLayer::kActive, 21, 7), 0);
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kTarget, 5, 6)));
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kCutFill, 5, 6)));
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kElevation, -1, 6)));
@@ -338,6 +338,8 @@ TEST(Layers, OfAPlaneHaveItsNormalAndChange) {
   EXPECT_NEAR(at(MapLayer::kNormalZ, 47, 38), n.z(), 1e-6);
   EXPECT_NEAR(at(MapLayer::kSlope, 47, 38), std::acos(n.z()), 1e-6);
 }
+
+TEST(Layers, AreFoundByTheirOldNames) { EXPECT_EQ(layer_named("awake"), MapLayer::kActive); }
 
 TEST(Layers, HaveOneRuleEach) {
   for (const LayerInfo& each : layers()) {

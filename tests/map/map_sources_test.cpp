@@ -106,7 +106,7 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       ASSERT_EQ(map.at(MapLayer::kLooseDepth, ix, iy), view.loose_depth(ix, iy)) << ix << " " << iy;
-      ASSERT_EQ(map.at(MapLayer::kAwake, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f)
+      ASSERT_EQ(map.at(MapLayer::kActive, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f)
           << ix << " " << iy;
       lying += view.active(ix, iy) ? 1 : 0;
     }
@@ -115,7 +115,7 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   heightfield::write_geotiff(start, folder / "rest.tif");
   const TerrainMap rest = map_of_run(scene, start, folder / "rest.tif", {});
   EXPECT_EQ(rest.at(MapLayer::kLooseDepth, 70, 41), 0.0f);
-  EXPECT_EQ(rest.at(MapLayer::kAwake, 3, 2), 0.0f);
+  EXPECT_EQ(rest.at(MapLayer::kActive, 3, 2), 0.0f);
   EXPECT_TRUE(std::isnan(rest.at(MapLayer::kDisturbedAt, 3, 2)));
 }
 
