@@ -30,7 +30,7 @@ constexpr auto kWhereThereIsSpace = std::launch::async | std::launch::deferred;
 // Rows computed at once: many, as layers that look around compute the rows beside them, too.
 constexpr int kChunkRows = 8 * kStripRows;
 
-/// Fills `out` with rows [y0, y1) of the rectangle, row y0 first. Called by one thread at a time.
+/// Fills `out` with rows [y0, y1) of the site, row y0 first. Called by one thread at a time.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
 /// One band of the file: where its values come from; name and unit, empty where it has none.
@@ -64,9 +64,8 @@ struct HalfFile {
   }
 };
 
-void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Band>& bands,
-           const std::string& path) {
-  const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
+void write(const GroundSetup& setup, const std::vector<Band>& bands, const std::string& path) {
+  const int nx = setup.nx, ny = setup.ny;
   const std::string part = partial_name(path);
   HalfFile half{part};
   GdalSession session;
@@ -90,8 +89,7 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
   check(data != nullptr, "the file cannot be created");
   // Row 0 of the file is the northern edge.
   const double step = setup.cell / setup.file_unit;
-  double transform[6] = {setup.easting + rect.x0 * step,  step, 0,
-                         setup.northing + rect.y1 * step, 0,    -step};
+  double transform[6] = {setup.easting, step, 0, setup.northing + ny * step, 0, -step};
   data->SetGeoTransform(transform);
   if (!setup.crs_wkt.empty()) {
     OGRSpatialReference crs;
@@ -147,21 +145,7 @@ void write_geotiff(const Terrain& terrain, const std::string& path,
       {[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "",
        height_unit(terrain.setup())}};
   for (const MapBand& band : more) bands.push_back({band.rows, band.name, band.unit});
-  write(terrain.setup(), {0, 0, terrain.nx(), terrain.ny()}, bands, path);
-}
-
-void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
-                   const std::string& path) {
-  const auto nx = static_cast<std::size_t>(std::max(rect.x1 - rect.x0, 0));
-  if (rect.empty() || values.size() != nx * static_cast<std::size_t>(rect.y1 - rect.y0))
-    // A fault of the caller, not of the file.
-    throw Error("write_geotiff: " + std::to_string(values.size()) +
-                " values do not fill the rectangle for '" + path + "'");
-  const auto rows = [&](int y0, int y1, std::vector<float>& out) {
-    out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
-               values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
-  };
-  write(terrain.setup(), rect, {{rows, "", ""}}, path);
+  write(terrain.setup(), bands, path);
 }
 
 void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands,
@@ -186,7 +170,7 @@ void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands,
     out.push_back({rows, band.name, band.height ? height_unit(setup) : band.unit});
   }
   if (out.empty()) throw Error("write_geotiff: no band for '" + path + "'");
-  write(setup, {0, 0, setup.nx, setup.ny}, out, path);
+  write(setup, out, path);
 }
 
 }  // namespace navvy::heightfield

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -33,12 +32,6 @@ struct MapBand {
 /// @throws FileError naming path and cause.
 void write_geotiff(const Terrain& terrain, const std::string& path,
                    const std::vector<MapBand>& more = {});
-
-/// Writes one dense layer over `rect` of the ground, x fastest, row 0 with least y, with its values
-/// unchanged.
-/// @throws Error when the sizes do not match, FileError.
-void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
-                   const std::string& path);
 
 /// Writes bands of a whole site under their names, in the coordinates of `setup`.
 /// @throws Error when sizes do not match or there is no band, FileError.
