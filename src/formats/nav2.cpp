@@ -17,6 +17,7 @@ namespace {
 /// of 0.19608, which is free for everyone who sets free_thresh to 0.25.
 constexpr std::uint8_t kUnknownPixel = 128;
 
+// The pair holds one value per cell, and nav2 reads it as occupancy.
 void require_traversability(const std::vector<map::MapLayer>& layers, const std::string& path) {
   if (layers.size() == 1 && layers[0] == map::MapLayer::kTraversability) return;
   throw InputError(Fault{Fault::Severity::kError, path, 0, "nav2",
@@ -55,6 +56,7 @@ void rows_from_above(const map::TerrainMap& map, const Put& put) {
     for (int ix = 0; ix < map.nx(); ++ix) put(map.at(map::MapLayer::kTraversability, ix, iy));
 }
 
+// A column at any limit is an obstacle; every other known one is free.
 void write_nav2_trinary(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                         const std::string& path) {
   require_traversability(layers, path);
@@ -69,6 +71,8 @@ void write_nav2_trinary(const map::TerrainMap& map, const std::vector<map::MapLa
              "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
+// The occupancy follows traversability linearly; alpha marks unknown columns, because every gray
+// value is an occupancy.
 void write_nav2_scale(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                       const std::string& path) {
   require_traversability(layers, path);

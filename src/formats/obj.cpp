@@ -18,6 +18,7 @@ void append(std::string& to, T value) {
   to.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
+// Text in one pass: an unknown column has no vertex, and faces only join known ones.
 void write_obj(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                const std::string& path) {
   if (layers.size() != 1 || !map::info(layers[0]).height())

@@ -69,6 +69,7 @@ std::vector<std::string> within(const std::string& folder, const std::vector<std
 
 std::string folder_name(const std::string& path) { return target_of(path).filename().string(); }
 
+// Both places are checked before anything is written.
 void require_folder(const std::string& path, const std::vector<std::string>& files) {
   const fs::path target = target_of(path);
   if (!target.has_filename()) fail(path, "it has no name");

@@ -74,6 +74,7 @@ std::pair<double, double> range_of(map::LayerType type, const std::vector<float>
   return type == map::LayerType::kDifference ? std::pair{-most, most} : std::pair{low, high};
 }
 
+// A picture shows one layer; hillshade also needs a height.
 void require_one(const char* format, const std::vector<map::MapLayer>& layers,
                  const std::string& path, bool fits) {
   if (layers.size() == 1 && fits) return;
@@ -89,6 +90,7 @@ void require_one(const char* format, const std::vector<map::MapLayer>& layers,
 /// Number of the line over each column, 0 for none; empty where there are no lines.
 using Overlay = std::vector<std::uint8_t>;
 
+// Draws lines three columns wide, so that they stay visible when the picture is scaled down.
 Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& lines) {
   if (lines.empty()) return {};
   Overlay out(static_cast<std::size_t>(map.rect().area()));
@@ -146,6 +148,7 @@ void write_hillshade_with_lines(const map::TerrainMap& map,
   });
 }
 
+// The colours run over the range of the whole map, so that one picture uses all of them.
 void write_relief_with_lines(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                              const std::string& path, const std::vector<map::MapLine>& lines) {
   require_one("relief", layers, path, true);

@@ -18,6 +18,7 @@ void put(std::vector<char>& to, T value) {
   to.insert(to.end(), bytes, bytes + sizeof value);
 }
 
+// Vertices and faces are collected apart, because the header needs both counts.
 void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                const std::string& path) {
   const int nx = map.nx(), ny = map.ny();

@@ -82,6 +82,8 @@ std::vector<std::string> terra_files(const std::string& name) {
   return out;
 }
 
+// The arrays are computed completely before the folder is made, so that an error leaves nothing
+// behind.
 void write_terra(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                  const std::string& path) {
   for (const map::MapLayer needed :

@@ -170,6 +170,7 @@ void MapPublisher::State::follow(const Deliver& deliver, const Alive& alive) {
   }
 }
 
+// A folder that cannot be written ends the thread; the run reports the cause at its next update.
 void MapPublisher::State::serve_files() {
   std::uint64_t number = 0;
   const auto attempt = [&](const auto& write) {
@@ -225,6 +226,7 @@ bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t coun
   return true;
 }
 
+// A reader that connects starts from map number 0 and so gets a whole map first.
 void MapPublisher::State::serve(int file, std::atomic<bool>& done) {
   const int yes = 1;
   ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
@@ -251,6 +253,7 @@ void MapPublisher::State::sweep() {
   });
 }
 
+// Poll with a timeout, because closing the listener from another thread would not wake `accept`.
 void MapPublisher::State::accept_readers() {
   // Logged once until a reader is accepted again: one that retries for ever would fill the log.
   bool told = false;
@@ -316,6 +319,7 @@ void MapPublisher::require_place(const std::string& place) {
     require_folder(place);
 }
 
+// The feed is closed first: the threads deliver what is left and end by themselves.
 void MapPublisher::finish() {
   State& s = *state_;
   s.feed.close();

@@ -64,6 +64,7 @@ void add(const TerrainMap& map, MapLayer reference, int ix, int iy, double share
   sum.active += std::min(rise, static_cast<double>(map.at(MapLayer::kLooseDepth, ix, iy))) * share;
 }
 
+// Refuses polygons without an area and references that are not heights, before any column is read.
 void require_valid(std::span<const Vec2> polygon, MapLayer reference) {
   const auto fault = [](const std::string& value, const char* rule, const char* remedy) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "polygon", value, rule, remedy});
@@ -79,6 +80,7 @@ void require_valid(std::span<const Vec2> polygon, MapLayer reference) {
 
 }  // namespace
 
+// Rows are cut first: a column then only clips the few edges that cross its row.
 CutFill cut_and_fill(const TerrainMap& map, std::span<const Vec2> polygon, MapLayer reference) {
   require_valid(polygon, reference);
   // In columns about the site's corner, where borders are whole numbers.

@@ -31,10 +31,12 @@ double gradient(float before, float here, float after) {
 
 }  // namespace
 
+// The minimum guards against the overflow of a window that is huge or not finite.
 int TraversabilityLimits::reach(double cell) const {
   return std::clamp(static_cast<int>(std::lround(std::min(window / cell, 1e6))), 1, kWidestReach);
 }
 
+// The largest window bounds the cost of an update.
 void TraversabilityLimits::require_valid(double cell) const {
   const auto check = [](const char* name, double value, double most, const char* remedy) {
     if (std::isfinite(value) && value > 0 && value <= most) return;
@@ -62,6 +64,8 @@ float slope_at(const ElevationPatch& patch, int ix, int iy) {
   return steep == steep ? static_cast<float>(std::atan(steep)) : kUnknown;
 }
 
+// A step is a height between neighbours, so the window takes the largest of many small differences
+// and never the range over a long slope.
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   if (!known(patch.at(ix, iy))) return kUnknown;
   // Visits each pair once, from its column with less x or y; the maximum depends on no order.
@@ -78,6 +82,7 @@ float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   return most;
 }
 
+// A plane has no roughness at any slope, because the residuals count from the fitted plane.
 float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   const float centre = patch.at(ix, iy);
   if (!known(centre)) return kUnknown;
@@ -101,6 +106,7 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
 }
 
+// The mean ranks ground that is drivable; a single limit that is reached makes it undrivable.
 float traversability(float slope, float step_height, float roughness,
                      const TraversabilityLimits& limits) {
   // Added in this order always. A good slope does not make up for a step that is too high.
@@ -117,6 +123,7 @@ float traversability(float slope, float step_height, float roughness,
   return bad ? 0.0f : static_cast<float>(sum / 3);
 }
 
+// The three values below are kept, because traversability needs them again.
 float Surround::slope() {
   if (!slope_) slope_ = slope_at(patch_, ix_, iy_);
   return *slope_;

@@ -175,6 +175,7 @@ const std::array<LayerInfo, kMapLayers>& layers() {
   return table;
 }
 
+// There are few layers, and names are looked up once per command or request.
 MapLayer layer_named(const std::string& name) {
   // Earlier releases had other names for some layers.
   const std::string current = current_name(NameKind::kLayer, name);

@@ -25,6 +25,8 @@ bool MapMaker::is_of(const heightfield::TerrainView& view) const {
          map_->cell() == view.cell() && map_->origin() == view.origin();
 }
 
+// Sorts the rows of the layers by their rule once, so that an update does not test each of them in
+// every column.
 void MapMaker::start(const heightfield::TerrainView& view) {
   map_ = make_map(std::make_shared<const SiteColumns>(view, options_), 0);
   of_column_.clear();
@@ -46,6 +48,7 @@ bool MapMaker::set(MapLayer layer, int ix, int iy, float value) {
   return !tiles.empty() && tiles.set(ix, iy, value == value ? value : kUnknown, edition_);
 }
 
+// Blocks bound the memory of an update of the whole site.
 void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
   const auto now = static_cast<float>(site.view().time());
   for_each_block(rect, [&](const CellRect& part) {
@@ -63,6 +66,7 @@ void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
   });
 }
 
+// A column that two rectangles share is computed twice, with the same result.
 void MapMaker::update_derived(const CellRect& rect) {
   for_each_block(rect, [&](const CellRect& block) {
     // Elevation is read from the map and not from the view: values follow from the floats that the
@@ -75,6 +79,7 @@ void MapMaker::update_derived(const CellRect& rect) {
   });
 }
 
+// The first view only sets the source of the tiles. Later ones write what changed.
 const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& view) {
   const bool first = !is_of(view);
   if (first) {
@@ -119,6 +124,7 @@ TerrainMap MapMaker::map() {
   return out;
 }
 
+// A map without tiles in memory computes exactly the rectangle, block by block.
 std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer,
                                 const CellRect& rect, const MapOptions& options) {
   MapOptions wanted = options;

@@ -27,6 +27,7 @@ bool on_site(const TerrainMap& map, double x, double y) {
   return x >= low.x() && y >= low.y() && x <= high.x() && y <= high.y();
 }
 
+// Clamping continues the surface level beyond the outermost centres.
 void corners(const TerrainMap& map, int ix, int iy, std::array<double, 4>& z) {
   // Beyond the outermost centres the surface goes on level.
   const int x0 = std::clamp(ix, 0, map.nx() - 1), x1 = std::clamp(ix + 1, 0, map.nx() - 1);
@@ -70,6 +71,8 @@ double least(double f0, double f1, double f2, double end) {
 
 }  // namespace
 
+// A value belongs to the square of its column and is not interpolated: an index or a flag cannot
+// be.
 float value(const TerrainMap& map, MapLayer layer, double x, double y) {
   if (!on_site(map, x, y)) return kUnknown;
   const Vec2 g = (Vec2(x, y) - map.origin()) / map.cell();
@@ -94,6 +97,8 @@ double slope(const TerrainMap& map, double x, double y) {
   return std::atan(gradient(patch_at(map, x, y), map.cell()).norm());
 }
 
+// Walks the dual cells that the segment crosses. Within one cell the height of the segment above
+// the bilinear surface is a quadratic, whose minimum is exact.
 Sight line_of_sight(const TerrainMap& map, const Vec3& p, const Vec3& q) {
   if (!p.allFinite() || !q.allFinite()) return Sight::kUnsure;
   // t runs from 0 at p to 1 at q; the site is convex, so the segment is on it where both ends are.

@@ -116,6 +116,7 @@ TraversabilityLimits limits_of(const scene::Machine& machine) {
   return {own.slope, own.step_height, own.roughness, own.window};
 }
 
+// Clients that have the design pass it, because computing it again costs a pass over the site.
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site,
                        std::vector<MapLayer> layers, const heightfield::DesignSurface* design) {
   MapOptions out{std::move(layers), limits_for(scene), {}};
@@ -133,6 +134,8 @@ TerrainMap map_of_site(const Ground& site, const MapOptions& options) {
   return maker.map();
 }
 
+// The file holds rounded heights. A column whose difference from the start is within the rounding
+// keeps the exact height of the start, so that untouched ground shows no cut and no fill.
 TerrainMap map_of_run(const scene::Scene& scene, const Ground& start,
                       const std::string& terrain_end, const MapOptions& options) {
   if (!std::filesystem::is_regular_file(terrain_end))

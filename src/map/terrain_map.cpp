@@ -35,6 +35,7 @@ LayerTiles::LayerTiles(int nx, int ny, MapLayer layer, std::shared_ptr<const Lay
   if (source) asked_ = std::make_shared<const Asked>(layer, std::move(source), tiles_.size());
 }
 
+// Beyond the edge of the site a tile is unknown.
 void LayerTiles::compute(std::size_t tile, Values& to) const {
   const int x0 = static_cast<int>(tile % static_cast<std::size_t>(across_)) * kSide;
   const int y0 = static_cast<int>(tile / static_cast<std::size_t>(across_)) * kSide;
@@ -45,12 +46,14 @@ void LayerTiles::compute(std::size_t tile, Values& to) const {
                          kSide);
 }
 
+// A written tile replaces one that was computed by the source.
 const float* LayerTiles::present(std::size_t tile) const {
   if (tiles_[tile]) return tiles_[tile]->values.data();
   const Values* asked = asked_ ? asked_->values[tile].load(std::memory_order_acquire) : nullptr;
   return asked != nullptr ? asked->data() : nullptr;
 }
 
+// Lock-free: readers in many threads must not wait for each other.
 const float* LayerTiles::ask(std::size_t tile) const {
   if (const float* known = present(tile)) return known;
   // Computed before it is published: the source may throw half way.
@@ -71,11 +74,13 @@ const float* LayerTiles::passing(int tx, int ty, Values& buffer) const {
   return buffer.data();
 }
 
+// Tiles that no one wrote to are the same if both maps have the same source.
 bool LayerTiles::shares(const LayerTiles& other, int tx, int ty) const {
   const std::size_t tile = tile_of(tx * kSide, ty * kSide);
   return tiles_[tile] == other.tiles_[tile] && (tiles_[tile] || asked_ == other.asked_);
 }
 
+// Copy on write: the maps taken in earlier editions keep their tiles.
 bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   const std::size_t number = tile_of(ix, iy), at = place(ix, iy);
   std::shared_ptr<WrittenTile>& tile = tiles_[number];
@@ -105,6 +110,7 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   return true;
 }
 
+// Views have the size of a tile even at the edge of the site, so that callers need no special case.
 LayerTiles::View LayerTiles::view(int tx, int ty) const {
   // All tiles of which nothing is known look at this one.
   static const Values unknown = [] {

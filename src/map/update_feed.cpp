@@ -55,6 +55,7 @@ class TileComparison {
   std::array<bool, std::tuple_size_v<LayerTiles::Values>> differs_{};
 };
 
+// Overlaps count twice; the result is an upper bound.
 std::int64_t area_of(const std::vector<CellRect>& rects) {
   std::int64_t area = 0;
   for (const CellRect& rect : rects) area += rect.area();
@@ -74,6 +75,7 @@ std::int64_t count_changed(const TerrainMap& before, const TerrainMap& after) {
 
 UpdateFeed::UpdateFeed(MapOptions options) : maker_(std::move(options)) {}
 
+// The map is made before the lock is taken: readers wait for a few pointers only.
 UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
   const Update before = latest();
   const std::uint64_t number = before ? before->sequence + 1 : 1;
@@ -115,6 +117,8 @@ UpdateFeed::Update UpdateFeed::latest() const {
   return latest_;
 }
 
+// Unites the rectangles of the missed updates. If the oldest of them is gone, everything counts as
+// changed.
 UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
   if (!latest_ || latest_->sequence == seen) return nullptr;
   if (latest_->since == seen && seen != 0) return latest_;
@@ -155,6 +159,7 @@ void UpdateFeed::subscribe(std::function<void(const Update&)> reader) {
   readers_.push_back(std::move(reader));
 }
 
+// Subscribers are dropped, because they may refer to objects that are destroyed next.
 void UpdateFeed::close() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -59,6 +59,7 @@ bool all_above(const float* row, int count, float least) {
   return bad == 0;
 }
 
+// A range that is not finite would walk over the whole plane.
 void require_valid(const Footprint& f, double x, double y, double yaw, double range) {
   const auto fault = [](const char* name, double value, const char* rule) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("clearance ") + name,
@@ -75,6 +76,8 @@ void require_valid(const Footprint& f, double x, double y, double yaw, double ra
 
 }  // namespace
 
+// Wheels count in their straight position; the box of a collision shape is turned into the axes of
+// the base.
 Footprint footprint_of(const scene::Machine& machine) {
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   const auto extend = [&](const Pose& X_BO, const Vec3& half) {
@@ -106,6 +109,8 @@ Footprint footprint_of(const scene::Machine& machine) {
           std::max(0.0, -low.y())};
 }
 
+// Walks the columns under the footprint grown by the range, row by row, and lowers `best` as it
+// finds bad ones.
 double clearance(const map::TerrainMap& map, const Footprint& footprint, double x, double y,
                  double yaw, double range, float least) {
   require_valid(footprint, x, y, yaw, range);

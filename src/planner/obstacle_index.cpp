@@ -37,6 +37,8 @@ ObstacleIndex::ObstacleIndex(const map::TerrainMap& map, float least)
   }
 }
 
+// Four sums give the count of a rectangle of blocks. The rectangle is rounded outwards, so the
+// answer errs on the safe side.
 bool ObstacleIndex::empty(const Vec2& low, const Vec2& high) const {
   // Everything beyond the site is unknown.
   if (!((low - origin_).minCoeff() >= 0) || !((origin_ + extent_ - high).minCoeff() >= 0))
@@ -50,6 +52,8 @@ bool ObstacleIndex::empty(const Vec2& low, const Vec2& high) const {
   return sum(x1, y1) + sum(a.x(), a.y()) == sum(a.x(), y1) + sum(x1, a.y());
 }
 
+// A turned footprint is covered by the boxes of its slices: one box around all of it would be too
+// large.
 bool ObstacleIndex::surely_clear(const Footprint& footprint, double x, double y, double yaw,
                                  double range) const {
   const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());

@@ -20,6 +20,7 @@ namespace {
 
 using map::MapLayer;
 
+// A record without layers takes those of its format.
 std::vector<map::MapLayer> layers_of(const scene::MapRecord& record) {
   if (record.layers.empty()) return formats::format_named(record.format).by_default;
   std::vector<map::MapLayer> out;
@@ -73,6 +74,7 @@ formats::ros::ArrayElement element_of(sim::ElementType type) {
 
 }  // namespace
 
+// The reader of scenes knows neither formats nor layers, so their names are checked here.
 std::vector<Fault> check_records(const scene::Scene& scene) {
   std::vector<Fault> faults;
   for (const scene::MapRecord& record : scene.records) {
@@ -153,6 +155,7 @@ void MapRecorder::open(Stream& stream) {
   stream.bag = stream.format.open_bag(folder_.directory() + "/" + name);
 }
 
+// An array that was not sampled since the last step has the same sequence number.
 void MapRecorder::write_arrays(Stream& stream) {
   const sim::ArrayOutputs& arrays = session_.world().arrays();
   stream.arrays.resize(arrays.channels().size());
@@ -179,6 +182,7 @@ void MapRecorder::restart() {
 
 MapRecorder::~MapRecorder() = default;
 
+// Times are compared as step counts, so that rates hold exactly over days.
 void MapRecorder::observe() {
   const sim::World& world = session_.world();
   std::optional<heightfield::TerrainView> view;

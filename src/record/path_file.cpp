@@ -45,6 +45,7 @@ std::string path_rows(const std::string& machine, const std::vector<control::Pla
   return out;
 }
 
+// The table is one of our own, so that a row of another form means a wrong or damaged file.
 std::vector<map::MapLine> read_paths(const std::string& file) {
   const std::vector<char> bytes = read_file(file);
   std::istringstream rows(std::string(bytes.begin(), bytes.end()));

@@ -37,6 +37,8 @@ std::string topic_of(const std::string& name) {
 
 }  // namespace
 
+// A MultiArray has no header, so unit, frame and meaning go into a description, and the frame into
+// /tf.
 void write_array(Bag& bag, const ArrayMessage& array) {
   const ElementInfo& element = element_info(array.element);
   std::size_t count = 1;

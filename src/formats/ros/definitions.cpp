@@ -104,6 +104,7 @@ const std::string& type_name(MessageKind kind) {
   return names.at(kind);
 }
 
+// Built once: bags ask for it per channel.
 const std::string& definition(MessageKind kind) {
   // The definition has the fields of the message, then every type that they name, each after a line
   // of 80 equal signs and its name.

@@ -79,6 +79,7 @@ void require_capacity(const map::TerrainMap& map, std::size_t layers) {
 
 }  // namespace
 
+// The conventions of grid_map are those of its own iterators; the test asks at places by its rule.
 Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns) {
   require_capacity(map, layers.size());
@@ -111,6 +112,7 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
   return out.bytes();
 }
 
+// Rounds to whole percent, as nav2 does.
 Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
   require_capacity(map, 1);
   std::vector<std::int8_t> cells;
@@ -126,6 +128,7 @@ Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
   return out.bytes();
 }
 
+// Points are float32, the type that common tools expect in the fields x, y and z.
 Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                   std::int64_t time_ns) {
   std::vector<map::MapLayer> more;
@@ -197,6 +200,7 @@ Bytes string_message(const std::string& text) {
   return out.bytes();
 }
 
+// Elements of one size share a code path.
 Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes,
                   std::span<const std::byte> data) {
   Writer out;

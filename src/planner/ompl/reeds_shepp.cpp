@@ -145,6 +145,8 @@ class Search {
 
 }  // namespace
 
+// Several small trees cost less than a large one with the same iterations, and each may find
+// another path.
 std::optional<Path> plan_reeds_shepp(const ReedsSheppProblem& problem) {
   // The process has one source of seeds: no other search may draw from it until the last tree is
   // done.
