@@ -8,7 +8,7 @@ namespace navvy::formats {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "numbers are written as they lie in memory");
+              "numbers are written in the byte order of memory");
 
 std::string header(const char* descr, int nx, int ny) {
   // The header is a dictionary as Python prints it.

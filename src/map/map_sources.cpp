@@ -45,7 +45,7 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
   throw InputError(Fault{Fault::Severity::kError, file, 0, "map",
                          std::to_string(b.nx) + " x " + std::to_string(b.ny),
                          "the scene's site has " + std::to_string(a.nx) + " x " +
-                             std::to_string(a.ny) + " columns, or lies elsewhere",
+                             std::to_string(a.ny) + " columns, or is elsewhere",
                          "a run's folder holds both: scene.sdf and terrain_end.tif"});
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was found in a map, in lines for a person. Numbers carry as many digits as a surveyor would
-// give.
+// Prints the findings in a map as lines for people, with as many digits as a surveyor would give.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -70,7 +69,7 @@ std::string TerrainReport::warning() const {
     char value[32];
     std::snprintf(value, sizeof value, "%.9g", unmarked_value);
     out += std::string("; ") + value +
-           " is no ground's height, and the file does not declare it as nodata";
+           " cannot be a height of ground, and the file does not declare it as nodata";
     if (for_gdal)
       remedy =
           std::string("gdal_translate -a_nodata ") + value + " IN OUT.tif declares it, " + remedy;
