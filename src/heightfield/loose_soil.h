@@ -52,7 +52,7 @@ class LooseSoil {
   /// Makes a site without loose soil.
   LooseSoil() = default;
   /// Stacks the grains on the columns; costs a sort of the grains. The same grains in the same
-  /// order give the same bits.
+  /// order give a bit-identical result.
   LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains);
   /// Returns the columns row by row, each row from least x.
   const std::vector<Column>& columns() const { return columns_; }

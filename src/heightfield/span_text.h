@@ -11,7 +11,7 @@ namespace navvy::heightfield {
 
 /// Returns a text such as "x 0.000 .. 12.500, y -3.000 .. 4.000".
 inline std::string span_text(const Vec2& low, const Vec2& high) {
-  // Room for four numbers as long as a double may be.
+  // Space for four numbers as long as a double may be.
   char text[1400];
   std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(),
                 high.y());

@@ -69,8 +69,8 @@ void StartSite::column(int ix, int iy, Column& out) const {
 }
 
 double StartSite::height(int ix, int iy) const {
-  // Computed from the layers like every other column, so that soil that was dug and put back has
-  // the same bits. One column per thread is kept for its capacity.
+  // Computed from the layers like every other column, so that soil that was dug and put back gives
+  // a bit-identical height. One column per thread is kept for its capacity.
   thread_local Column column_of_thread;
   column(ix, iy, column_of_thread);
   return setup_.datum + column_height(column_of_thread, unit_);

@@ -12,7 +12,7 @@
 
 namespace navvy::heightfield {
 
-/// A HeightRaster of any size; its columns have the same bits. Any number of threads may query it.
+/// A HeightRaster of any size, with bit-identical columns. Any number of threads may query it.
 ///
 /// Holds at most kMostWindows windows of kSide x kSide cells (128 MiB), the most recently read
 /// ones, and the values of filled gaps. A height costs 20 ns more than from a HeightRaster where

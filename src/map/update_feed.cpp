@@ -133,7 +133,7 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
     if (known && step.sequence > seen)
       for (const CellRect& rect : step.rects) all.add(rect);
   out.rects = all.rects();
-  // A column may have changed in several of them: what is told is an upper bound.
+  // A column may have changed in several of them, so the count is an upper bound.
   out.changed = known ? std::min(area_of(out.rects), out.map.rect().area()) : out.map.rect().area();
   out.merged = known;
   return std::make_shared<const MapUpdate>(std::move(out));
