@@ -40,7 +40,7 @@ TEST(MapOfSite, IsTheScenesUntouchedGround) {
       ASSERT_EQ(map.at(MapLayer::kElevation, ix, iy), static_cast<float>(ground.height(ix, iy)));
 }
 
-TEST(MapOptionsOfAScene, HaveItsDesignOnlyWhereALayerAsksForIt) {
+TEST(MapOptionsOfAScene, HaveTheDesignOnlyWhereALayerNeedsIt) {
   scene::Scene scene = pit();
   scene.design.areas.push_back({});
   scene.design.areas.back().polygon = {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
@@ -58,7 +58,7 @@ TEST(MapOptionsOfAScene, HaveItsDesignOnlyWhereALayerAsksForIt) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
+TEST(MapOfRun, HasTheHeightsOfTheFileAndOfTheStart) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   heightfield::Ground ground = heightfield::make_ground(scene);
@@ -119,7 +119,7 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   EXPECT_TRUE(std::isnan(rest.at(MapLayer::kDisturbedAt, 3, 2)));
 }
 
-TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
+TEST(MapOfRun, OutlivesItsSources) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   std::optional<heightfield::Ground> ground = heightfield::make_ground(scene);
@@ -136,7 +136,7 @@ TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   EXPECT_EQ(map.at(MapLayer::kElevationStart, 33, 44), static_cast<float>(whole));
 }
 
-TEST(MapOfRun, OfAMapInFeetHasItsHeights) {
+TEST(MapOfRun, ReadsHeightsInFeet) {
   for (const char* tool : {"gdal_translate", "gdal_edit.py"})
     if (!heightfield::testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = heightfield::testing::folder();
