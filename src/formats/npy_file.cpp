@@ -23,6 +23,7 @@ std::string header(const char* descr, int nx, int ny) {
   return out + dict;
 }
 
+// The numbers follow the header without a gap.
 std::string with_header(const char* descr, std::span<const std::byte> data, int nx, int ny) {
   std::string out = header(descr, nx, ny);
   out.append(reinterpret_cast<const char*>(data.data()), data.size());

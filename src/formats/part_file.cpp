@@ -19,6 +19,7 @@ PartFile::PartFile(const std::string& path)
   if (file_ == nullptr) fail();
 }
 
+// Also runs when an exception leaves the writer.
 PartFile::~PartFile() {
   if (file_ == nullptr) return;
   std::fclose(file_);
@@ -27,6 +28,7 @@ PartFile::~PartFile() {
 
 void PartFile::fail() { throw FileError("cannot write '" + path_ + "': " + std::strerror(errno)); }
 
+// Buffered by the C library: pieces may be small.
 void PartFile::write(const void* data, std::size_t count) {
   if (std::fwrite(data, 1, count, file_) != count) fail();
 }

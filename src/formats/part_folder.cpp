@@ -91,11 +91,13 @@ PartFolder::PartFolder(const std::string& path, std::vector<std::string> files)
   if (code) fail(path_, code.message());
 }
 
+// Errors are ignored here, because destructors must not throw.
 PartFolder::~PartFolder() {
   std::error_code ignored;
   fs::remove_all(part_, ignored);
 }
 
+// Exchanging is atomic: at every moment one complete folder has the name.
 void PartFolder::commit() {
   // Another process may have added files while this one was writing.
   require_ours(path_, target_, files_);

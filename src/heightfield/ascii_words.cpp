@@ -18,6 +18,7 @@
 namespace navvy::heightfield {
 namespace {
 
+// The keys of the format may be in upper or lower case.
 std::string lower(std::string_view text) {
   std::string word(text);
   for (char& c : word)
@@ -25,6 +26,7 @@ std::string lower(std::string_view text) {
   return word;
 }
 
+// Returns true for the keys that GDAL knows.
 bool is_key(std::string_view word) {
   static const char* const keys[] = {
       "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
@@ -58,6 +60,7 @@ bool is_plain_number(std::string_view word) {
   return digits > 0 && at == word.size();
 }
 
+// Tries the cheap form first, which nearly every height has.
 bool is_number(std::string_view word) {
   if (is_plain_number(word)) return true;
   std::string text(word);
@@ -132,6 +135,7 @@ class Words {
                          "correct the map: what is not known is the NODATA_value"});
 }
 
+// Reads only as many words as the grid has cells: text behind them is ignored, as GDAL does.
 void look_through(const std::string& path, std::int64_t numbers) {
   Words words(path);
   std::string_view word;

@@ -68,6 +68,8 @@ void RectList::erase(std::size_t i) {
   for (const std::size_t k : lonely) find_partner(k);
 }
 
+// Completes larger rectangles first, because that covers nothing in excess; unites only when the
+// list is full.
 void RectList::add(const CellRect& rect) {
   if (rect.empty()) return;
   // Rectangles that complete a larger one with the new rectangle become part of it, which may allow

@@ -10,6 +10,7 @@ namespace navvy::heightfield {
 
 /// A half-open rectangle of columns: x0 <= ix < x1, y0 <= iy < y1.
 struct CellRect {
+  /// First column and the one after the last, along x and y.
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   /// Returns true when the rectangle has no column.
   bool empty() const { return x0 >= x1 || y0 >= y1; }

@@ -61,6 +61,7 @@ bool ChangeLog::lies_in(const CellRect& site) const {
   });
 }
 
+// Checks what a file could hold and no log can: order, empty rectangles, numbers above the total.
 void ChangeLog::visit(Archive& a) {
   a("sequence", sequence_);
   a("edits", edits_);

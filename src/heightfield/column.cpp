@@ -25,6 +25,7 @@ constexpr double kNoDrop = 1e-9;
 // Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
+// Returns true for layers that behave alike, so that merging them changes nothing of note.
 bool alike(const SoilLayer& a, const SoilLayer& b) {
   return a.soil == b.soil &&
          std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
@@ -128,6 +129,7 @@ void take_above(Column& column, double height, const UnitThickness& unit,
   column.resize(kept > 0 ? i + 1 : i);
 }
 
+// Merging on the way in keeps columns short: soil is put back in small amounts.
 void put(Column& column, const SoilLayer& layer) {
   if (!column.empty() && alike(column.back(), layer)) {
     unite(column.back(), layer);
@@ -137,6 +139,7 @@ void put(Column& column, const SoilLayer& layer) {
   if (column.size() > kMostLayers) shorten(column);
 }
 
+// Walks down through the zone and then through deeper soil, until the drop is used up.
 void compact(Column& column, double drop, double zone, float min_specific_volume,
              const UnitThickness& unit) {
   // Splits may need several times the capacity of the final layers, which the column would keep.

@@ -28,6 +28,7 @@ bool known(float value) { return value == value; }
   throw InputError(Fault{Fault::Severity::kError, file, line, "navvy:design", value, rule, remedy});
 }
 
+// Returns the centre of a column in W [m].
 Vec2 centre(const Terrain& site, int ix, int iy) {
   return site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5);
 }
@@ -44,10 +45,12 @@ CellRect columns_in(const Terrain& site, const Vec2& low, const Vec2& high) {
           static_cast<int>(b.y())};
 }
 
+// Returns a surface without heights.
 DesignSurface nowhere(const CellRect& rect) {
   return {rect, std::vector<float>(static_cast<std::size_t>(rect.area()), kNone)};
 }
 
+// Returns the height of a column for writing.
 float& value(DesignSurface& design, int ix, int iy) {
   const CellRect& r = design.rect;
   return design.z[static_cast<std::size_t>(iy - r.y0) * static_cast<std::size_t>(r.x1 - r.x0) +
@@ -101,6 +104,7 @@ void warn(const scene::Tin& tin, const std::string& value, const std::string& ru
       Fault{Fault::Severity::kWarning, tin.file, 0, "navvy:design", value, rule, remedy}.text());
 }
 
+// Refuses a TIN in another CRS. Where one side has no code it can only warn.
 void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
   const std::vector<int> site = codes_of(setup.crs_wkt);
   if (tin.epsg != 0 && site.empty())
@@ -136,6 +140,7 @@ void warn_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
       "if the coordinates are the same numbers, correct linearUnit (USSurveyFoot or foot)");
 }
 
+// Converts the corners to W once, and then walks the columns under each triangle.
 DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   const GroundSetup& setup = site.setup();
   require_same_crs(tin, setup);
@@ -198,6 +203,7 @@ struct Nearest {
   Vec2 place;           ///< there
 };
 
+// Finds the nearest point on the edge of a polygon, and whether p is inside (even-odd rule).
 Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
   Nearest out;
   double least = INFINITY;
@@ -241,6 +247,7 @@ DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const 
   return sides;
 }
 
+// Returns true when sides reach an edge of the rectangle that is not an edge of the site.
 bool touches_edge(const DesignSurface& design, const CellRect& whole) {
   const CellRect& r = design.rect;
   for (int iy = r.y0; iy < r.y1; ++iy)
@@ -289,6 +296,7 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
   }
 }
 
+// Later areas lie over earlier ones, in the order of the file.
 DesignSurface of_areas(const scene::Scene& scene, const Terrain& site) {
   DesignSurface out;
   for (const scene::DesignArea& area : scene.design.areas) add_area(area, scene.file, site, out);
@@ -319,6 +327,7 @@ std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrai
 #endif
 }
 
+// One pass over the columns with a design; columns without one do not count.
 DesignComparison against_design(const Terrain& ground, const DesignSurface& design) {
   DesignComparison out;
   const double square = ground.cell() * ground.cell();

@@ -6,6 +6,8 @@
 
 namespace navvy::heightfield {
 
+// The sum is rounded to float only after the offset of the datum, so that exports read back
+// exactly.
 void file_rows(const Terrain& terrain, int y0, int y1, std::vector<float>& out) {
   const GroundSetup& setup = terrain.setup();
   const int nx = terrain.nx();

@@ -100,6 +100,7 @@ Ground& Ground::operator=(Ground&&) noexcept = default;
 
 std::size_t Ground::touched_tiles() const { return state_->tiles.touched().size(); }
 
+// Writing outside the site is an error of the caller; reading there is allowed.
 void Ground::require_inside(int ix, int iy) const {
   if (!contains(ix, iy))
     throw Error("Ground: column (" + std::to_string(ix) + ", " + std::to_string(iy) +
@@ -232,6 +233,7 @@ CellRect Ground::touched_rect() const {
   return rect;
 }
 
+// The order of the fields is part of the snapshot format.
 void Ground::visit(Archive& a) {
   const Setup& s = setup();
   a.section("ground", 3, [&] {

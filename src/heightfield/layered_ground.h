@@ -31,6 +31,7 @@ class Ground final : public Terrain {
   /// @throws InputError with every fault of the setup.
   explicit Ground(Setup setup);
   ~Ground();
+  /// Moves the ground; views stay valid.
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
 
@@ -88,7 +89,9 @@ class Ground final : public Terrain {
 
  private:
   struct State;
+  /// @throws Error for a column outside the site.
   void require_inside(int ix, int iy) const;
+  /// Updates the visible state of a column and logs the edit.
   void changed(int ix, int iy);
   std::unique_ptr<State> state_;
 };

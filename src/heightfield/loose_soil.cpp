@@ -5,6 +5,7 @@
 #include <tuple>
 
 namespace navvy::heightfield {
+// Sorts the grains by column and height, and stacks them from below.
 LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
   // Soil beyond the edge of the site has no column to rest on.
   std::erase_if(grains,

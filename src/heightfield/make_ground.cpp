@@ -36,6 +36,7 @@ double surface_friction(const scene::Scene& world) {
   return scene::Soil().friction_angle;
 }
 
+// Limits are checked first, because a wrong unit would otherwise allocate far too much memory.
 void check_size(const scene::Scene& world) {
   const Vec2& size = world.ground.size;
   const double cell = world.solver.cell;
@@ -74,6 +75,7 @@ void settle_site(const scene::Scene& world, Ground::Setup& setup) {
   setup.surface = [dense](int ix, int iy) { return dense->at(ix, iy); };
 }
 
+// The shapes are copied into the source, so that the ground outlives the scene.
 void make_procedural(const scene::Scene& world, Ground::Setup& setup) {
   const ProceduralSurface surface(world.ground, surface_friction(world));
   const Vec2 origin = setup.origin;
@@ -109,6 +111,7 @@ int site_columns(double length, double cell) {
   return std::max((n + 3) / 4 * 4, 4);
 }
 
+// Faults of size, place and layers are found before a map is read, because that may take seconds.
 Ground make_ground(const scene::Scene& world, std::string* report) {
   // Sizes come first, because everything else is counted in columns.
   check_size(world);

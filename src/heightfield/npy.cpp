@@ -57,6 +57,7 @@ struct Header {
   }
 };
 
+// Only little-endian types of one number are maps.
 const TypeRow& type_of(const Header& header) {
   const std::string value = header.after("descr");
   for (const TypeRow& row : kTypes)
@@ -117,12 +118,14 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
 
 }  // namespace
 
+// Decides by content and not by the ending of the name.
 bool is_npy_file(const std::string& path) {
   char head[kMagicBytes] = {};
   std::ifstream(path, std::ios::binary).read(head, sizeof head);
   return std::memcmp(head, kMagic, kMagicBytes) == 0;
 }
 
+// The size is checked against the header before the numbers are used.
 NpyGrid read_npy(const std::string& path) {
   NpyGrid grid;
   try {

@@ -12,7 +12,9 @@ enum class NpyType { kFloat32, kFloat64, kInt16, kInt32, kUint16, kUint8 };
 
 /// The array as the file holds it.
 struct NpyGrid {
+  /// Type of the elements.
   NpyType type = NpyType::kFloat32;
+  /// Size of the array.
   int rows = 0, columns = 0;
   /// rows x columns numbers, the columns of row 0 first.
   std::vector<char> bytes;

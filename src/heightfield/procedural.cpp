@@ -119,6 +119,7 @@ double ProceduralSurface::operator()(double x, double y) const {
   return z;
 }
 
+// Bounds each shape by itself; the sum of the bounds is a bound of the sum.
 double ProceduralSurface::lower_bound(const Vec2& min, const Vec2& max) const {
   double z = base_;
   for (const GroundFeature& feature : features_) z += lowest(feature, min, max);

@@ -20,6 +20,7 @@ double HeightRaster::mean(double x, double y, double edge) const {
   return mean_of_samples(*this, x, y, edge, [&](double px, double py) { return sample(px, py); });
 }
 
+// Breadth first from the known cells, so that a gap is filled from its nearest ones.
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
   result.gaps =

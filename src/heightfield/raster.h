@@ -13,6 +13,7 @@ namespace navvy::heightfield {
 /// Heights between the centres of cells are bilinear: nothing overshoots, and no slope of the finer
 /// soil grid exceeds the steepest slope between two cells of the map.
 struct HeightRaster {
+  /// Number of cells along x and y.
   int nx = 0, ny = 0;
   /// Edges of a cell [m].
   double cell_x = 1, cell_y = 1;

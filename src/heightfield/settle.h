@@ -9,9 +9,13 @@ namespace navvy::heightfield {
 
 /// A dense surface, x fastest [m].
 struct DenseSurface {
+  /// Number of columns along x and y.
   int nx = 0, ny = 0;
+  /// Edge of a column [m].
   double cell = 0.1;
+  /// Heights of the columns.
   std::vector<double> height;
+  /// Height of column (ix, iy); nothing is checked.
   double& at(int ix, int iy) { return height[static_cast<std::size_t>(iy) * nx + ix]; }
   double at(int ix, int iy) const { return height[static_cast<std::size_t>(iy) * nx + ix]; }
 };

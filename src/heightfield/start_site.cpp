@@ -43,6 +43,7 @@ const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
   return stack_;
 }
 
+// The layers come from the description alone, so that every call gives the same ones.
 void StartSite::column(int ix, int iy, Column& out) const {
   const double surface = setup_.surface(ix, iy);
   // Cleared only now: a surface may be made from another site, whose heights use the same column of
@@ -68,6 +69,7 @@ void StartSite::column(int ix, int iy, Column& out) const {
   std::reverse(out.begin(), out.end());
 }
 
+// The height is summed from rounded masses and can differ from the source by half a mass unit.
 double StartSite::height(int ix, int iy) const {
   // Computed from the layers like every other column, so that soil that was dug and put back gives
   // a bit-identical height. One column per thread is kept for its capacity.
@@ -91,6 +93,7 @@ void StartSite::heights(int tx, int ty, TileHeights& out) const {
     }
 }
 
+// Walks the description only; the masses are not needed.
 std::uint16_t StartSite::surface_soil(int ix, int iy) const {
   const Stack& stack = stack_at(ix, iy);
   // A layer may have thickness zero, to omit it without renaming the others.
@@ -138,6 +141,7 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
   return heights.release();
 }
 
+// The table is full: this column is computed at every query.
 double StartHeights::single(int ix, int iy) const {
   // Counted, because many such reads mean that the table caches the wrong part of the site.
   computed_.fetch_add(1, std::memory_order_relaxed);

@@ -50,6 +50,7 @@ class StartSite {
   std::uint16_t surface_soil(int ix, int iy) const;
 
  private:
+  // One soil of a stack.
   struct StackLayer {
     std::uint16_t soil;
     double thickness;  // [m]
@@ -79,6 +80,7 @@ class StartSite {
 /// one by one at every query, until the owner replaces a table that is `worn`.
 class StartHeights {
  public:
+  /// Largest number of cached tiles.
   static constexpr int kMostTiles = 2048;
 
   /// Makes an empty table; nothing is computed until it is asked for.

@@ -45,6 +45,7 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
   return *tile;
 }
 
+// Only tiles that were written since the last call need a mark.
 void SurfaceTable::freeze() const {
   // Everything else is shared already.
   for (const Place& place : written_) {

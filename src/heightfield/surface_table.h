@@ -75,6 +75,7 @@ class SurfaceTable {
     std::array<std::shared_ptr<SurfaceTile>, kTileColumns> tiles;
     bool frozen = false;
   };
+  // Coordinates of a tile.
   struct Place {
     int tx, ty;
   };

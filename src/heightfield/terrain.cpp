@@ -45,6 +45,7 @@ Vec2i Terrain::column_at(double x, double y) const {
           static_cast<int>(bounded(std::floor((y - origin().y()) / cell()), -far, far))};
 }
 
+// A touched tile keeps the initial heights beside the present ones.
 double Terrain::start_height(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
@@ -53,6 +54,7 @@ double Terrain::start_height(int ix, int iy) const {
                          : start_->height(ix, iy);
 }
 
+// A tile stores the soil only where it differs from the start.
 std::uint16_t Terrain::surface_soil(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
@@ -131,6 +133,7 @@ Vec3 Terrain::normal(double x, double y) const {
   return Vec3(-dx, -dy, 1).normalized();
 }
 
+// Finds each tile once and reads its rows without a look-up per column.
 double Terrain::highest(const CellRect& rect) const {
   double out = -std::numeric_limits<double>::infinity();
   if (rect.empty()) return out;

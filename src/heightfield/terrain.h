@@ -113,7 +113,9 @@ class Terrain {
 
  private:
   friend class ChangeFollower;
+  /// Reads the heights of the four corners of a dual cell.
   void corners(int ix, int iy, double z[4]) const;
+  /// Finds the dual cell around a place and the position in it.
   void locate(double x, double y, int& ix, int& iy, double& u, double& v) const;
 };
 

@@ -3,6 +3,7 @@
 
 namespace navvy::heightfield {
 
+// Copies only tiles with loose soil; all others stay shared with the ground.
 TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const {
   TerrainView out = *this;
   out.surface_ = surface;

@@ -43,6 +43,7 @@ struct TileColumns {
   void give(std::size_t c, std::size_t& layer, Column& column) const;
 };
 
+// Arrays of one field each keep their capacity between tiles.
 void TileColumns::take(const Tile& tile) {
   std::size_t all = 0, next = 0;
   for (const Column& column : tile.columns) all += column.size();
@@ -67,6 +68,7 @@ void TileColumns::take(const Tile& tile) {
   }
 }
 
+// A snapshot may be damaged, so every number is checked before it is used.
 void TileColumns::check(Archive& a, std::size_t soils) const {
   const auto all = [](const auto& list, const auto& good) {
     return std::all_of(list.begin(), list.end(), good);
@@ -134,6 +136,7 @@ const Column* Tiles::find_column(int ix, int iy) const {
   return slot < 0 ? nullptr : &tile->columns[static_cast<std::size_t>(slot)];
 }
 
+// The initial mass is counted once, when the column starts to differ.
 Column& Tiles::touch_column(int ix, int iy) {
   Tile& tile = touch_tile(ix / kTileSide, iy / kTileSide);
   std::int16_t& slot = tile.slot[static_cast<std::size_t>(index_in_tile(ix, iy))];
@@ -169,6 +172,7 @@ void Tiles::update_surfaces(SurfaceTable& table, const StartHeights& start) cons
   }
 }
 
+// Goes tile by tile with one buffer.
 void Tiles::visit(Archive& a) {
   if (a.loading()) clear();
   const std::uint64_t count = a.size("tiles", touched_.size());

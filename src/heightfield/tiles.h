@@ -22,6 +22,7 @@ namespace navvy::heightfield {
 struct Tile {
   /// Index into `columns`; -1 where the column is as on the untouched site.
   std::array<std::int16_t, kTileColumns> slot;
+  /// Layers of the changed columns.
   std::vector<Column> columns;
 };
 
@@ -66,6 +67,7 @@ class Tiles {
   }
   /// Returns null while no column of the tile was touched.
   Tile* find_tile(int tx, int ty) const;
+  /// Returns the tile and creates it if needed.
   Tile& touch_tile(int tx, int ty);
   /// Removes all changes.
   void clear();

@@ -51,6 +51,7 @@ class HashInParts {
   bool waits_ = false;
 };
 
+// Numbers are never reused, so that the memory of a thread cannot mistake one map for another.
 std::uint64_t next_number() {
   static std::atomic<std::uint64_t> number{0};
   return ++number;
@@ -84,6 +85,7 @@ WindowedRaster::WindowedRaster(const HeightRaster& frame, Source source, int sid
 
 WindowedRaster::~WindowedRaster() = default;
 
+// Gaps are sorted, so a binary search within the row finds one.
 std::int64_t WindowedRaster::gap_at(int ix, int iy) const {
   if (row_begin_.empty()) return -1;
   const auto begin = gaps_.begin() + row_begin_[static_cast<std::size_t>(iy)];
@@ -93,6 +95,7 @@ std::int64_t WindowedRaster::gap_at(int ix, int iy) const {
   return found != end && *found == wanted ? found - gaps_.begin() : -1;
 }
 
+// Reads from the file and then overwrites the gaps.
 void WindowedRaster::read(const CellRect& cells, float* out) const {
   source_(cells, out);
   if (row_begin_.empty()) return;
@@ -200,6 +203,7 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
   return result;
 }
 
+// Slopes go into a histogram, because the tangents of a large map do not fit in memory.
 WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   Summary out;
   const auto nx = static_cast<std::size_t>(frame_.nx);

@@ -54,6 +54,7 @@ class WindowedRaster {
   double mean(double x, double y, double edge) const;
 
  private:
+  // A block of cells in memory.
   struct Window;
   struct Cache;
   /// Returns the window whose first cells include (ix, iy); valid until this thread asks for

@@ -196,6 +196,7 @@ void MapPublisher::State::serve_files() {
   attempt([&] { write_file_atomically((fs::path(folder) / kEnd).string(), ""); });
 }
 
+// A reader never sees half a patch.
 void MapPublisher::State::write_patch(const std::string& path, const map::MapUpdate& update) const {
   formats::PartFile file(path);
   formats::send_patch(update, layers, [&](const char* bytes, std::size_t count) {
@@ -245,6 +246,7 @@ void MapPublisher::State::serve(int file, std::atomic<bool>& done) {
   done = true;
 }
 
+// Runs in the accepting thread, so that no reader joins itself.
 void MapPublisher::State::sweep() {
   readers.remove_if([](Reader& reader) {
     if (!reader.done) return false;

@@ -54,6 +54,7 @@ class MapPublisher {
   static constexpr const char* kEnd = "end";
 
  private:
+  /// Hides sockets and threads from clients.
   struct State;
   std::unique_ptr<State> state_;
 };

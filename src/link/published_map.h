@@ -42,7 +42,9 @@ class PublishedMap {
   void finish();
 
  private:
+  /// Publishes the present state.
   void publish();
+  /// @throws FileError for the fault of the publisher, if there is one.
   void check() const;
 
   const sim::World& world_;

@@ -70,6 +70,7 @@ class Surround {
            int reach)
       : patch_(patch), limits_(limits), ix_(ix), iy_(iy), reach_(reach) {}
 
+  /// Returns the limits of the map.
   const TraversabilityLimits& limits() const { return limits_; }
   /// Angle from the horizontal [rad].
   float slope();

@@ -92,6 +92,7 @@ std::optional<Vec3> normal(const TerrainMap& map, double x, double y) {
   return Vec3(-g.x(), -g.y(), 1).normalized();
 }
 
+// Uses the gradient of the bilinear surface at the place itself.
 double slope(const TerrainMap& map, double x, double y) {
   if (!on_site(map, x, y)) return static_cast<double>(kUnknown);
   return std::atan(gradient(patch_at(map, x, y), map.cell()).norm());

@@ -91,10 +91,12 @@ class LayerTiles {
   };
   /// Tiles that were computed by the source because a reader asked for a column.
   struct Asked;
+  /// Returns the number of the tile that holds a column.
   std::size_t tile_of(int ix, int iy) const {
     return static_cast<std::size_t>(iy / kSide) * static_cast<std::size_t>(across_) +
            static_cast<std::size_t>(ix / kSide);
   }
+  /// Returns the place of a column in its tile.
   static std::size_t place(int ix, int iy) {
     return static_cast<std::size_t>(iy % kSide * kSide + ix % kSide);
   }

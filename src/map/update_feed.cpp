@@ -144,6 +144,7 @@ UpdateFeed::Update UpdateFeed::since(std::uint64_t seen) const {
   return since_locked(seen);
 }
 
+// The answer is computed under the lock, so that no update is missed between waiting and reading.
 UpdateFeed::Update UpdateFeed::wait(std::uint64_t seen, double seconds) const {
   std::unique_lock<std::mutex> lock(mutex_);
   Update out;

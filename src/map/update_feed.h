@@ -86,6 +86,7 @@ class UpdateFeed {
     std::uint64_t sequence;
     std::vector<heightfield::CellRect> rects;
   };
+  /// Answers `since`; the caller holds the mutex.
   Update since_locked(std::uint64_t seen) const;
 
   mutable std::mutex mutex_;

@@ -32,6 +32,7 @@ void put(std::string& to, T value) {
   std::memcpy(bytes, &value, sizeof value);
   to.append(bytes, sizeof value);
 }
+// A string is its length and its bytes.
 void put_text(std::string& to, const std::string& text) {
   put(to, static_cast<std::uint32_t>(text.size()));
   to += text;

@@ -61,6 +61,7 @@ class Writer {
   Cdr cdr_;
 };
 
+// Returns a pose at a place in the plane, without rotation.
 Pose at(double x, double y) {
   Pose X = Pose::Identity();
   X.translation() = Vec3(x, y, 0);
@@ -173,6 +174,7 @@ Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& 
   return out.bytes();
 }
 
+// Twists count in the axes of the body, as nav_msgs/Odometry defines.
 Bytes odometry(const BodyState& body, std::int64_t time_ns) {
   const Mat3 R_BW = body.X_WB.linear().transpose();
   Writer out;
@@ -187,6 +189,7 @@ Bytes joint_state(const JointStates& joints, std::int64_t time_ns) {
   return out.sequence(joints.efforts).bytes();
 }
 
+// All transforms have W as parent, so that readers need no chain.
 Bytes tf(const std::vector<BodyState>& bodies, std::int64_t time_ns) {
   Writer out;
   out << static_cast<std::uint32_t>(bodies.size());

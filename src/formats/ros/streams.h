@@ -27,6 +27,7 @@ struct MachineState {
   std::string name;
   /// Its links, the base first; frames are called "<machine>/<link>".
   std::vector<BodyState> links;
+  /// State of its joints.
   JointStates joints;
 };
 

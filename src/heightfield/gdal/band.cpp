@@ -12,6 +12,7 @@
 
 namespace navvy::heightfield {
 
+// Bands are found by their description, so that their order may change.
 bool read_band(const std::string& file, const std::string& name, int nx, int ny,
                const std::function<void(int iy, std::span<const float> values)>& take) {
   GdalSession session;

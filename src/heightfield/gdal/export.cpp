@@ -50,6 +50,7 @@ std::string height_unit(const GroundSetup& setup) {
   return "";
 }
 
+// Nine digits read back to the same float.
 std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
@@ -65,6 +66,7 @@ struct HalfFile {
   }
 };
 
+// Creates the file, its georeference and metadata, and then writes band after band.
 void write(const GroundSetup& setup, const std::vector<Band>& bands, const std::string& path) {
   const int nx = setup.nx, ny = setup.ny;
   const std::string part = partial_name(path);

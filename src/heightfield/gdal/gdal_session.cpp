@@ -21,6 +21,7 @@ void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* me
 
 }  // namespace
 
+// The handler is pushed per thread: several sessions may live at a time.
 GdalSession::GdalSession() {
   CPLPushErrorHandlerEx(collect, this);
   // Drivers are registered once per process and never removed.

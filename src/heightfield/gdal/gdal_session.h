@@ -11,6 +11,7 @@ namespace navvy::heightfield {
 /// stderr. Registers the drivers of GDAL on first use.
 class GdalSession {
  public:
+  /// Installs the error handler of this thread.
   GdalSession();
   ~GdalSession();
   GdalSession(const GdalSession&) = delete;

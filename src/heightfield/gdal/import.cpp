@@ -49,6 +49,7 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 
 }  // namespace
 
+// Small maps are held; larger ones are read in windows, with bit-identical heights.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held,
                              int side) {
   MapFile map(world.ground.file, world.ground.scale, "terrain");

@@ -19,6 +19,7 @@ namespace navvy::heightfield {
 /// Properties of a map file and of the site made from it. File coordinates are in the file's own
 /// units, everything else is in metres.
 struct TerrainReport {
+  /// Path of the file, and the name of its format in GDAL.
   std::string file, format;
   /// Size of the whole file in cells.
   int columns = 0, rows = 0;

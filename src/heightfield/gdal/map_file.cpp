@@ -98,6 +98,7 @@ void check_scale(MapFile& map) {
              "add e.g. <map_cell_m>0.5</map_cell_m>");
 }
 
+// Only the accepted drivers are tried: others reach files elsewhere, or the network.
 void open(MapFile& map) {
   map.report.file = map.file;
   // Checked first, because the message of GDAL for a missing file is of no help.
@@ -142,6 +143,7 @@ void open(MapFile& map) {
              "rewrite it with gdal_translate -co TILED=YES");
 }
 
+// Accepts axes that run backwards and cells that are not square; refuses rotation.
 void read_transform(MapFile& map) {
   double g[6];
   const scene::RasterScale& scale = map.scale;
@@ -191,6 +193,7 @@ void refuse_degrees(MapFile& map) {
                map.edit("-a_srs \"\""));
 }
 
+// Finds the unit of the coordinates, which decides all lengths.
 void read_crs(MapFile& map) {
   TerrainReport& report = map.report;
   report.unit = report.height_unit = "metre";

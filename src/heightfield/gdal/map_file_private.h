@@ -26,14 +26,19 @@ struct MapFile {
   /// @throws InputError naming file, value, rule and remedy.
   MapFile(const std::string& file, const scene::RasterScale& scale, const std::string& element);
 
+  /// Path of the file, and its name in faults.
   std::string file, element;
+  /// Metres and place from the scene, for files that have none.
   scene::RasterScale scale;
   /// Values of an NPY file, which GDAL has no driver for: the dataset reads them from here.
   std::vector<char> numbers;
   /// Outlives the dataset, whose closing may report failures.
   GdalSession session;
+  /// The open file.
   std::unique_ptr<GDALDataset> data;
+  /// Its first band, which holds the heights.
   GDALRasterBand* band = nullptr;
+  /// Findings so far.
   TerrainReport report;
   /// CRS as WKT2; empty where the file has none.
   std::string crs_wkt;
@@ -42,7 +47,9 @@ struct MapFile {
   /// Lower-left corner of the map and edges of a cell in file units, and the direction in which
   /// rows and columns run.
   double x_min = 0, y_min = 0, step_x = 1, step_y = 1;
+  /// True where columns run towards least x, or rows towards least y.
   bool columns_fall = false, rows_fall = true;
+  /// Size of a block of the file in cells.
   int block_x = 1, block_y = 1;
   /// Size of a decoded block.
   double block_bytes = 0;

@@ -20,6 +20,7 @@ __attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) 
 
 }  // namespace
 
+// One line per property, aligned for terminals.
 std::string TerrainReport::text() const {
   std::string out = "terrain " + file + "\n";
   out += line("  source   %s, %d x %d cells of %.6g x %.6g m%s", format.c_str(), columns, rows,
@@ -54,6 +55,7 @@ double TerrainReport::share_filled() const {
 
 double TerrainReport::filled_from() const { return nodata.farthest * std::max(cell_x, cell_y); }
 
+// One line, because runs print it among others.
 std::string TerrainReport::warning() const {
   if (site_gaps == 0) return "";
   std::string out = line(
