@@ -65,7 +65,7 @@ void expect_drivable(const Path& path, const PathQuery& asked) {
     EXPECT_LT(std::abs(piece.curvature), 1 / (1.15 * tightest));
 }
 
-TEST(Footprint, OfTheExcavatorIsThatOfItsFile) {
+TEST(Footprint, MatchesTheExcavatorsFile) {
   const Footprint f = footprint_of(excavator());
   EXPECT_NEAR(f.front, 1.5 + 2.3, 1e-9);                // the chassis' body
   EXPECT_NEAR(f.rear, 2.3 - 1.5, 1e-9);                 //
