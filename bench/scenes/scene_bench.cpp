@@ -29,7 +29,7 @@ void measure_scene(device::Device& device, const std::string& file, double secon
   bench::Row row;
   row.timing.best = row.timing.median = watch.seconds();
   row.timing.runs = 1;
-  const sim::SoilCounts stats = session.world().soil_counts();
+  const sim::SoilCounts stats = session.world().soil().counts();
   row.bench = "scene:" + std::filesystem::path(file).stem().string() + "_" +
               std::to_string(static_cast<int>(seconds)) + "s";
   row.steps = stats.steps;

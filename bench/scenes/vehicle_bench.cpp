@@ -127,7 +127,7 @@ class Stage {
           tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
           continue;
         }
-        for (const terramechanics::TrackPatch& patch : engine_->track_patches(m, wheel))
+        for (const terramechanics::TrackPatch& patch : engine_->tracks()->track_patches(m, wheel))
           running_tracks.push_back(patch);
       }
     const double interval = coupling::kRutInterval * kStep;

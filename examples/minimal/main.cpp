@@ -17,19 +17,19 @@ int main(int argc, char** argv) {
         navvy::scene_io::load_scene(argc > 1 ? argv[1] : SCENE, navvy::control::step_kinds()),
         device);
     const std::string machine = world.description().machines.at(0).name;
-    const int boom_speed = world.input(machine + "/boom_joint/velocity");
-    const navvy::sim::JointHandle boom = world.machine(machine).joint("boom_joint");
+    const int boom_speed = world.inputs().index(machine + "/boom_joint/velocity");
+    const navvy::sim::JointHandle boom = world.machines().at(machine).joint("boom_joint");
 
     // Lift the boom at 0.2 rad/s for a quarter of a second; the world knows no operator but this
     // loop.
     const double before = boom.position();
     while (world.time() < 0.25) {
-      world.set(boom_speed, 0.2);
+      world.inputs().set(boom_speed, 0.2);
       world.step();
     }
     std::printf("on %s: boom from %.4f to %.4f rad in %.3f s, %d outputs, state %s\n",
                 device.info().name.c_str(), before, boom.position(), world.time(),
-                static_cast<int>(world.outputs().size()), world.state_hash().c_str());
+                static_cast<int>(world.outputs().size()), world.hashes().state().c_str());
     return boom.position() > before ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

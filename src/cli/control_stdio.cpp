@@ -146,7 +146,7 @@ bool ControlStdio::say_outputs() {
   out["time"] = world_.time();
   json& values = out["outputs"];
   for (std::size_t i = 0; i < world_.outputs().size(); ++i)
-    values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
+    values[world_.outputs()[i].name] = world_.outputs().get(static_cast<int>(i));
   return say(line_of(out));
 }
 
@@ -204,7 +204,7 @@ bool ControlStdio::obey(const json& in) {
       if (!value.is_number() || !std::isfinite(value.get<double>()))
         throw fault(shown(name), shown(value), "must be a number");
       // By name each time: controllers send few inputs, and the map is fast.
-      inputs.emplace_back(world_.input(name), value.get<double>());
+      inputs.emplace_back(world_.inputs().index(name), value.get<double>());
     }
   }
   for (const auto& [input, value] : inputs) session_.set(input, value);

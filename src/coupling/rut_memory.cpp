@@ -9,14 +9,16 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
+// [m] A surface this close has not been moved by others since it was pressed.
+constexpr double kSameHeight = 1e-3;
 
 }  // namespace
 
+// Compares heights to detect soil that was added or removed since.
 void RutMemory::find(double surface) {
   if (std::abs(surface - height) <= kSameHeight) return;
   if (surface > height) {
-    // The ground that has borne most is what counts below.
+    // Below fresh soil the ground with the largest pressure counts.
     if (pressure > floor_pressure) floor_pressure = pressure, floor_height = height;
     pressure = 0;
     return;
@@ -26,8 +28,9 @@ void RutMemory::find(double surface) {
   if (on_floor || surface < floor_height) floor_pressure = floor_height = 0;
 }
 
-RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, double surface,
-                                    double borne, double at_most) {
+// Fresh soil and the ground below it are pressed by the same plate, each from its own history.
+RutMemory::Press RutMemory::press(const scene::Soil& soil, double width, double surface,
+                                  double borne, double at_most) {
   if (borne <= pressure) return {};
   const double before = terramechanics::plate_sinkage(soil, pressure, width);
   const double after = terramechanics::plate_sinkage(soil, borne, width);
@@ -37,7 +40,7 @@ RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, doubl
     drop = std::min(drop, std::max(0.0, surface - floor_height) +
                               std::max(0.0, after - terramechanics::plate_sinkage(
                                                         soil, floor_pressure, width)));
-  // Cut short, it has borne no more than what its depth by now bears.
+  // If the drop is limited, the column has borne only the pressure of its present depth.
   if (drop > at_most) {
     pressure = terramechanics::plate_pressure(soil, before + at_most, width);
     return {before, at_most};

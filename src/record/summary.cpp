@@ -87,15 +87,16 @@ json tip_list(const session::Session& session) {
 json carried(const session::Session& session) {
   json out = json::object();
   // Blades and plates carry nothing worth a line.
-  for (const sim::ToolHandle& tool : session.world().tools())
+  for (const sim::ToolHandle& tool : session.world().machines().tools())
     if (tool.is_bucket() || tool.is_bed())
-      out[session.world().machine(tool.machine()).name() + "/" + tool.name()] = tool.payload();
+      out[session.world().machines().at(tool.machine()).name() + "/" + tool.name()] =
+          tool.payload();
   return out;
 }
 
 /// In integers as the books are kept; kilograms are for people.
 json ledger(const session::Session& session, const sim::ActivePlaces& active) {
-  const sim::MassLedger sums = session.world().mass_ledger();
+  const sim::MassLedger sums = session.world().soil().mass_ledger();
   json soils = json::array();
   // By soil, under the scene's names.
   for (std::size_t i = 0; i < sums.columns.size(); ++i)
@@ -135,7 +136,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   const sim::World& world = session.world();
   const sim::ActivePlaces active = sim::active_places(world);
   const Earthwork earth = measure_earthwork(world, active.lying);
-  const sim::SoilCounts counts = world.soil_counts();
+  const sim::SoilCounts counts = world.soil().counts();
   json out;
   // What it was, how it stands, how fast it went.
   out["schema_version"] = kSummarySchemaVersion;
@@ -153,7 +154,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["real_time_factor"] =
       status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
-  for (const auto& [stage, seconds] : world.soil_stage_times())
+  for (const auto& [stage, seconds] : world.soil().stage_times())
     out["soil_stage_s"][stage] = seconds;
   // What the programs came to.
   out["programs"] = program_list(session, status.status);
@@ -176,7 +177,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   // Of all machines together.
   out["energy_j"] = session.energy();
   // Of the awake soil, when its account is kept.
-  if (const auto energy = world.soil_energy()) out["soil_energy_j"] = soil_energy(*energy, nullptr);
+  if (const auto energy = world.soil().energy())
+    out["soil_energy_j"] = soil_energy(*energy, nullptr);
   // Forces over all steps, not over telemetry's rows.
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_draft_peak_n"] = session.force().draft_peak;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "scene/drive_kinds.h"
 #include "scene_io/engine_reader.h"
 #include "scene_io/fields.h"
 
@@ -285,7 +286,7 @@ void check_tracks(Element& model, const scene::Machine& machine, Faults& faults)
                    "a sprocket turns about y of the link that carries its belt",
                    "write <xyz>0 1 0</xyz>, and turn that link so that x is ahead and z up");
     check_track(*e, *wheel, X_MC.inverse() * (X_ML * Vec3(spin.X_LcJ.translation())), faults);
-    if (machine.has_drive && !std::holds_alternative<scene::DifferentialDrive>(machine.drive))
+    if (machine.has_drive && scene::differential_drive(machine.drive) == nullptr)
       faults.error(*e, scene::drive_name(machine.drive),
                    "tracks steer by the difference of their speeds",
                    "use <navvy:drive type=\"differential\">");

@@ -29,9 +29,11 @@ class Session {
   /// `planners` is asked for paths by programs with a step that needs them, as a rule
   /// planner::path_planners().
   /// @throws InputError listing every target of a program that is out of reach and all machines
-  /// that overlap, before anything moves; device::DeviceError for the device.
+  /// that overlap, before anything moves; device::DeviceError for the device. `make_engine` makes
+  /// the world's physics engine, as for sim::World.
   Session(scene::Scene description, device::Device& device,
-          const control::MakePathPlanner& planners = {});
+          const control::MakePathPlanner& planners = {},
+          const vehicle::PhysicsEngineFactory& make_engine = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -46,9 +46,11 @@ device::Device& shared_device() {
 }
 
 Vec3 wheel_place(const sim::World& world, int wheel) {
-  return world.machine(0).wheel(wheel).state().X_WWheel.translation();
+  return world.machines().at(0).wheel(wheel).state().X_WWheel.translation();
 }
-Vec3 base_place(const sim::World& world) { return world.machine(0).link(0).pose().translation(); }
+Vec3 base_place(const sim::World& world) {
+  return world.machines().at(0).link(0).pose().translation();
+}
 
 /// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or awake.
 class Layer {
@@ -112,7 +114,7 @@ void run(
   }
 }
 
-std::string kind(bool active) { return active ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "active" : "columns"; }
 
 /// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
 /// [m].
@@ -127,7 +129,7 @@ double sinks_where_it_stands(const std::string& soil, bool active) {
     most = std::max(most, layer.particles());
   });
   EXPECT_EQ(most > 5000, active);
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
   // The machine is alike on both sides, and so is the ground.
   EXPECT_NEAR(wheel_place(world, 0).z(), wheel_place(world, 1).z(), 0.005);
   return front.z() - kLifted + layer.rise() - wheel_place(world, 0).z();
@@ -137,7 +139,7 @@ TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
                 active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
@@ -151,7 +153,7 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     sim::World world(yard("ew180"), shared_device());
     const double x = wheel_place(world, 0).x();
     Layer layer(world, {x + 1.0, -1.9}, {x + 2.2, 1.9});
-    world.command(world.machine(0), {1.0, 0, false});
+    world.commands().set(world.machines().at(0), {1.0, 0, false});
     while (wheel_place(world, 0).x() < x + 0.5) world.step();
     if (active) layer.wake();
     int count = 0, over_active = 0;
@@ -169,7 +171,7 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
                 mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
-    EXPECT_EQ(world.mass_ledger().error, 0);
+    EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm,
   // which the tread evens out over its length.
@@ -190,7 +192,7 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
     sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
     print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
                 std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
-    EXPECT_EQ(world.mass_ledger().error, 0);
+    EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   EXPECT_NEAR(sinks[1], sinks[0], 0.005);
 }
@@ -200,7 +202,7 @@ TEST(Spoil, ARunGoesOnFromASnapshotInTheMiddleOfIt) {
   const double x = wheel_place(whole, 0).x();
   Layer layer(whole, {x + 0.3, -1.9}, {x + 1.3, 1.9});
   layer.wake();
-  whole.command(whole.machine(0), {1.0, 0, false});
+  whole.commands().set(whole.machines().at(0), {1.0, 0, false});
   run(whole, 0.55);
   load_saved(saved(whole), resumed);
   EXPECT_GT(layer.particles(), 1000);

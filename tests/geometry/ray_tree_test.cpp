@@ -25,10 +25,12 @@ std::optional<RayHit> by_force(const TriangleMesh& mesh, const Vec3& origin, con
                                double reach) {
   std::optional<RayHit> best;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto d =
-        ray_triangle(origin, direction, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
-    if (d && *d <= reach && (!best || *d < best->distance))
-      best = RayHit{static_cast<int>(t), *d, mesh.area_vector(t).normalized()};
+    TriangleMesh one;
+    one.vertices = {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    one.triangles = {{0, 1, 2}};
+    const auto hit = RayTree(one).first_hit(origin, direction, reach);
+    if (hit && (!best || hit->distance < best->distance))
+      best = RayHit{static_cast<int>(t), hit->distance, mesh.area_vector(t).normalized()};
   }
   return best;
 }

@@ -231,7 +231,8 @@ TEST(SoilSolver, IsTheSameEverywhereOnTheSite) {
   // Same soil at block (13, 13) and (2250, 1750) of a 1 km site: every number of the particles is
   // equal.
   std::vector<std::vector<Particle>> got;
-  for (const Vec3i& shift : {Vec3i(13, 13, 10), Vec3i(2250, 1750, 10)}) {
+  for (const Eigen::Vector3i& shift :
+       {Eigen::Vector3i(13, 13, 10), Eigen::Vector3i(2250, 1750, 10)}) {
     Rig rig({rig::sand()}, {Vec3::Zero(), Vec3::Zero()}, 0.1, 10000);
     auto soil = rig.fill({Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.6)});
     for (Particle& p : soil) {

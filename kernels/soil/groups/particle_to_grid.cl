@@ -8,7 +8,8 @@
 // cell of base nodes. It adds up the particles of the cell for three layers of nodes in turn, and
 // adds the nine nodes of a layer to the tile one offset after the other. Cells of one offset share
 // no node, so nothing is atomic. Repeatable: particles in stored order, cell by cell. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: ReferenceSolver.
+// src/soil/particles/particle_to_grid.cpp. Reference:
+// tests/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {

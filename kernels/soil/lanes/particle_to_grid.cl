@@ -10,7 +10,8 @@
 // Report.broken.
 //
 // Parallel: one work-item per block. Repeatable: particles in stored order. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: ReferenceSolver.
+// src/soil/particles/particle_to_grid.cpp. Reference:
+// tests/soil/reference/reference_solver.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/lanes/opening.h"
 #include "soil/point.h"

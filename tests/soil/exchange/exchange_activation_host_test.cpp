@@ -123,7 +123,7 @@ TEST(ExchangeActivation, AToolActivatesTwoDigDepthsAheadOneAsideAndACellBelow) {
   for (int iy = 0; iy < 60; ++iy)
     for (int ix = 0; ix < 60; ++ix)
       if (site.ground.height(ix, iy) < -0.01) {
-        woken.include(ix, iy);
+        woken.include({ix, iy, ix + 1, iy + 1});
         EXPECT_LE(site.ground.height(ix, iy), -0.4 + 1e-6);
         EXPECT_GE(site.ground.height(ix, iy), -0.5 - 1e-6);
       }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "heightfield/volume_change.h"
 #include "soil/exchange/deposit_shape.h"
 #include "soil/exchange/exchange_site.h"
 
@@ -14,9 +15,9 @@ constexpr double kRest = 1.2;
 constexpr int kFlat = 50;  // surface of the flat site [cells above datum]
 
 double raised(const Site& site) {
-  double up = 0, down = 0;
-  site.ground.volume_change(up, down);
-  return up - down;
+  const heightfield::testing::VolumeChange change =
+      heightfield::testing::volume_change(site.ground);
+  return change.raised - change.lowered;
 }
 
 std::vector<Particle> cone(const Site& site, double radius, double height, float j0,

@@ -158,7 +158,8 @@ inline Particle particle_at(const Site& site, double x, double y, double z, doub
 }
 
 /// Returns soil where `inside(x, y, z)` (cells), 8 particles per cell on a lattice, jittered.
-inline std::vector<Particle> fill(const Site& site, const Vec3i& low, const Vec3i& high, float j0,
+inline std::vector<Particle> fill(const Site& site, const Eigen::Vector3i& low,
+                                  const Eigen::Vector3i& high, float j0,
                                   const std::function<bool(double, double, double)>& inside,
                                   double jitter = 0, std::uint16_t soil = 0) {
   std::vector<Particle> out;
