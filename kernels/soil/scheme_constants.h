@@ -65,7 +65,7 @@
   X(max_closing_ratio, 1.1, "", 1, 100, "J / J0 up to which an opening counts as numerical")
 
 // Length of a transfer, and nodes beside ground and plates (node.h) [docs/soil.md, transfer]
-// [docs/soil.md, room] [docs/soil.md, resting ground].
+// [docs/soil.md, free volume] [docs/soil.md, resting ground].
 //
 // - transfer_length: four steps at a Courant number of 0.5. A transfer damps short waves; with a
 // fixed length the damping is one per time, whatever the step.

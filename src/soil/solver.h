@@ -95,7 +95,7 @@ class Solver {
 
   /// Advances the soil by dt [s]. `impulses` has one entry per motion. Active soil that lies under
   /// `footings`, or will before the next check of the exchange, is deposited into the columns,
-  /// which then carry the load [docs/exchange.md, footings].
+  /// which then carry the load [docs/exchange.md, support areas].
   /// @throws SimulationError with step and cause when a value is not finite or the ledger opens.
   void step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
             std::span<const SupportArea> support_areas = {});

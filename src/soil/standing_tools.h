@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools that stand on the ground: start and end of their contact [docs/tools.md, seat].
+// Tools that stand on the ground: start and end of their contact [docs/tools.md, resting contact].
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines on loose soil that is still particles stand and drive as on the same soil in columns
-// [docs/exchange.md, footings].
+// [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -140,7 +140,7 @@ TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
     print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
-                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
+                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, support areas]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
     EXPECT_NEAR(active, columns, 0.005);
@@ -169,7 +169,8 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     mean[active] /= count;
     EXPECT_EQ(2 * over_active > count, active);
     print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
-                mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
+                mean[active], std::to_string(mean[0]) + " +-0.005",
+                "[docs/exchange.md, support areas]");
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
@@ -191,7 +192,7 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
     EXPECT_EQ(most > 5000, active);
     sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
     print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
-                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
+                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, support areas]");
     EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   EXPECT_NEAR(sinks[1], sinks[0], 0.005);

@@ -227,7 +227,8 @@ TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   load_saved(bytes, *second);
   const sim::World& resumed = second->world();
   second->set("excavator/drive/steer", 0.2);
-  EXPECT_EQ(resumed.machines().at(0).drive().speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.machines().at(0).drive().speed,
+            1.5);  // steering alone does not stop the machine
   EXPECT_EQ(resumed.machines().at(0).drive().steer, 0.2);
   EXPECT_FALSE(resumed.machines().at(0).drive().brake);
 }
@@ -263,7 +264,7 @@ TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
     if (session->world().steps() % 50 == 0)
       ASSERT_EQ(session->world().soil().mass_ledger().error, 0);
   }
-  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, books]
+  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, ledger]
   EXPECT_EQ(session->world().soil().counts().shell_crossings, 0u);
 }
 

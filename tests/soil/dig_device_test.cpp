@@ -189,7 +189,7 @@ TEST(SoilDig, ABucketGetsItsSoilBesideAWheelAndFromUnderIt) {
     payload[where] = scoop.payload();
     const std::string name = names[where];
     print_value(name + ": payload [kg]", payload[where], std::to_string(payload[0]) + " +-10 %",
-                "[docs/exchange.md, footings]");
+                "[docs/exchange.md, support areas]");
     print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %",
                 "the same");
     EXPECT_EQ(scoop.solver().ledger().error(), 0);

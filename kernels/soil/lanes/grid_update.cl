@@ -48,7 +48,7 @@ static inline float16 velocity_of(float16 momentum, float4 dv, int hold,
 
 // Sets the velocity of nodes at or below the floor to 0, for a row of four
 // [docs/soil.md, resting ground], and divides masses by the free volume above the ground
-// [docs/soil.md, room].
+// [docs/soil.md, free volume].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));

@@ -17,7 +17,7 @@ namespace navvy::soil {
 /// The soil above the cut is divided, soil by soil, into equal layers of about half a cell, and
 /// each layer into 2 x 2 particles. Masses are differences of rounded cumulative integers.
 /// Particles are in equilibrium under their own weight and the load on them, so undisturbed active
-/// ground stays where it is [docs/exchange.md, wake].
+/// ground stays where it is [docs/exchange.md, activation].
 class Activator {
  public:
   /// Prepares the elastic constants of the soils. The ground must outlive it. `gravity` [m/s2].

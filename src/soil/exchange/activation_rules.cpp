@@ -7,7 +7,7 @@
 namespace navvy::soil {
 namespace {
 
-// Size of the zone in dig depths, and the smallest dig depth [docs/exchange.md, wake].
+// Size of the zone in dig depths, and the smallest dig depth [docs/exchange.md, activation].
 constexpr double kAhead = 2, kSides = 1, kLeastDepthCells = 2;
 /// Soil within this distance of a tool stays particles [cells] [docs/exchange.md, deposit].
 constexpr int kToolGuard = 2;
@@ -16,7 +16,7 @@ constexpr int kToolGuard = 2;
 constexpr double kSlowTool = 0.1;
 /// Depth below a tool to which soil that it drags along activates columns [cells]. Soil fails
 /// upwards from the edge, and one cell of depth gives the same force as many
-/// [docs/exchange.md, wake].
+/// [docs/exchange.md, activation].
 constexpr double kDeepest = 3;
 /// A cut column ends within a mass quantum of the height asked for; this is above that [cells].
 constexpr double kCutError = 1e-3;
@@ -25,8 +25,8 @@ constexpr double kCutError = 1e-3;
 // loam has a tenth more particles before it, at the same force.
 constexpr double kMotionShare = 0.05, kMotionDefault = 0.05, kMotionFloor = 0.05;
 // Soil with less plastic shear than this has not failed: its motion is an elastic wave
-// [docs/exchange.md, wake]. Tuned: a heap that slides beside a deep trench activates 42 000, 40 000
-// and 26 000 particles at 0.02, 0.1 and 0.5.
+// [docs/exchange.md, activation]. Tuned: a heap that slides beside a deep trench activates 42 000,
+// 40 000 and 26 000 particles at 0.02, 0.1 and 0.5.
 constexpr float kUnfailed = 0.05F;
 
 // Returns the columns that the interval [low, high] of W covers, with `margin` cells around.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules for columns that become active because of a tool (rule A) or because soil moves beside them
-// (rule B) [docs/exchange.md, wake].
+// (rule B) [docs/exchange.md, activation].
 #pragma once
 
 #include <map>
@@ -56,7 +56,7 @@ std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const Column
 /// lowest point, down to one or two cells below it.
 ///
 /// The whole zone becomes active, not only what a tool touches, because soil fails ahead of a blade
-/// in a wedge at least as long as its depth [docs/exchange.md, wake].
+/// in a wedge at least as long as its depth [docs/exchange.md, activation].
 void activate_ahead_of_tools(const heightfield::Ground& ground, std::span<const ToolZone> zones,
                              ActivationPlan& plan);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Support areas of machines, as columns see them [docs/exchange.md, footings].
+// Support areas of machines, as columns see them [docs/exchange.md, support areas].
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Deposits active soil under wheels and tracks into the columns, which then carry the load
-// [docs/exchange.md, footings].
+// [docs/exchange.md, support areas].
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Active soil under wheels becomes ground that supports them [docs/exchange.md, footings].
+// Active soil under wheels becomes ground that supports them [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
