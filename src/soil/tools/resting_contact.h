@@ -17,8 +17,8 @@ class Archive;
 namespace navvy::soil {
 
 /// Rigid contact at the feet of a tool that stands on ground which has carried it. It lasts as long
-/// as the tool neither moves nor weighs much more than when it came to rest [docs/tools.md, resting
-/// contact].
+/// as the tool neither moves nor weighs much more than when it came to rest
+/// [docs/tools.md, resting contact].
 ///
 /// Particles near a tool stay active, and columns know no tool. Without this contact a tool that
 /// lies on the ground would keep its soil active for ever. The contact does not depend on soil: the
