@@ -41,6 +41,9 @@ struct StoredParticles {
 };
 
 /// Kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
+///
+/// Cost is linear in the particles: three passes over their codes and one copy of all fields into
+/// the other state array.
 class Rebin {
  public:
   /// Builds the kernels.
