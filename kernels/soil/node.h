@@ -2,8 +2,8 @@
 // Arithmetic of one node: the fraction of its kernel that soil can fill, and the inverse of its
 // mass. One source for both schedules, the native loop and the double twin.
 //
-// Resting ground and plates occupy part of a node's kernel. Node masses divided by the free fraction
-// show how densely soil is packed right up to walls, where plain sums would show half
+// Resting ground and plates occupy part of a node's kernel. Node masses divided by the free
+// fraction show how densely soil is packed right up to walls, where plain sums would show half
 // [docs/soil.md, free volume]. `columns` holds one number for each of the four columns around a
 // node (float4). On the host, where the ground is level, it is one number.
 #ifndef NAVVY_KERNELS_SOIL_NODE_H

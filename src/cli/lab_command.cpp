@@ -186,10 +186,10 @@ int list_constants() {
 void set_value(scene::Soil& soil, const std::string& setting) {
   const auto [name, text] = scene_io::parse_setting(setting);
   std::vector<std::string> names;
-  for (const scene::SoilValue& value : scene::soil_values()) {
+  for (const scene::SoilValue& value : scene::soil_values(soil)) {
     names.emplace_back(value.name);
     if (name != value.name) continue;
-    soil.*value.value = number_of(name, text) * value.factor;
+    *value.value = number_of(name, text) * value.factor;
     return;
   }
   throw refused("--set", name, "a number of a soil, by its name in scene files, or scheme.NAME",

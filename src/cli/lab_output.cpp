@@ -32,9 +32,9 @@ nlohmann::json number(double value) {
 }
 
 /// Every number under its name in scene files.
-nlohmann::json soil_json(const scene::Soil& soil) {
+nlohmann::json soil_json(scene::Soil soil) {
   nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
-  for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
+  for (const scene::SoilValue& v : scene::soil_values(soil)) out[v.name] = v.written();
   return out;
 }
 

@@ -2,7 +2,7 @@
 // Limits on the work that an input file may cause. Limits are counts (bytes, elements, triangles),
 // never times, so that a file is refused on every machine or on none. A file of up to 64 MB is
 // thereby refused or checked within about five seconds and 1 GB of memory. The limits are at least
-// ten times what scenes need. The table for users is in scenarios/README.md;
+// ten times what scenes need. The table for users is docs/reference/limits.md;
 // tests/scene_io/limits_test.cpp and its neighbours test the numbers, bench/limits.py measures the
 // costs.
 #pragma once

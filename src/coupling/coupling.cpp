@@ -171,7 +171,7 @@ std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
 
 // Collects all tyres and tracks before pressing any.
 void Coupling::press_ruts(double dt) {
-  // Press all at once: what one wheel leaves another may bear.
+  // Press all at once: what one wheel leaves another may carry.
   std::vector<LoadedTyre> tyres;
   std::vector<terramechanics::TrackPatch> running_tracks;
   for (std::size_t m = 0; m < placed_.size(); ++m) {

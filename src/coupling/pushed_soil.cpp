@@ -32,8 +32,8 @@ void PushedSoil::take(const Place& place, double depth) {
 }
 
 // Walks outward column by column until the strip is as wide as the tyre or track.
-std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
-                                                 const std::function<bool(int, int)>& borne) const {
+std::vector<PushedSoil::Strip> PushedSoil::strip(
+    const Place& from, double sign, const std::function<bool(int, int)>& loaded) const {
   const double cell = ground_.cell();
   const Vec2 start = ground_.origin() + cell * Vec2(from.ix + 0.5, from.iy + 0.5);
   const Vec2 step = sign * cell * from.across;
@@ -48,7 +48,7 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
     if (!ground_.contains(column.x(), column.y())) break;
     // A strip at an angle to the columns may hit one column in two successive steps; it then counts
     // twice.
-    if (!borne(column.x(), column.y())) out.push_back({column, std::min(left / cell, 1.0)});
+    if (!loaded(column.x(), column.y())) out.push_back({column, std::min(left / cell, 1.0)});
     if (!out.empty()) left -= cell;
   }
   return out;
@@ -72,12 +72,12 @@ void PushedSoil::spread(const heightfield::SoilLayer& layer, const std::vector<S
 }
 
 // Loosens the soil before it is laid down.
-void PushedSoil::deposit_down(const std::function<bool(int, int)>& borne) {
+void PushedSoil::deposit_down(const std::function<bool(int, int)>& loaded) {
   const std::vector<scene::Soil>& soils = ground_.setup().soils;
   for (const Load& load : loads_) {
     const Place& from = load.place;
     const double pressed = ground_.height(from.ix, from.iy);
-    const std::vector<Strip> to_left = strip(from, 1, borne), to_right = strip(from, -1, borne);
+    const std::vector<Strip> to_left = strip(from, 1, loaded), to_right = strip(from, -1, loaded);
     // The part of the column left of the middle line goes left. All goes to one side if the other
     // has no space.
     double share = std::clamp(0.5 + from.left / ground_.cell(), 0.0, 1.0);

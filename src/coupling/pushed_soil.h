@@ -44,10 +44,10 @@ class PushedSoil {
 
   /// Takes the covered share of the uppermost `depth` [m] of a column.
   void take(const Place& place, double depth);
-  /// Lays all soil down in the order in which it was taken. Columns for which `borne` is true
+  /// Lays all soil down in the order in which it was taken. Columns for which `loaded` is true
   /// receive none. Soil without a target, between the tyre and the site's edge, is compacted into
   /// the column it came from.
-  void deposit_down(const std::function<bool(int ix, int iy)>& borne);
+  void deposit_down(const std::function<bool(int ix, int iy)>& loaded);
 
  private:
   /// Soil taken from one column.
@@ -63,7 +63,7 @@ class PushedSoil {
   };
   /// Returns the strip on one side: `sign` 1 left, -1 right. Empty if there is no space.
   std::vector<Strip> strip(const Place& from, double sign,
-                           const std::function<bool(int, int)>& borne) const;
+                           const std::function<bool(int, int)>& loaded) const;
   /// Deposits a layer on the columns of a strip by their shares.
   void spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip);
 

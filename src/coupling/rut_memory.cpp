@@ -30,22 +30,22 @@ void RutMemory::find(double surface) {
 
 // Fresh soil and the ground below it are pressed by the same plate, each from its own history.
 RutMemory::Press RutMemory::press(const scene::Soil& soil, double width, double surface,
-                                  double borne, double at_most) {
-  if (borne <= pressure) return {};
+                                  double applied, double at_most) {
+  if (applied <= pressure) return {};
   const double before = terramechanics::plate_sinkage(soil, pressure, width);
-  const double after = terramechanics::plate_sinkage(soil, borne, width);
+  const double after = terramechanics::plate_sinkage(soil, applied, width);
   double drop = after - before;
   const bool down = floor_pressure > 0 && surface - drop <= floor_height;
   if (down)
     drop = std::min(drop, std::max(0.0, surface - floor_height) +
                               std::max(0.0, after - terramechanics::plate_sinkage(
                                                         soil, floor_pressure, width)));
-  // If the drop is limited, the column has borne only the pressure of its present depth.
+  // If the drop is limited, the record is only the pressure of the present depth.
   if (drop > at_most) {
     pressure = terramechanics::plate_pressure(soil, before + at_most, width);
     return {before, at_most};
   }
-  pressure = down ? std::max(borne, floor_pressure) : borne;
+  pressure = down ? std::max(applied, floor_pressure) : applied;
   if (down) floor_pressure = floor_height = 0;
   return {before, drop};
 }

@@ -29,11 +29,11 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   // Reset when a tyre arrives on the column, not while one stays.
   if (under_.insert(key).second && !ground_.held(ix, iy)) memory.sinking = {};
   const double height = ground_.height(ix, iy);
-  memory.borne.find(height);
+  memory.history.find(height);
   // Slip increases the sinkage like this factor on the pressure.
   const double softer = std::pow(press.softer, soil.bekker_n);
   const double width = press.patch.width;
-  const auto [before, drop] = memory.borne.press(soil, width, height, pressure * softer);
+  const auto [before, drop] = memory.history.press(soil, width, height, pressure * softer);
   if (!(drop > 0)) return;
   const double after = before + drop;
   memory.sinking.depth += drop;
@@ -43,7 +43,7 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
   ground_.compact_to(ix, iy, height - drop);
-  memory.borne.height = ground_.height(ix, iy);
+  memory.history.height = ground_.height(ix, iy);
 }
 
 // Low-pass filters with the time constants described in the header.
@@ -146,7 +146,7 @@ terramechanics::Sinkage Ruts::sinking(double x, double y) const {
 }
 
 void Ruts::Memory::visit(Archive& a) {
-  a("borne", borne);
+  a("history", history);
   a.ranged("work", sinking.work, 0.0, 1e12);
   a.ranged("depth", sinking.depth, 0.0, 1e6);
 }

@@ -31,7 +31,7 @@ constexpr int kRutInterval = 8;
 /// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and stores their load
 /// history.
 ///
-/// Each column records the largest pressure it has borne (RutMemory), so a load that stands still
+/// Each column records its largest pressure (RutMemory), so a load that stands still
 /// or passes again adds nothing. Mass is conserved: the column's density rises, and soil beyond the
 /// bearing capacity (terramechanics::pushed_depth) flows onto the rut's edges. Columns under a tyre
 /// are held (Ground::hold): the rut's walls do not slump below it [docs/machines.md, ruts].
@@ -47,8 +47,8 @@ class Ruts {
 
   /// Presses the contact patches of all wheels of the world where they are and where they roll
   /// within `interval` [s], the time until the next call. Pass the wheels in the same order each
-  /// time. Each wheel presses with the part of its `force_W` that the ground bears; tyres of a twin
-  /// pair carry half each. Columns under tyres are held until the next call. With an infinite
+  /// time. Each wheel presses with the part of its `force_W` that the ground carries; tyres of a
+  /// twin pair carry half each. Columns under tyres are held until the next call. With an infinite
   /// interval loads are not averaged.
   void press(const std::vector<LoadedTyre>& tyres,
              double interval = std::numeric_limits<double>::infinity());
@@ -58,7 +58,7 @@ class Ruts {
 
   /// Returns the load history of a column and creates it if it is new. The reference is valid until
   /// the next call.
-  RutMemory& borne(int ix, int iy) { return memory_.at(ix, iy).borne; }
+  RutMemory& history(int ix, int iy) { return memory_.at(ix, iy).history; }
 
   /// Returns the load [N] with which wheel `i` of the last call presses, 0 before.
   double load(std::size_t i) const { return i < bearing_.size() ? bearing_[i].load : 0; }
@@ -69,7 +69,7 @@ class Ruts {
  private:
   /// Load history of a column and its present compaction.
   struct Memory {
-    RutMemory borne;
+    RutMemory history;
     /// Compaction since the tyre that stands on the column arrived.
     terramechanics::Sinkage sinking;
     void visit(Archive& a);

@@ -18,7 +18,7 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   const int ix = place.ix, iy = place.iy;
   const double width = place.width;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
-  RutMemory& memory = ruts_.borne(ix, iy);
+  RutMemory& memory = ruts_.history(ix, iy);
   const double height = ground_.height(ix, iy);
   memory.find(height);
   const auto [before, drop] = memory.press(soil, width, height, pressure, most);
@@ -32,7 +32,7 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
 // Finds the heaviest segment over each column first, then presses every column once.
 void TrackRuts::press(const std::vector<terramechanics::TrackPatch>& patches, double most,
                       bool alone) {
-  // A column between two segments bears the heavier one once; each segment presses only by the
+  // A column between two segments carries the heavier one once; each segment presses only by the
   // excess of its pressure.
   std::map<std::int64_t, std::pair<double, PushedSoil::Place>> under;  // pressure [Pa]
   for (const terramechanics::TrackPatch& patch : patches) {

@@ -18,8 +18,8 @@ constexpr double kSinkSpeed = 0.2;
 /// l) (plate.h). A load that stands still, or another segment under the same load, adds nothing.
 /// Soil beyond the bearing capacity flows aside.
 ///
-/// Shares the load history with Ruts: ground pressed by a tyre has borne its pressure when a track
-/// arrives, and vice versa.
+/// Shares the load history with Ruts: ground pressed by a tyre keeps its pressure on record when a
+/// track arrives, and vice versa.
 class TrackRuts {
  public:
   /// Starts without loads. The ground and `ruts`, which store the history, must outlive this

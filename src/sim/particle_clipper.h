@@ -17,8 +17,8 @@ class ParticleClipper {
   explicit ParticleClipper(const World& world);
 
   /// Moves every drawn particle that is closer than `gap` [m] to a plate's face away from it, on
-  /// its own side, as far as other plates allow. Then fills `room` with the distance to the closest
-  /// plate's face [m], from 0 to `reach`; `reach` for all that is farther.
+  /// its own side, as far as other plates allow. Then writes each particle's distance to the
+  /// closest plate's face [m], at most `reach`.
   ///
   /// A particle is a point, and one that touches steel is on its face: its lump would be drawn half
   /// inside the plate. Costs a box test per particle and shell, and a search among the shell's

@@ -58,13 +58,14 @@ struct WorldParts {
   soil::Solver soil;
   /// Steps the four above and maps machines to engines.
   coupling::Coupling coupling;
-  /// By machine of the scene; most have none.
+  /// Encoders by machine of the scene; most have none.
   std::vector<vehicle::Encoders> encoders;
   /// Clients' view: numbers to set and to read, arrays to read.
   Inputs inputs;
   Outputs outputs;
   ArrayOutputs arrays;
-  /// In the order in which they were added, which is the order of sampling, hash and snapshot.
+  /// Samplers in the order in which they were added, which is the order of sampling, hash and
+  /// snapshot.
   std::vector<std::unique_ptr<SamplerSlot>> samplers;
   /// Start of the run by name, and its hash. Neither ever changes.
   scene::Parameters start;

@@ -53,7 +53,7 @@ double pushed_depth(const SoilState& ground, double width, double from, double t
     return std::max(0.0,
                     z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
   };
-  // With n < 1 the ground may bear the plate again at a greater depth: soil that has flowed does
+  // With n < 1 the ground may support the plate again at a greater depth: soil that has flowed does
   // not return.
   return std::clamp(flown(to) - flown(from), 0.0, to - from);
 }

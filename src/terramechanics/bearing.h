@@ -31,7 +31,7 @@ double bearing_capacity(const SoilState& ground, double width, double depth);
 /// Returns the part [m] of a sinkage from `from` to `to` [m] in which soil flows aside instead of
 /// being compacted.
 ///
-/// As long as the ground bears the plate's pressure, it sinks by compaction alone. Deeper, the
+/// As long as the ground supports the plate's pressure, it sinks by compaction alone. Deeper, the
 /// ground transmits at most its bearing capacity q(z), which compacts it by the sinkage z_c of the
 /// plate's own law, k z_c^n = q(z); the rest z - z_c flows at constant volume.
 double pushed_depth(const SoilState& ground, double width, double from, double to);

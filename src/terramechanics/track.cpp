@@ -101,7 +101,7 @@ TrackGrip grip_of(const Step& step, double length, double load, const SoilState&
   const ShearStrength strength = track_strength(step.wheel, soil);
   const double most = step.wheel.width * length * strength.cohesion + load * strength.slope;
   const double K = soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear;
-  // Not stiffer than an explicit step can bear with the mass of the track alone.
+  // Not too stiff for an explicit step with the mass of the track alone.
   return track_grip(most, K, step.rim_mass, step.dt);
 }
 
@@ -239,8 +239,8 @@ TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
   if (resistance != 0)
     out.pushes.push_back({resistance * motion.X_WC.linear().col(0), met[lead].p_W});
   for (const TrackForce::Push& push : out.pushes) out.force_W += push.f_W;
-  // Rollers, links and bushings resist the spin. The resistance is smooth through zero, within what
-  // an explicit step can bear.
+  // Rollers, links and bushings resist the spin. The resistance is smooth through zero, within the
+  // stability of an explicit step.
   const double inner = wheel.rolling_resistance * load;
   const double band = std::max(kTrackRoll, inner * dt / (0.15 * step.rim_mass * rollers));
   out.torque -= inner * wheel.radius * std::tanh(step.track_speed / band);

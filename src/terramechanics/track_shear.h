@@ -15,14 +15,14 @@ inline constexpr double kTrackRest = 0.1;
 // [m/s] Rolling resistance reverses its sign over this speed.
 inline constexpr double kTrackRoll = 0.05;
 
-/// Shear force that a contact can bear, at most [N], and the displacement at which 63 % of it is
+/// Largest shear force of a contact [N], and the displacement at which 63 % of it is
 /// mobilised [m].
 struct TrackGrip {
   double most = 0, K = 0;
 };
 
-/// Returns the grip of a contact of `most` [N]. Raises K where an explicit step could not bear the
-/// stiffness with `mass` [kg].
+/// Returns the grip of a contact of `most` [N]. Raises K where an explicit step is unstable with
+/// the stiffness with `mass` [kg].
 TrackGrip track_grip(double most, double K, double mass, double dt);
 
 /// Returns the shear force (ahead, left) [N] on the shoes of a contact with the slip velocity

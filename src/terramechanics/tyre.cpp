@@ -124,8 +124,8 @@ double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const 
 }
 
 /// Returns the resistance of soil ahead of one strip [N]: compaction, R = b int p dz [Bekker 1969],
-/// the work of sinking over further distance, plus bulldozing. Smooth through zero, within what an
-/// explicit step can bear.
+/// the work of sinking over further distance, plus bulldozing. Smooth through zero, within the
+/// stability of an explicit step.
 double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground,
                        double normal_force, double rim_mass, double dt) {
   const Sinkage sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
@@ -202,8 +202,8 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     out.moment_W += p.cross(force);
     out.deflection = std::max(out.deflection, track.deflection);
 
-    // Rolling resistance acts against the spin. It is smooth through zero, within what an explicit
-    // step can bear.
+    // Rolling resistance acts against the spin. It is smooth through zero, within the stability of
+    // an explicit step.
     const double band =
         std::max(0.05, tyre.rolling_resistance * normal_force * dt / (0.15 * rim_mass));
     out.moment_W -=

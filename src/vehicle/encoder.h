@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encoders of a machine's joints: counters of a few bits, as a real robot reports them to its
-// controller. Independent of the engine, so that a controller cannot tell which engine moves the
+// controller. Independent of the engine, so that a controller cannot see which engine moves the
 // machine.
 #pragma once
 

@@ -50,7 +50,7 @@ struct JointState {
   double cylinder_force = 0;
   /// Length of the cylinder [m].
   double cylinder_length = 0;
-  /// At the effort limit and not moving as commanded.
+  /// True at the effort limit if the joint does not move as commanded.
   bool stalled = false;
   /// The brake is set.
   bool braked = false;
@@ -106,8 +106,8 @@ struct Stability {
   double tipping_load = 0;
   /// Direction of that edge, from x of the base link, positive to the left [rad].
   double tipping_heading = 0;
-  /// As `margin`, for the centre of pressure on the ground: with soil, loads and towed machines
-  /// [m].
+  /// Same as `margin`, for the centre of pressure on the ground: with soil, loads and towed
+  /// machines [m].
   double loaded_margin = 0;
 };
 

@@ -232,9 +232,9 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
   // Without ground forces, or for a machine that nothing moves, use the centre of mass.
-  Vec2 borne = centre;
-  centre_of_pressure(bearings(machine, engine, index), borne);
-  out.loaded_margin = support_margin(std::move(feet), borne);
+  Vec2 pressure_centre = centre;
+  centre_of_pressure(bearings(machine, engine, index), pressure_centre);
+  out.loaded_margin = support_margin(std::move(feet), pressure_centre);
   return out;
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `navvy` in a bare root: bare_root.sh NAVVY DATA [CASE]. NAVVY is the program, DATA the folder with scenarios/, vehicles/
 # and terrain/. The root holds this machine's libraries, bound read-only, and nothing else that can be written but what a
-# case adds. Each case says which exit status and which words it expects (scenarios/README.md, "Exit status").
+# case adds. Each case says which exit status and which words it expects (docs/reference/results.md, "Faults and exit status").
 #
 # Needs root and leave to mount, and ends with status 77 (a skipped test) where it may not. It mounts in a mount namespace
 # of its own, so nothing is left behind whatever becomes of it.

@@ -12,8 +12,8 @@ namespace navvy::sim {
 
 class World;
 
-/// Where a part declares its channels. Their functions keep references to the world and handles, so
-/// the world must outlive both lists.
+/// World and lists in which a part declares its channels. Their functions keep references to the
+/// world and handles, so the world must outlive both lists.
 struct ChannelLists {
   World& world;
   Inputs& inputs;

@@ -353,8 +353,8 @@ bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const V
   // has no rows.
   const bool moves = dt > 0 && body_->getNumLinks() == 0;
   if (moves) {
-    borne_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
-    borne_.tail<3>() += J_W;
+    support_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
+    support_.tail<3>() += J_W;
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
   }
@@ -412,13 +412,13 @@ void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   kinematics_valid_ = false;
   // The solver must see a supported body; otherwise everything that rests on it would fall with it
   // until the soil acts.
-  const Vec6 borne = borne_;
-  borne_.setZero();
-  if (borne.isZero(0)) {
+  const Vec6 supported = support_;
+  support_.setZero();
+  if (supported.isZero(0)) {
     bearing_.setZero();
     return;
   }
-  bearing_ += std::min(1.0, dt / kBearingTime) * (borne / dt - bearing_);
+  bearing_ += std::min(1.0, dt / kBearingTime) * (supported / dt - bearing_);
   respond(0, dt * bearing_.tail<3>(), dt * bearing_.head<3>(), center(0), expected_);
   body_->applyDeltaVeeMultiDof(expected_.data(), 1);
   kinematics_valid_ = false;
@@ -503,9 +503,9 @@ void TreeBody::visit(Archive& a) {
   std::vector<double> q = coordinates(), qd = velocities();
   a.fixed("coordinates", q);
   a.fixed("velocities", qd);
-  a("borne", borne_);
+  a("support", support_);
   a("bearing", bearing_);
-  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing",
+  a.require(support_.allFinite() && bearing_.allFinite(), "bearing",
             "the support of a body must be finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };

@@ -65,7 +65,7 @@ class TreeBody {
   void add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W);
   /// Applies an impulse. Velocities change at once by the articulated inertia of the present pose,
   /// and a body without joints moves by dt [s] times its change. Returns whether it moved. The next
-  /// step expects the same impulse again (borne_).
+  /// step expects the same impulse again (support_).
   bool apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
   /// Computes the virtual work of an impulse on each degree of freedom in Bullet's order: base
   /// (angular, linear), then joints. `work` holds 6 + the number of joints. For a unit impulse
@@ -136,7 +136,7 @@ class TreeBody {
   // Expected support of a body without joints, (angular about its centre, linear): impulse since
   // the last step [N m s, N s], its mean as a force [N m, N], and the velocities that the solver
   // gains from it.
-  Vec6 borne_ = Vec6::Zero(), bearing_ = Vec6::Zero();
+  Vec6 support_ = Vec6::Zero(), bearing_ = Vec6::Zero();
   std::vector<double> expected_;
   // Computed on demand. Bullet needs scratch memory of its own.
   mutable bool kinematics_valid_ = false, factors_valid_ = false;

@@ -41,7 +41,7 @@ class BulletMachine {
   const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const {
     return drive_.differentials();
   }
-  /// By link.
+  /// Colliders by link; null for a link without shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
   /// Returns the shells' plates, by shell. They collide with bodies but not with the ground: shells
   /// meet soil there.

@@ -59,7 +59,7 @@ class ContactMaterials {
   std::vector<const scene::MaterialPair*> pairs_;  ///< by material and material
   bool soft_ = false;                              ///< true if any pair is compliant
   int ground_ = -1;
-  /// Number of contact points that bear in this step, by the two bodies.
+  /// Number of contact points that carry load in this step, by the two bodies.
   std::map<std::pair<const btCollisionObject*, const btCollisionObject*>, int> bearing_;
 };
 

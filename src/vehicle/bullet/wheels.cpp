@@ -156,7 +156,7 @@ void MachineWheel::visit(Archive& a) {
   a("force", force);
   a("held_spin", held_spin);
   a("braked", braked);
-  if (!running_track.contacts.empty()) a.fixed("belt", running_track.contacts);
+  if (!running_track.contacts.empty()) a.fixed("track", running_track.contacts);
 }
 
 }  // namespace navvy::vehicle

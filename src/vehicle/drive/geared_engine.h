@@ -38,7 +38,7 @@ class GearedEngine {
   double fastest(int command) const;
 
   /// Engages the gear `command` for the next step; 0 selects a gear. That is the highest one that
-  /// gives `torque` [N m] at the carrier's speed `cage` [rad/s], or the strongest if none does.
+  /// gives `torque` [N m] at the speed `carrier` [rad/s], or the strongest if none does.
   /// Shifting up needs a reserve of a quarter over that torque or over the torque of the engaged
   /// gear. Gears change once per second at most, unless the engine would leave its range. A speed
   /// source stays in first gear.
