@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the mass of every block exactly, once per transfer.
 //
-// In: state, homes (layout.h), number of soils. Out: masses[soils * block + soil], 64-bit, in mass
+// In: state, particle blocks (layout.h), number of soils. Out: masses[soils * block + soil], 64-bit, in mass
 // quanta (2^-24 kg). Lanes beyond a block's count have mass 0.
 //
 // Parallel: one work-item per block. Repeatable: integer sums do not depend on order. Host:
