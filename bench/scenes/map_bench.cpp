@@ -377,9 +377,10 @@ int main(int argc, char** argv) {
     // The trench: arrival and the first buckets.
     const double seconds = argc > 2 ? std::atof(argv[2]) : 45;
     if (argc > 3 || !(seconds > 0)) {
-      std::fprintf(stderr,
-                   "usage: map_bench [NAME [SECONDS]]   rows whose name holds NAME; trench for so "
-                   "long (45)\n");
+      std::fprintf(
+          stderr,
+          "usage: map_bench [NAME [SECONDS]]   rows whose name contains NAME; trench for so "
+          "long (45)\n");
       return 2;
     }
     measure_queries();
