@@ -78,7 +78,7 @@ int run_bench(const BenchOptions& options) {
 void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "measure how fast soil is stepped here");
-  command->add_option("only", options->only, "only cases whose name holds this word");
+  command->add_option("only", options->only, "only cases whose name contains this word");
   command
       ->add_option("--device", options->devices,
                    "OpenCL device, as in `navvy run`; again for more, or 'all'")
