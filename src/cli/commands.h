@@ -27,6 +27,8 @@ void add_soils(CLI::App& app, Action& action);
 void add_machines(CLI::App& app, Action& action);
 void add_scenes(CLI::App& app, Action& action);
 void add_channels(CLI::App& app, Action& action);
+/// Adds the command that prints the elements of scene files.
+void add_schema(CLI::App& app, Action& action);
 /// Virtual soil rigs, and rows of measured speed.
 void add_lab(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);

@@ -13,8 +13,8 @@
 #include "core/file.h"
 #include "core/saved_state.h"
 #include "core/sealed.h"
-#include "planner/queries.h"
-#include "planner/sources.h"
+#include "map/map_queries.h"
+#include "map/map_sources.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::cli {
@@ -98,8 +98,8 @@ ControlRequests::ControlRequests(session::Session& session, double rate, Control
       rate_(rate),
       services_(std::move(services)),
       start_(saved(session)),
-      feed_(planner::options_for(session.world().description(), session.world().ground(),
-                                 planner::all_layers(), session.design())) {
+      feed_(map::options_for(session.world().description(), session.world().ground(),
+                             map::all_layers(), session.design())) {
   // What changes before the first question is known to have changed.
   now();
 }
@@ -109,7 +109,7 @@ bool ControlRequests::is_request(const json& line) {
                                          [&](const char* key) { return line.contains(key); });
 }
 
-planner::UpdateFeed::Update ControlRequests::now() {
+map::UpdateFeed::Update ControlRequests::now() {
   return feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
 }
 
@@ -176,17 +176,17 @@ json ControlRequests::heights(const json& what) {
   if (!what.is_object())
     refuse("heights", what, "must be an object",
            R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
-  const planner::UpdateFeed::Update newest = now();
-  const planner::TerrainMap& map = newest->map;
+  const map::UpdateFeed::Update newest = now();
+  const map::TerrainMap& map = newest->map;
   Vec2 low = map.origin(), high = low + map.cell() * Vec2(map.nx(), map.ny());
   double cell = map.cell();
-  planner::Layer layer = planner::Layer::kElevation;
+  map::MapLayer layer = map::MapLayer::kElevation;
   for (const auto& [key, value] : what.items()) {
     const std::string name = "heights/" + key;
     if (key == "cell_m") {
       cell = number_in(name, value, 1e-3, 1e4);
     } else if (key == "layer") {
-      layer = planner::layer_named(text_in(name, value));
+      layer = map::layer_named(text_in(name, value));
     } else if (key == "min_m" || key == "max_m") {
       if (!value.is_array() || value.size() != 2)
         refuse(name, value, "must be [x, y]", "two numbers in metres");
@@ -208,14 +208,14 @@ json ControlRequests::heights(const json& what) {
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
       const Vec2 p = low + cell * Vec2(ix + 0.5, iy + 0.5);
-      const double v = layer == planner::Layer::kElevation
-                           ? planner::height(map, p.x(), p.y())
-                           : static_cast<double>(planner::value(map, layer, p.x(), p.y()));
+      const double v = layer == map::MapLayer::kElevation
+                           ? map::height(map, p.x(), p.y())
+                           : static_cast<double>(map::value(map, layer, p.x(), p.y()));
       // JSON knows no NaN.
       values.push_back(v == v ? json(v) : json(nullptr));
     }
-  return {{"layer", planner::info(layer).name},
-          {"unit", planner::info(layer).unit},
+  return {{"layer", map::info(layer).name},
+          {"unit", map::info(layer).unit},
           {"min_m", {low.x(), low.y()}},
           {"cell_m", cell},
           {"nx", nx},
@@ -229,8 +229,8 @@ json ControlRequests::heights(const json& what) {
 json ControlRequests::changed(const json& what) {
   if (!what.is_number_unsigned())
     refuse("changed", what, "must be a whole number", "0, or the sequence of the last answer");
-  const planner::UpdateFeed::Update newest = now();
-  const planner::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
+  const map::UpdateFeed::Update newest = now();
+  const map::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
   json out = {{"since", what},
               {"sequence", newest->sequence},
               {"map_time", newest->time},
@@ -239,7 +239,7 @@ json ControlRequests::changed(const json& what) {
               {"merged", false},
               {"rects_m", json::array()}};
   if (update == nullptr) return out;
-  const planner::TerrainMap& map = update->map;
+  const map::TerrainMap& map = update->map;
   for (const heightfield::CellRect& r : update->rects) {
     const Vec2 low = map.origin() + map.cell() * Vec2(r.x0, r.y0),
                high = map.origin() + map.cell() * Vec2(r.x1, r.y1);
@@ -275,7 +275,7 @@ json ControlRequests::info() const {
     return out;
   };
   json layers = json::object(), cameras = json::array();
-  for (const planner::LayerInfo& each : planner::layers()) layers[each.name] = each.unit;
+  for (const map::LayerInfo& each : map::layers()) layers[each.name] = each.unit;
   for (const scene::Camera& camera : world_.description().cameras) cameras.push_back(camera.name);
   return {{"scene", world_.description().name},
           {"device", session_.device_name()},

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/updates.h"
+#include "map/update_feed.h"
 #include "session/session.h"
 
 namespace navvy::cli {
@@ -54,14 +54,14 @@ class ControlRequests {
   nlohmann::json image(const nlohmann::json& what) const;
   nlohmann::json info() const;
   nlohmann::json go_back(const std::function<void()>& load);
-  planner::UpdateFeed::Update now();
+  map::UpdateFeed::Update now();
 
   session::Session& session_;
   const sim::World& world_;
   double rate_;
   ControlServices services_;
   std::vector<char> start_;
-  planner::UpdateFeed feed_;
+  map::UpdateFeed feed_;
   bool moved_ = false;
 };
 

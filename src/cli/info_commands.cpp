@@ -19,7 +19,7 @@
 #include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
 #include "scene_io/loader.h"
 #include "session/program_check.h"

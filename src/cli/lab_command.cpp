@@ -19,6 +19,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "core/math.h"
 #include "device/device.h"
 #include "lab/rig.h"
@@ -26,6 +27,7 @@
 #include "lab/sweep.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
+#include "soil/scheme.h"
 
 namespace navvy::cli {
 namespace {
@@ -115,10 +117,13 @@ std::string described(const std::string& text) { return wrapped(text, kWidth - k
 
 int list_rigs() {
   std::puts(
-      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
-      "draws it in words.\n");
+      "Virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
+      "describes it.\n");
   for (const lab::Rig& rig : lab::rigs())
     std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+  std::puts(
+      "\n`navvy lab constants` lists the constants of the particle scheme, which --set "
+      "scheme.NAME=VALUE changes.");
   return kOk;
 }
 
@@ -145,23 +150,49 @@ scene::Soil shipped_soil(const std::string& name) {
                 names.empty() ? "set NAVVY_DATA_DIR" : did_you_mean(names, name));
 }
 
+const std::string kSchemePrefix = "scheme.";
+
+bool is_scheme_setting(const std::string& setting) { return setting.rfind(kSchemePrefix, 0) == 0; }
+
+/// The number that a setting gives. All of the text must be the number: 0.02m is a mistake.
+double number_of(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data(), end, number);
+  if (failed != std::errc() || stop != end)
+    throw refused("--set " + name, text, "must be a number", "");
+  return number;
+}
+
+/// Sets a constant of the particle scheme: "scheme.NAME=VALUE".
+void set_constant(soil::SchemeConstants& scheme, const std::string& setting) {
+  const auto [name, text] = scene_io::parse_setting(setting);
+  soil::set_scheme_constant(scheme, name.substr(kSchemePrefix.size()), number_of(name, text));
+}
+
+/// Prints the constants of the particle scheme: name, default, unit, range, description.
+int list_constants() {
+  std::puts(
+      "Constants of the particle scheme; `navvy lab RIG --set scheme.NAME=VALUE` changes one.\n");
+  for (const soil::SchemeConstant& row : soil::scheme_constants()) {
+    std::printf("  %-28s %-10s %-18s %s .. %s\n", row.name, lab::short_text(row.standard()).c_str(),
+                row.unit, lab::short_text(row.low).c_str(), lab::short_text(row.high).c_str());
+    std::printf("      %s\n", row.help);
+  }
+  return kOk;
+}
+
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& setting) {
   const auto [name, text] = scene_io::parse_setting(setting);
   std::vector<std::string> names;
-  for (const scene::SoilValue& value : scene::soil_values()) {
+  for (const scene::SoilValue& value : scene::soil_values(soil)) {
     names.emplace_back(value.name);
     if (name != value.name) continue;
-    double number = 0;
-    const char* end = text.data() + text.size();
-    // All of the text must be the number: 0.02m is a mistake.
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || stop != end)
-      throw refused("--set " + name, text, "must be a number", "");
-    soil.*value.value = number * value.factor;
+    *value.value = number_of(name, text) * value.factor;
     return;
   }
-  throw refused("--set", name, "a number of a soil, by its name in scene files",
+  throw refused("--set", name, "a number of a soil, by its name in scene files, or scheme.NAME",
                 did_you_mean(names, name));
 }
 
@@ -191,7 +222,8 @@ scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
   for (const SoilOption& option : options.soil_values)
     if (option.value != nullptr && !option.given.empty())
       soil.*option.value = option.given.front() * option.factor;
-  for (const std::string& setting : options.settings) set_value(soil, setting);
+  for (const std::string& setting : options.settings)
+    if (!is_scheme_setting(setting)) set_value(soil, setting);
   const auto is_set = [&](const std::string& name) {
     return std::any_of(options.settings.begin(), options.settings.end(),
                        [&](const std::string& setting) { return setting.rfind(name, 0) == 0; });
@@ -252,6 +284,8 @@ Lists lists_of(const LabOptions& options, const lab::Rig& rig) {
 lab::Setup setup_of(const LabOptions& options, const lab::Rig& rig, device::Device& device) {
   lab::Setup setup = lab::default_setup(rig, device);
   setup.soil = chosen_soil(options, setup.soil);
+  for (const std::string& setting : options.settings)
+    if (is_scheme_setting(setting)) set_constant(setup.scheme, setting);
   if (!options.cell.empty()) setup.cell = options.cell.front();
   lab::set_written(setup, options.geometry);
   setup.energy = options.energy;
@@ -363,6 +397,18 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->type_name(type_name(parameter))
         ->default_str(parameter.text(parameter.value))
         ->group("Geometry and procedure");
+  // Former names work for one release; a group without a name keeps them out of the help.
+  for (const lab::Parameter& parameter : rig.parameters)
+    if (!parameter.former.empty())
+      command
+          ->add_option_function<std::string>(
+              "--" + parameter.former,
+              [options, name = parameter.name,
+               former = parameter.former](const std::string& written) {
+                log_warning("lab: --" + former + " is now called --" + name);
+                options->geometry[name] = written;
+              })
+          ->group("");
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
       ->group("Soil");
   // All rigs share the options of the soil; only one rig is run.
@@ -374,8 +420,10 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command
       ->add_option("--set", options->settings,
                    described("NAME=VALUE: any number of the soil by its name in scene files, as "
-                             "opening_strain=0.02; "
-                             "repeatable"))
+                             "opening_strain=0.02, or a "
+                             "constant of the particle scheme, as scheme.mixing_strain=0.05 "
+                             "(`navvy lab constants` "
+                             "lists them); repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->cell, "edge of a soil cell [m]")
       ->delimiter(',')
@@ -394,8 +442,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
           "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
   command->add_flag(
       "--energy", options->energy,
-      described(
-          "also tell where the soil's energy came from and went; takes up to three times as long"));
+      described("also report the soil's energy account; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;
@@ -416,6 +463,8 @@ void add_lab(CLI::App& app, Action& action) {
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
+  command->add_subcommand("constants", "list the constants of the particle scheme")
+      ->callback([&action] { action = [] { return list_constants(); }; });
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();

@@ -14,7 +14,6 @@
 #include "cli/commands.h"
 #include "cli/control_stdio.h"
 #include "cli/exit_code.h"
-#include "cli/published_map.h"
 #include "cli/scene_options.h"
 #include "cli/stop_signals.h"
 #include "cli/validators.h"
@@ -23,8 +22,9 @@
 #include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
-#include "planner/formats/png_file.h"
-#include "planner/path_planner.h"
+#include "formats/png_file.h"
+#include "link/published_map.h"
+#include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
 #include "record/rates_note.h"
 #include "record/recorder.h"
@@ -33,6 +33,10 @@
 
 namespace navvy::cli {
 namespace {
+
+using link::PublishedMap;
+using link::PublishOptions;
+using link::require_publishable;
 
 struct RunOptions {
   SceneOptions scene;
@@ -97,7 +101,7 @@ ControlServices services_of(record::Recorder& recorder) {
     const render::Image image = recorder.draw(camera);
     return Picture{
         image.width, image.height,
-        planner::png_bytes(planner::PixelKind::kRgb, image.width, image.height, image.rgb)};
+        formats::png_bytes(formats::PixelKind::kRgb, image.width, image.height, image.rgb)};
   };
   return services;
 }

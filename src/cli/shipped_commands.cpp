@@ -210,12 +210,12 @@ int soils() {
 /// a scene.
 int one_soil(const std::string& name) {
   std::vector<std::string> names;
-  for (const scene::Soil& soil : all_soils()) {
+  for (scene::Soil& soil : all_soils()) {
     names.push_back(soil.name);
     if (soil.name != name) continue;
     std::printf("%s\n  source: %s\n", soil.name.c_str(), soil.source.c_str());
-    for (const scene::SoilValue& value : scene::soil_values())
-      std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low,
+    for (const scene::SoilValue& value : scene::soil_values(soil))
+      std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(), value.low,
                   value.high);
     std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]),
                 static_cast<double>(soil.color[1]), static_cast<double>(soil.color[2]));

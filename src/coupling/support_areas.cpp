@@ -63,14 +63,14 @@ void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngi
   footing.half_width = 0.5 * about.width;
   footing.ready = ready;
   if (!about.track) {
-    footing.give =
+    footing.flattening =
         std::clamp(load / about.stiffness, 0.0, terramechanics::kMaxDeflection * about.radius);
     add_tyres(about, state, footing, support_areas);
     return;
   }
   const scene::Joint& joint =
       machine.joints[static_cast<std::size_t>(machine.joint_index(about.joint))];
-  footing.give = std::max(0.0, state.force_W.z() / about.stiffness);
+  footing.flattening = std::max(0.0, state.force_W.z() / about.stiffness);
   add_track(about, engine.link(index, joint.parent), state.X_WWheel.translation(), footing,
             support_areas);
 }

@@ -12,7 +12,7 @@ namespace navvy::coupling {
 
 /// Appends the support areas of wheel `wheel` of machine `index` of `engine`: its tyres, flattened
 /// by `load` [N] as Ruts reports it, or the idler, the rollers and the sprocket of its track. The
-/// ground must be there `ready` [s] before they arrive [docs/exchange.md, footings].
+/// ground must be there `ready` [s] before they arrive [docs/exchange.md, support areas].
 void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
                        int index, int wheel, double load, double ready,
                        std::vector<soil::SupportArea>& support_areas);

@@ -25,6 +25,5 @@ struct Earthwork {
 /// Of the surface that maps show. Costs a pass over the touched columns, and over the particles
 /// where `lying` (sim::active_places) is not known already.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
-Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

@@ -10,10 +10,10 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
-#include "planner/path_file.h"
 #include "record/crash_summary.h"
 #include "record/hash_log.h"
 #include "record/map_recorder.h"
+#include "record/path_file.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
@@ -114,10 +114,10 @@ bool Recorder::State::due(double rate) const {
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
-    rows += planner::path_rows(
+    rows += record::path_rows(
         session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
         report.paths);
-  if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
+  if (!rows.empty()) write_file_atomically(path("paths.csv"), record::path_header() + "\n" + rows);
 }
 
 /// At most one row a step: a rate above the step's gives every step.
@@ -272,6 +272,11 @@ render::Image Recorder::draw(const std::string& camera) {
                          "no camera of this name in the scene", ""});
 }
 
+double wall_time_left(double simulated, double real_time_factor) {
+  // The last step may end a rounding error after the duration; "-0 s left" would be printed then.
+  return real_time_factor > 0 && simulated > 0 ? simulated / real_time_factor : 0;
+}
+
 RunProgress Recorder::progress() const {
   const State& s = *state_;
   const sim::World& world = s.session.world();
@@ -281,7 +286,7 @@ RunProgress Recorder::progress() const {
   // What a resumed run had done before does not count as its own speed.
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
-  out.remaining = out.real_time_factor > 0 ? (out.duration - out.time) / out.real_time_factor : 0;
+  out.remaining = wall_time_left(out.duration - out.time, out.real_time_factor);
   out.particles = world.soil().counts().particles;
   out.cycles = static_cast<int>(s.session.cycles().size());
   out.frames = s.status.frames;

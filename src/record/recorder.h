@@ -38,6 +38,10 @@ struct RunProgress {
   std::string phase;
 };
 
+/// Returns the wall time [s] that `simulated` more seconds take at `real_time_factor`. The result
+/// is never negative, and 0 while the factor is still unknown (0).
+double wall_time_left(double simulated, double real_time_factor);
+
 /// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and
 /// at the end only), telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif,
 /// frames/<camera>_<n>.png, what the scene records (map_recorder.h) and, after a failure,

@@ -131,7 +131,7 @@ json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
 
 }  // namespace
 
-/// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
+/// Keys are an interface: they are added to, never renamed (docs/reference/results.md lists them).
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
   const sim::ActivePlaces active = sim::active_places(world);

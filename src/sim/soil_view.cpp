@@ -15,7 +15,7 @@ SoilCounts SoilView::counts() const {
   out.particles = stats.particles;
   out.particles_peak = stats.particles_peak;
   out.rebins = stats.rebins;
-  out.activated_columns = stats.wakes;
+  out.activated_columns = stats.activations;
   out.deposited_blocks = stats.deposits;
   out.shell_crossings = stats.shell_crossings;
   return out;

@@ -146,7 +146,7 @@ void WorldParts::visit(Archive& a) {
 }
 
 void WorldParts::wake(const scene::ActiveSoil& active) {
-  soil.wake(active_columns(active, ground), active.bottom);
+  soil.activate(active_columns(active, ground), active.bottom);
 }
 
 void require_hitch(const scene::Scene& scene, int hitch) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines on loose soil that is still particles stand and drive as on the same soil in columns
-// [docs/exchange.md, footings].
+// [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class Layer {
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
-  void wake() { parts_.soil.wake(area_, foot_); }
+  void wake() { parts_.soil.activate(area_, foot_); }
   /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
   /// `around` [m] of a wheel's middle.
   void keep_awake(double around) {
@@ -77,7 +77,7 @@ class Layer {
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
         for (int w = 0; rests && w < 4; ++w)
           rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
-        if (rests) parts_.soil.wake({ix, iy, ix + 1, iy + 1}, foot_);
+        if (rests) parts_.soil.activate({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
   /// How much higher the ground lies for being loose [m].
@@ -114,7 +114,7 @@ void run(
   }
 }
 
-std::string kind(bool active) { return active ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "active" : "columns"; }
 
 /// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
 /// [m].
@@ -139,8 +139,8 @@ TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
-                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
+                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, support areas]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
     EXPECT_NEAR(active, columns, 0.005);
@@ -169,7 +169,8 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     mean[active] /= count;
     EXPECT_EQ(2 * over_active > count, active);
     print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
-                mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
+                mean[active], std::to_string(mean[0]) + " +-0.005",
+                "[docs/exchange.md, support areas]");
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
@@ -191,7 +192,7 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
     EXPECT_EQ(most > 5000, active);
     sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
     print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
-                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
+                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, support areas]");
     EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   EXPECT_NEAR(sinks[1], sinks[0], 0.005);

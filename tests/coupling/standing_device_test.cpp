@@ -53,7 +53,7 @@ TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
     const double before = height();
     while (world.time() < 25) world.step();
     print_value("a stone on loam sinks in 10 s [mm]", 1e3 * (before - height()), "< 1",
-                "docs/tools.md, seat");
+                "docs/tools.md, resting contact");
     EXPECT_NEAR(height(), before, 1e-3);
     EXPECT_NEAR(height(), 0, 0.05) << "half a cell";
     EXPECT_EQ(world.soil().mass_ledger().error, 0);

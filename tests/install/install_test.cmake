@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 cmake_minimum_required(VERSION 3.25)
-# cmake -DPROJECT=headers|minimal|engine -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
+# cmake -DPROJECT=headers|modules|minimal|engine -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
 set(work ${BINARY_DIR}/install-test/${PROJECT})
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -21,17 +21,24 @@ if(count LESS 15)
   message(FATAL_ERROR "only ${count} headers were installed")
 endif()
 
-# A foreign project: one source per header, a copy of a folder beside this file, or of examples/minimal.
-if(PROJECT STREQUAL "headers")
+# A foreign project: one source a header, one source a module, a copy of a folder
+# beside this file, or a copy of examples/minimal.
+if(PROJECT MATCHES "headers|modules")
   set(sources "")
   foreach(header IN LISTS headers)
     string(MAKE_C_IDENTIFIER ${header} name)
-    file(WRITE ${work}/source/${name}.cpp "#include \"${header}\"\n#include \"${header}\"\n")
-    string(APPEND sources " ${name}.cpp")
+    if(PROJECT STREQUAL "modules")
+      string(REGEX REPLACE "/.*" "" name ${header})
+    endif()
+    # Twice: a header guards itself.
+    file(APPEND ${work}/source/${name}.cpp "#include \"${header}\"\n#include \"${header}\"\n")
+    list(APPEND sources ${name}.cpp)
   endforeach()
+  list(REMOVE_DUPLICATES sources)
+  list(JOIN sources " " sources)
   file(WRITE ${work}/source/CMakeLists.txt
        "cmake_minimum_required(VERSION 3.25)\nproject(headers CXX)\nfind_package(navvy 0.1 REQUIRED)\n"
-       "add_library(headers OBJECT${sources})\ntarget_link_libraries(headers PRIVATE navvy::navvy)\n")
+       "add_library(headers OBJECT ${sources})\ntarget_link_libraries(headers PRIVATE navvy::navvy)\n")
 elseif(EXISTS ${SOURCE_DIR}/tests/install/${PROJECT})
   file(COPY ${SOURCE_DIR}/tests/install/${PROJECT}/ ${SOURCE_DIR}/tests/vehicle/engine_contract.h
        DESTINATION ${work}/source)

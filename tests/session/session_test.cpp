@@ -263,7 +263,7 @@ TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
     if (session->world().steps() % 50 == 0)
       ASSERT_EQ(session->world().soil().mass_ledger().error, 0);
   }
-  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, books]
+  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, ledger]
   EXPECT_EQ(session->world().soil().counts().shell_crossings, 0u);
 }
 

@@ -43,7 +43,7 @@ Drag drag(const std::string& zone) {
 TEST(ActiveZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
   const char* source =
-      "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
+      "the active zone has no effect [docs/validation.md, Buckets and carried loads]";
   print_value("mean draft of the drag [N]", usual.force, "not gated", source);
   expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98,
                  1.02, source);

@@ -113,7 +113,7 @@ TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
                            shared_device());
   // It stops at 0.9 s; what pressing fast adds is gone soon after.
   const double stopped = borne(session, 1.4), later = borne(session, 4.9);
-  print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped,
+  print_value("pressed bucket: supporting force half a second after it stopped [N]", stopped,
               "no gate", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");

@@ -48,7 +48,7 @@ double height(const PhysicsEngine& engine, int machine) {
   return engine.link(machine, 0).X_WL.translation().z();
 }
 
-TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
+TEST(SupportedBody, ABodyOnABodySupportedBySoilDoesNotSink) {
   for (const double dt : {1.0 / 150, 1.0 / 600}) {
     const auto engine = pair();
     const auto ground = testing::flat();
@@ -76,7 +76,7 @@ TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
   }
 }
 
-TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
+TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   const double dt = 1.0 / 600;
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(block(kLower), make_pose(0, 0, kHigh));
@@ -103,7 +103,7 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), spin.z() / (kLower / 12 * 0.72), 1e-9);
 }
 
-TEST(Borne, ASnapshotKnowsWhatTheNextStepExpects) {
+TEST(SupportedBody, ASnapshotKnowsWhatTheNextStepExpects) {
   const double dt = 1.0 / 600;
   const auto ground = testing::flat();
   const auto go_on = [&](PhysicsEngine& engine, int steps) {

@@ -247,7 +247,7 @@ TEST_P(TrackBodies, ALightBodyThatATrackDrivesOntoIsNotThrown) {
     fastest = std::max(fastest, engine->link(1, 0).v_WL.norm());
     highest = std::max(highest, tilt(*engine));
   });
-  print_value("speed of a stone under a belt [m/s]", fastest, "below 8",
+  print_value("speed of a stone under a track [m/s]", fastest, "below 8",
               "some times the machine's");
   EXPECT_LT(fastest, 8.0);
   EXPECT_LT(highest, radians(10));
