@@ -9,7 +9,7 @@ namespace navvy::sim {
 
 /// Drives the machines of a world. Every command holds until it is replaced.
 ///
-/// A view of two words: copy it freely, as long as its world lives. Every function throws
+/// A view of one pointer: copy it freely. Valid as long as its world lives. Every function throws
 /// InputError for a handle of another world or a value that is not finite, and then changes
 /// nothing.
 class Commands {
