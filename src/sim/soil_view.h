@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world measures of its soil.
+// Measurements of the soil of a world.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a world gets its physics engine. Names the engine's interface without including it.
+// Factory of a world's physics engine. Names the engine's interface without including it.
 #pragma once
 
 #include <functional>
