@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to the machines of a world.
+// MachineCommands to the machines of a world.
 #pragma once
 
 #include "sim/handles.h"
@@ -12,18 +12,18 @@ namespace navvy::sim {
 /// A view of one pointer: copy it freely. Valid as long as its world lives. Every function throws
 /// InputError for a handle of another world or a value that is not finite, and then changes
 /// nothing.
-class Commands {
+class MachineCommands {
  public:
   /// Largest distance of a base from the origin along any axis [m].
   static constexpr double kFarthest = 1e6;
 
   /// Refers to the parts of a world; World::commands makes it.
-  explicit Commands(WorldParts& parts) : parts_(&parts) {}
+  explicit MachineCommands(WorldParts& parts) : parts_(&parts) {}
 
-  /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's next
-  /// command.
+  /// MachineCommands a joint. A joint that a drive also moves returns to the drive with the drive's
+  /// next command.
   void set(const JointHandle& joint, const vehicle::JointInput& input);
-  /// Commands a drive. Has no effect on a machine without one.
+  /// MachineCommands a drive. Has no effect on a machine without one.
   void set(const MachineHandle& machine, const vehicle::DriveInput& input);
   /// Moves the base of a kinematic machine. @throws InputError also for a dynamic machine.
   void set(const MachineHandle& machine, const vehicle::BaseInput& input);
