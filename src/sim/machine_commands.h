@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MachineCommands to the machines of a world.
+// Commands to the machines of a world.
 #pragma once
 
 #include "sim/handles.h"
@@ -20,10 +20,10 @@ class MachineCommands {
   /// Refers to the parts of a world; World::commands makes it.
   explicit MachineCommands(WorldParts& parts) : parts_(&parts) {}
 
-  /// MachineCommands a joint. A joint that a drive also moves returns to the drive with the drive's
+  /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's
   /// next command.
   void set(const JointHandle& joint, const vehicle::JointInput& input);
-  /// MachineCommands a drive. Has no effect on a machine without one.
+  /// Commands a drive. Has no effect on a machine without one.
   void set(const MachineHandle& machine, const vehicle::DriveInput& input);
   /// Moves the base of a kinematic machine. @throws InputError also for a dynamic machine.
   void set(const MachineHandle& machine, const vehicle::BaseInput& input);
