@@ -71,7 +71,7 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
         continue;
       }
       const bool world = std::string(end) == "parent" && text_of(*at) == "world";
-      if (!world)
+      if (!world && !text_of(*at).empty())
         require_name(*at, text_of(*at), "link or frame of this name in the model", ends, faults);
     }
     const std::string parent = child_text(*joint, "parent");
