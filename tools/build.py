@@ -10,13 +10,21 @@ from workspace import BUILD, JOBS, NAVVY, PRESET, ROOT, DevError, say
 
 
 def configure(preset, *options):
-    """Configures build/<preset> once (again when `options` are given); CMake notices changes of its files by itself."""
+    """Configures build/<preset> once (again when `options` are given); CMake notices changes of its
+    files by itself.
+    """
     folder = ROOT / "build" / preset
     if not options and any((folder / name).is_file() for name in ("build.ninja", "Makefile")):
         return
     say("configuring build/%s" % preset)
-    done = subprocess.run(["cmake", "--preset", preset, *options], cwd=ROOT, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False)
+    done = subprocess.run(
+        ["cmake", "--preset", preset, *options],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
     if done.returncode != 0:
         raise DevError("configuring build/%s failed:\n%s" % (preset, done.stdout))
     print_warnings(done.stdout)
@@ -64,9 +72,13 @@ def build_command(arguments):
 
 
 def build_bare_core():
-    """Builds the core preset as a bare GPU machine does: make, no cache, no precompiled headers, all warnings."""
+    """Builds the core preset as a bare GPU machine does: make, no cache, no precompiled headers,
+    all warnings.
+    """
     shutil.rmtree(ROOT / "build" / "core", ignore_errors=True)
-    workspace.run("cmake", "--preset", "core", "-DNAVVY_WARNINGS_AS_ERRORS=ON", stdout=subprocess.DEVNULL)
+    workspace.run(
+        "cmake", "--preset", "core", "-DNAVVY_WARNINGS_AS_ERRORS=ON", stdout=subprocess.DEVNULL
+    )
     workspace.run("cmake", "--build", "build/core", "-j", JOBS)
 
 
@@ -74,14 +86,27 @@ def build_precompiled(preset):
     """Builds the precompiled headers of a preset of clang's, which clang-tidy reads."""
     configure(preset)
     listed = workspace.output("ninja", "-C", "build/" + preset, "-t", "targets", "all")
-    headers = [line.partition(":")[0] for line in listed.splitlines() if line.partition(":")[0].endswith(".pch")]
+    headers = [
+        line.partition(":")[0]
+        for line in listed.splitlines()
+        if line.partition(":")[0].endswith(".pch")
+    ]
     workspace.run("ninja", "-C", "build/" + preset, *headers, stdout=subprocess.DEVNULL)
 
 
 def state_name():
     """Returns the commit, with "-dirty" when anything but measured values has changed since."""
-    changed = workspace.output("git", "status", "--porcelain", "--", ".", ":!tests/validation/results.csv",
-                               ":!docs/validation.md", ":!docs/validation_summary.md", check=False)
+    changed = workspace.output(
+        "git",
+        "status",
+        "--porcelain",
+        "--",
+        ".",
+        ":!tests/validation/results.csv",
+        ":!docs/validation.md",
+        ":!docs/validation_summary.md",
+        check=False,
+    )
     name = workspace.output("git", "describe", "--always", check=False).strip() or "unknown"
     return name + ("-dirty" if changed.strip() else "")
 
@@ -92,4 +117,3 @@ def device_name():
     lines = workspace.output(NAVVY, "devices", check=False).splitlines()
     named = [line for line in lines if wanted in line] if wanted else lines
     return named[0].partition(": ")[2] or named[0] if named else ""
-

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`./dev fault`, `./dev soak` and `./dev readers`: long tests that go on where they stopped, and what some tests read with."""
+"""`./dev fault`, `./dev soak`: long tests that go on where they stopped; `./dev readers`."""
 import hashlib
 import shutil
 import sys
@@ -11,7 +11,9 @@ from workspace import BUILD, JOBS, ROOT, say
 
 
 def stamped_folder(name, program):
-    """Returns the folder of a campaign, emptied when the program has changed: earlier results are of another one then."""
+    """Returns the folder of a campaign, emptied when the program has changed: earlier results are
+    of another one then.
+    """
     stamp = hashlib.sha256((ROOT / program).read_bytes()).hexdigest()[:16]
     folder = ROOT / BUILD / name
     if not (folder / stamp).is_file():
@@ -24,10 +26,13 @@ def stamped_folder(name, program):
 def fault_command(arguments):
     """Attacks a small run: calls that fail, kills; N attacks or all, some 3000.
 
-    NAVVY_JOBS attacks run at a time. Goes on where it stopped, until the program changes (tests/README.md).
+    NAVVY_JOBS attacks run at a time. Goes on where it stopped, until the program changes
+    (tests/README.md).
     """
     parser = workspace.parser(fault_command, "fault [N]")
-    parser.add_argument("number", nargs="?", type=int, default=0, metavar="N", help="number of attacks; 0: all")
+    parser.add_argument(
+        "number", nargs="?", type=int, default=0, metavar="N", help="number of attacks; 0: all"
+    )
     number = parser.parse_args(arguments).number
     packages.install(packages.BASE)
     build.build("navvy", "navvy_fault_campaign")
@@ -36,9 +41,10 @@ def fault_command(arguments):
 
 
 def soak_command(arguments):
-    """Simulates hours of scoops in one process (1 by default): bytes in use flat, no mass lost, resumed states equal.
+    """Simulates hours of scoops in one process, 1 by default.
 
-    The state must be that of four resumed quarters. Goes on where it stopped, until the program changes (tests/README.md).
+    Bytes in use must stay flat, no mass may be lost, and the state must be that of four resumed
+    quarters. Goes on where it stopped, until the program changes (tests/README.md).
     """
     parser = workspace.parser(soak_command, "soak [HOURS]")
     parser.add_argument("hours", nargs="?", default="1", help="simulated hours")
@@ -54,9 +60,9 @@ def soak_command(arguments):
 
 
 def readers_command(arguments):
-    """Installs the Python packages mcap and rosbags from PyPI into build/readers, for the tests that read bags.
+    """Installs the Python packages mcap and rosbags from PyPI into build/readers.
 
-    Those tests are skipped without them.
+    Tests that read bags are skipped without them.
     """
     workspace.parser(readers_command, "readers").parse_args(arguments)
     packages.install(packages.READERS)

@@ -17,7 +17,7 @@ import workspace
 
 
 def docs_command(arguments):
-    """Renews generated tables and the reference, checks links and builds the site in build/docs/site.
+    """Renews generated pages, checks links and builds the site in build/docs/site.
 
       --check   changes nothing: fails when a generated page is stale or a link leads nowhere
       --pages   checks links and the tables that need no built program
@@ -55,13 +55,26 @@ COMMANDS = {
 
 def usage():
     """Returns the text of `./dev help`: the first line of each command's documentation."""
-    rows = ["  %-9s %s" % (name, command.__doc__.strip().split("\n")[0]) for name, command in COMMANDS.items()]
-    return "\n".join([
-        "./dev COMMAND [--no-install] [arguments]", "", *rows, "  help      Prints this text.", "",
-        "`./dev COMMAND --help` explains a command. Missing Debian packages are installed first (as root or through sudo)",
-        "unless --no-install is given. Environment: CI=true builds with warnings as errors into build/ci instead of",
-        "build/release; NAVVY_DEVICE picks the OpenCL device (cpu, gpu, an index, a part of a name); NAVVY_JOBS bounds the",
-        "processes of a build or test run."])
+    rows = [
+        "  %-9s %s" % (name, command.__doc__.strip().split("\n")[0])
+        for name, command in COMMANDS.items()
+    ]
+    return "\n".join(
+        [
+            "./dev COMMAND [--no-install] [arguments]",
+            "",
+            *rows,
+            "  help      Prints this text.",
+            "",
+            "`./dev COMMAND --help` explains a command. Missing Debian packages are installed first",
+            "(as root or through sudo) unless --no-install is given.",
+            "",
+            "Environment:",
+            "  CI=true       builds with warnings as errors into build/ci instead of build/release",
+            "  NAVVY_DEVICE  picks the OpenCL device: cpu, gpu, an index, a part of a name",
+            "  NAVVY_JOBS    bounds the processes of a build or test run",
+        ]
+    )
 
 
 def main(arguments):

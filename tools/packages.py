@@ -23,7 +23,13 @@ BASE = """
 FORMAT = ["clang-format"]
 CLANG = ["clang-format", "clang-tidy", "clang", "libclang-rt-14-dev"]
 BENCH = ["libbenchmark-dev"]
-DOCS = ["python3-sphinx", "python3-myst-parser", "python3-breathe", "python3-sphinx-rtd-theme", "doxygen"]
+DOCS = [
+    "python3-sphinx",
+    "python3-myst-parser",
+    "python3-breathe",
+    "python3-sphinx-rtd-theme",
+    "doxygen",
+]
 OCLGRIND = ["oclgrind"]
 READERS = ["python3-venv"]
 
@@ -33,23 +39,43 @@ enabled = True
 
 def missing(names):
     """Returns those packages that are not installed."""
-    return [name for name in names
-            if workspace.output("dpkg-query", "-W", "-f", "${db:Status-Status}", name, check=False) != "installed"]
+    return [
+        name
+        for name in names
+        if workspace.output("dpkg-query", "-W", "-f", "${db:Status-Status}", name, check=False)
+        != "installed"
+    ]
 
 
 def apt_get(log, *arguments):
-    """Runs apt-get as root, appending its output to the list `log`; returns whether it succeeded."""
+    """Runs apt-get as root, appends its output to the list `log`; returns whether it worked."""
     root = [] if os.geteuid() == 0 else ["sudo"]
-    command = root + ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-qq", "-y", "-o", "Dpkg::Use-Pty=0",
-                      "-o", "DPkg::Lock::Timeout=120", *arguments]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          check=False)
+    command = root + [
+        "env",
+        "DEBIAN_FRONTEND=noninteractive",
+        "apt-get",
+        "-qq",
+        "-y",
+        "-o",
+        "Dpkg::Use-Pty=0",
+        "-o",
+        "DPkg::Lock::Timeout=120",
+        *arguments,
+    ]
+    done = subprocess.run(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
     log.append(done.stdout)
     return done.returncode == 0
 
 
 def install(*groups):
-    """Installs what is missing of the packages in `groups` (lists of names) and prints which; prints nothing when none is.
+    """Installs the missing packages of `groups` (lists of names); prints which, if any.
 
     Raises DevError when apt-get fails, with its output.
     """
@@ -62,13 +88,22 @@ def install(*groups):
     if not names:
         return
     if os.geteuid() != 0 and shutil.which("sudo") is None:
-        raise DevError("these packages are missing and there is no sudo; as root: apt-get install "
-                       "--no-install-recommends " + " ".join(names))
+        raise DevError(
+            "these packages are missing and there is no sudo; as root: apt-get install "
+            "--no-install-recommends " + " ".join(names)
+        )
     say("installing missing Debian packages (minutes when it is many): " + " ".join(names))
     log = []
     # The lists are fetched when a package is not in them, or when they proved stale.
-    known = subprocess.run(["apt-cache", "show", "--no-all-versions", *names], stdout=subprocess.DEVNULL,
-                           stderr=subprocess.DEVNULL, check=False).returncode == 0
+    known = (
+        subprocess.run(
+            ["apt-cache", "show", "--no-all-versions", *names],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            check=False,
+        ).returncode
+        == 0
+    )
     if not known and not apt_get(log, "update"):
         raise DevError("apt-get update failed:\n" + "".join(log))
     if not apt_get(log, "install", "--no-install-recommends", *names):
@@ -83,5 +118,7 @@ def install_command(arguments):
     Every other command installs what it needs by itself unless --no-install is given.
     """
     parser = workspace.parser(install_command, "install [--dev]")
-    parser.add_argument("--dev", action="store_true", help="also what format, lint, fuzz and sanitize need")
+    parser.add_argument(
+        "--dev", action="store_true", help="also what format, lint, fuzz and sanitize need"
+    )
     install(BASE, CLANG if parser.parse_args(arguments).dev else [])

@@ -13,18 +13,22 @@ DEFAULT_SCENE = "scenarios/trench.sdf"
 
 
 def option_value(arguments, name):
-    """Returns the value of an option given as "NAME VALUE" or "NAME=VALUE"; the last one counts, empty without one."""
+    """Returns the value of an option given as "NAME VALUE" or "NAME=VALUE"; the last one counts,
+    empty without one.
+    """
     value = ""
     for word, following in zip(arguments, arguments[1:] + [""]):
         if word == name:
             value = following
         elif word.startswith(name + "="):
-            value = word[len(name) + 1:]
+            value = word[len(name) + 1 :]
     return value
 
 
 def results_folder(scene, arguments):
-    """Returns the folder that `navvy run` writes to: --out, or out/<name of the scene>; empty when it is unknown."""
+    """Returns the folder that `navvy run` writes to: --out, or out/<name of the scene>; empty when
+    it is unknown.
+    """
     out = option_value(arguments, "--out")
     if out:
         return out
@@ -41,8 +45,9 @@ def results_folder(scene, arguments):
 def run_command(arguments):
     """Builds, links the program to ./navvy, then runs a scene (default scenarios/trench.sdf).
 
-    Options go on to `navvy run`; `./navvy run --help` lists them. Prints the time of the compilation apart from that of the
-    run, and where the results are. NAVVY_DEVICE picks the OpenCL device (cpu, gpu, an index, a part of a name).
+    Options go on to `navvy run`; `./navvy run --help` lists them. Prints the time of the
+    compilation apart from that of the run, and where the results are. NAVVY_DEVICE picks the OpenCL
+    device (cpu, gpu, an index, a part of a name).
     """
     parser = workspace.parser(run_command, "run [FILE.sdf] [options of navvy run]", add_help=False)
     if arguments[:1] in (["--help"], ["-h"]):
@@ -55,7 +60,10 @@ def run_command(arguments):
     begun = time.monotonic()
     build.build("navvy")
     build.link_program()
-    say("compiled in %s; the program is ./navvy (`./navvy --help` lists its commands)" % clock(time.monotonic() - begun))
+    say(
+        "compiled in %s; the program is ./navvy (`./navvy --help` lists its commands)"
+        % clock(time.monotonic() - begun)
+    )
     begun = time.monotonic()
     status = workspace.run("./navvy", "run", scene, *options, check=False)
     say("the run took %s" % clock(time.monotonic() - begun))
@@ -68,7 +76,13 @@ def report_results(scene, folder):
     """Prints what the run has left in its folder."""
     if not folder or not (ROOT / folder).is_dir():
         return
-    say("results are in %s: %s" % (folder, " ".join(sorted(entry.name for entry in (ROOT / folder).iterdir()))))
+    say(
+        "results are in %s: %s"
+        % (folder, " ".join(sorted(entry.name for entry in (ROOT / folder).iterdir())))
+    )
     pictures = len(list((ROOT / folder / "frames").glob("*.png")))
     if pictures:
-        say("%d pictures in %s/frames; more of them: ./navvy run %s --set camera.rate_hz=2" % (pictures, folder, scene))
+        say(
+            "%d pictures in %s/frames; more of them: ./navvy run %s --set camera.rate_hz=2"
+            % (pictures, folder, scene)
+        )

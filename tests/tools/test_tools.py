@@ -87,12 +87,16 @@ class Scenes(unittest.TestCase):
 class Configuring(unittest.TestCase):
     def test_warnings_are_printed_with_what_follows(self):
         text = "-- fine\nCMake Warning at x:\n  why\n1\n2\n3\n4\n5\n"
-        self.assertEqual(printed(build.print_warnings, text), "CMake Warning at x:\n  why\n1\n2\n3\n4\n")
+        self.assertEqual(
+            printed(build.print_warnings, text), "CMake Warning at x:\n  why\n1\n2\n3\n4\n"
+        )
 
 
 class Reports(unittest.TestCase):
     def report(self, statuses):
-        text = "<testsuite>%s</testsuite>" % "".join('<testcase name="a" status="%s"/>' % each for each in statuses)
+        text = "<testsuite>%s</testsuite>" % "".join(
+            '<testcase name="a" status="%s"/>' % each for each in statuses
+        )
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "report.xml"
             path.write_text(text)
@@ -107,8 +111,10 @@ class Reports(unittest.TestCase):
 
 class Lint(unittest.TestCase):
     def test_files_with_most_changed_lines_come_first(self):
-        self.assertEqual(lint.most_changed_first("1\t2\tsrc/a.cpp\n10\t0\tsrc/b.cpp\n0\t3\tsrc/0.cpp\n"),
-                         ["src/b.cpp", "src/0.cpp", "src/a.cpp"])
+        self.assertEqual(
+            lint.most_changed_first("1\t2\tsrc/a.cpp\n10\t0\tsrc/b.cpp\n0\t3\tsrc/0.cpp\n"),
+            ["src/b.cpp", "src/0.cpp", "src/a.cpp"],
+        )
 
 
 class Benches(unittest.TestCase):
@@ -148,7 +154,9 @@ class Validation(unittest.TestCase):
         validation.due = ["A.B", "C.D"]
         validation.results = {"A.B": ("passed", 100)}
         validation.begun -= 200
-        self.assertEqual(validation.progress("x"), "validate 1/2 x; elapsed 0:03:20, left about 0:01:40")
+        self.assertEqual(
+            validation.progress("x"), "validate 1/2 x; elapsed 0:03:20, left about 0:01:40"
+        )
 
     def test_deviations_without_a_case_are_refused(self):
         with self.assertRaisesRegex(workspace.DevError, "which is no slow case"):
