@@ -66,7 +66,7 @@ def usage():
             *rows,
             "  help      Prints this text.",
             "",
-            "`./dev COMMAND --help` explains a command. Missing Debian packages are installed first",
+            "`./dev COMMAND --help` explains a command. Missing packages are installed first",
             "(as root or through sudo) unless --no-install is given.",
             "",
             "Environment:",

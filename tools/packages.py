@@ -8,17 +8,28 @@ import workspace
 from workspace import DevError, say
 
 # What a Debian 12 machine needs to build, run and test Navvy.
-BASE = """
-    g++ cmake ninja-build ccache pkg-config git
-    ocl-icd-opencl-dev opencl-headers pocl-opencl-icd
-    libeigen3-dev libbullet-dev libsdformat-dev libtinyxml2-dev libgdal-dev
-    libcoin-dev libosmesa6-dev libpng-dev libtinyobjloader-dev
-    libcli11-dev libspdlog-dev nlohmann-json3-dev
-    libfastcdr-dev libsqlite3-dev
-    libzip-dev
-    libompl-dev
-    libgtest-dev gdal-bin python3 python3-pil
-""".split()
+BASE = " ".join(
+    (
+        # tools
+        "g++ cmake ninja-build ccache pkg-config git",
+        # OpenCL: loader, headers, the CPU device
+        "ocl-icd-opencl-dev opencl-headers pocl-opencl-icd",
+        # simulation and its files
+        "libeigen3-dev libbullet-dev libsdformat-dev libtinyxml2-dev libgdal-dev",
+        # pictures
+        "libcoin-dev libosmesa6-dev libpng-dev libtinyobjloader-dev",
+        # the program
+        "libcli11-dev libspdlog-dev nlohmann-json3-dev",
+        # bags for ROS 2
+        "libfastcdr-dev libsqlite3-dev",
+        # NPZ archives
+        "libzip-dev",
+        # paths of go_to
+        "libompl-dev",
+        # tests, tables of docs/validation.md
+        "libgtest-dev gdal-bin python3 python3-pil",
+    )
+).split()
 # What each of these commands needs on top.
 FORMAT = ["clang-format"]
 CLANG = ["clang-format", "clang-tidy", "clang", "libclang-rt-14-dev"]

@@ -297,8 +297,8 @@ def report(validation, cases):
     if skipped:
         say("skipped, their data or device is not here: " + " ".join(skipped))
     say(
-        "validate: %d passed, %d skipped, %d failed, %d known deviations, %d not run (passed before, "
-        "or left out by --quick), %s"
+        "validate: %d passed, %d skipped, %d failed, %d known deviations, %d not run "
+        "(passed before, or left out by --quick), %s"
         % (
             len(passed),
             len(skipped),
