@@ -196,7 +196,7 @@ void World::require_valid(const MachineHandle& machine, const vehicle::BaseInput
     throw InputError(
         Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
               built.kinematic ? "its base is held in place" : "forces move this machine",
-              "set <navvy:engine>kinematic</navvy:engine>, and leave its base free"});
+              "set <navvy:physics>kinematic</navvy:physics>, and leave its base free"});
 }
 
 void World::command(const MachineHandle& machine, const vehicle::BaseInput& input) {

@@ -12,7 +12,7 @@ void PhysicsEngine::set_base(int machine, const BaseInput& input) {
   throw InputError(
       Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
             "forces move this machine: it cannot be put anywhere",
-            "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
+            "set <navvy:physics>kinematic</navvy:physics>, or command its joints and drive"});
 }
 
 int PhysicsEngine::add_mover(const scene::Machine& machine) {
@@ -29,7 +29,7 @@ namespace {
 [[noreturn]] void refuse_hitch() {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "",
                          "a hitch joins machines that forces move",
-                         "set <navvy:engine>dynamic</navvy:engine>, or move it by its pose"});
+                         "set <navvy:physics>dynamic</navvy:physics>, or move it by its pose"});
 }
 
 }  // namespace
