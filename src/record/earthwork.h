@@ -25,5 +25,7 @@ struct Earthwork {
 /// Of the surface that maps show. Costs a pass over the touched columns, and over the particles
 /// where `lying` (sim::active_places) is not known already.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
+/// Measures with the loose soil of the particles, at the cost of a pass over them.
+Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record
