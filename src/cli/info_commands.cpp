@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `navvy check`, `devices`, `channels`: commands that only tell.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,44 +16,14 @@
 #include "cli/severity.h"
 #include "control/step_kinds.h"
 #include "core/log.h"
-#include "core/math.h"
 #include "device/device.h"
-#include "planner/path_planner.h"
-#include "record/map_recorder.h"
+#include "run/scene_check.h"
 #include "scene_io/loader.h"
-#include "session/program_check.h"
-#include "sim/start_check.h"
 #include "sim/world.h"
 #include "sim/world_channels.h"
 
 namespace navvy::cli {
 namespace {
-
-/// Tells of the map under the site and of its design, lets the machines settle, says how each stands, and adds what is
-/// wrong with that.
-void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
-  sim::StartCheck start = sim::check_start(scene);
-  std::fputs(start.terrain.c_str(), stdout);
-  std::fputs(start.design.c_str(), stdout);
-  for (std::size_t m = 0; m < start.standing.size(); ++m) {
-    const vehicle::Stability& stands = start.standing[m];
-    if (!stands.free) continue;
-    const char* name = scene.machines[m].name.c_str();
-    const double tilt = degrees(stands.tilt);
-    if (start.falling[m])
-      std::printf("'%s' does not stand after a second: it is still falling\n", name);
-    else if (stands.margin == 0)
-      std::printf("'%s' stands: tilt %.1f deg, on feet that span no area\n", name, tilt);
-    else
-      std::printf("'%s' stands: tilt %.1f deg, centre of mass %.2f m %s its feet\n", name, tilt,
-                  std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
-  }
-  // A ground that cannot be laid has been told of by the programs' check.
-  for (Fault& fault : start.faults)
-    if (std::none_of(faults.begin(), faults.end(), [&](const Fault& one) { return one.text() == fault.text(); }))
-      faults.push_back(std::move(fault));
-  std::fflush(stdout);
-}
 
 /// Says what follows from a machine's file without standing in it.
 void tell_derived(const std::string& name, const scene::Machine& machine) {
@@ -91,13 +60,11 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     if (machine) tell_derived(machine->name, *machine);
     if (world)
       for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
-    // What only a machine on its ground can tell: the test that a run makes before it starts.
-    if (world)
-      for (Fault& fault : session::check_programs(*world, planner::path_planners())) faults.push_back(std::move(fault));
-    if (world)
-      for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
-    // And what its machines do in their first second.
-    if (world) check_machines(*world, faults);
+    if (world) {
+      run::SceneCheck start = run::check_scene(*world);
+      for (const std::string& note : start.notes) std::cout << note << "\n";
+      std::move(start.faults.begin(), start.faults.end(), std::back_inserter(faults));
+    }
     for (std::size_t i = 0; i < faults.size(); ++i) {
       // On standard output: it is what was asked for.
       std::cout << faults[i].text() << "\n";

@@ -11,27 +11,28 @@
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "planner/path_file.h"
+#include "record/array_recorder.h"
+#include "record/camera_pictures.h"
 #include "record/hash_log.h"
 #include "record/last_words.h"
 #include "record/map_recorder.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
-#include "render/renderer.h"
-#include "sim/frame_builder.h"
 #include "sim/timing.h"
 
 namespace navvy::record {
 
 struct Recorder::State {
-  // Telemetry and frames look at the same session; neither keeps more than a reference.
+  // Its parts look at the same session; none keeps more than a reference.
   State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
         last_words(folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
-        frames(s.world()) {
+        arrays(s, *folder),
+        pictures(s.world()) {
     // A resumed run goes on in its numbers and counts its own speed only.
     status.start_time = s.world().time();
   }
@@ -42,8 +43,8 @@ struct Recorder::State {
   std::unique_ptr<RunFolder> folder;
   LastWords last_words;
   Telemetry telemetry;
-  sim::FrameBuilder frames;
-  std::unique_ptr<render::Renderer> renderer, drawer;  // of frames; without those, of pictures that somebody asks for
+  ArrayRecorder arrays;
+  CameraPictures pictures;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
@@ -56,6 +57,7 @@ struct Recorder::State {
   bool due(double rate) const;
   void sample_when_due();
   void draw_when_due();
+  void record_arrays();
   void hash_when_due();
   void map_when_due();
   void checkpoint(bool force);
@@ -91,8 +93,7 @@ void Recorder::State::write_start() {
   write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
   sample_when_due();
-  // The renderer takes a graphics context, which runs without pictures do not need.
-  if (options.render) renderer = std::make_unique<render::Renderer>();
+  record_arrays();
   draw_when_due();
   if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
   if (!scene.records.empty()) maps = std::make_unique<MapRecorder>(session, *folder);
@@ -125,24 +126,27 @@ void Recorder::State::sample_when_due() {
 }
 
 void Recorder::State::draw_when_due() {
-  // One frame for all cameras of this instant: filling it costs more than a view of it.
-  if (!renderer) return;
-  const auto& cameras = session.world().description().cameras;
+  if (!options.render) return;
   const sim::World& world = session.world();
-  const scene::Frame* frame = nullptr;
-  for (const scene::Camera& camera : cameras) {
-    if (!due(camera.rate)) continue;
-    // Drawing is counted apart: the real-time factor is the simulation's.
-    const Lap lap(status.render_time);
-    if (frame == nullptr) frame = &frames.build();
-    const render::Image image = renderer->render(*frame, frames.camera(camera));
-    // The number of a picture tells its time: name_N.png is N periods from the start.
+  std::vector<const scene::Camera*> cameras;
+  for (const scene::Camera& camera : world.description().cameras)
+    if (due(camera.rate)) cameras.push_back(&camera);
+  // Drawing is counted apart: the real-time factor is the simulation's.
+  const Lap lap(status.render_time);
+  pictures.draw(cameras, [&](const scene::Camera& camera, const render::Image& image) {
+    // The number of a picture gives its time: name_N.png is N periods from the start.
     char name[32];
     const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
     std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(number));
     render::write_png(path("frames/" + camera.name + name), image);
     ++status.frames;
-  }
+  });
+}
+
+void Recorder::State::record_arrays() {
+  if (session.world().arrays().channels().empty()) return;
+  const Lap lap(status.record_time);
+  arrays.observe();
 }
 
 void Recorder::State::hash_when_due() {
@@ -165,6 +169,7 @@ void Recorder::State::checkpoint(bool force) {
   const Lap lap(status.record_time);
   // At most every other second unless it is the last.
   telemetry.checkpoint(force);
+  arrays.checkpoint(force);
   // The hash of a running state costs a pass over everything: only the forced ones pay it.
   if (force || since_summary.seconds() >= rewrite_period(summary_bytes)) write_summary(force);
   // Counted from the end of the writing, or a slow disk would do nothing else.
@@ -183,6 +188,7 @@ void Recorder::State::write_summary(bool with_hash) {
 /// In the order of cost: a full disk is noticed at the cheapest.
 void Recorder::observe() {
   state_->sample_when_due();
+  state_->record_arrays();
   state_->draw_when_due();
   state_->hash_when_due();
   state_->map_when_due();
@@ -191,8 +197,9 @@ void Recorder::observe() {
 
 void Recorder::restart() {
   State& s = *state_;
-  if (!s.maps) return;
   const Lap lap(s.status.record_time);
+  s.arrays.restart();
+  if (!s.maps) return;
   s.maps->restart();
   s.maps->observe();
 }
@@ -231,6 +238,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   // The end of the ground, also of a run that failed: it shows where.
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
+  attempt([&] { s.arrays.checkpoint(true); });
   attempt([&] { s.write_paths(); });
   std::string text;
   bool written = false;
@@ -254,32 +262,11 @@ void Recorder::finish(const std::string& status, const std::string& message) {
 }
 
 render::Image Recorder::draw(const std::string& camera) {
-  State& s = *state_;
-  // One renderer a process: that of the frames serves, or is made for this.
-  if (!s.renderer && !s.drawer) s.drawer = std::make_unique<render::Renderer>();
-  for (const scene::Camera& each : s.session.world().description().cameras)
-    if (each.name == camera) {
-      const Lap lap(s.status.render_time);
-      return (s.renderer ? *s.renderer : *s.drawer).render(s.frames.build(), s.frames.camera(each));
-    }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera, "no camera of this name in the scene", ""});
+  const Lap lap(state_->status.render_time);
+  return state_->pictures.draw(camera);
 }
 
-RunProgress Recorder::progress() const {
-  const State& s = *state_;
-  const sim::World& world = s.session.world();
-  RunProgress out;
-  out.time = world.time();
-  out.duration = world.description().recording.duration;
-  // What a resumed run had done before does not count as its own speed.
-  const double spent = s.total.seconds();
-  out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
-  out.remaining = out.real_time_factor > 0 ? (out.duration - out.time) / out.real_time_factor : 0;
-  out.particles = world.soil_counts().particles;
-  out.cycles = static_cast<int>(s.session.cycles().size());
-  out.frames = s.status.frames;
-  out.phase = world.description().machines.empty() ? "" : s.session.phase(0);
-  return out;
-}
+std::string Recorder::summary(bool with_hash) const { return state_->summary(with_hash); }
+const RunStatus& Recorder::status() const { return state_->status; }
 
 }  // namespace navvy::record

@@ -27,18 +27,10 @@ struct Options {
   std::vector<std::string> command;  ///< that started the run, for run.json
 };
 
-/// What a progress line shows; costs nothing to read.
-struct RunProgress {
-  double time = 0, duration = 0;  ///< simulated, most it may take [s]
-  double real_time_factor = 0;
-  double remaining = 0;  ///< wall time left if the run takes its full duration [s]
-  int particles = 0, cycles = 0, frames = 0;
-  std::string phase;
-};
-
 /// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and at the end only),
-/// telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png, what the scene
-/// records (map_recorder.h) and, after a failure, failed.snapshot. Not thread-safe; draws on the calling thread.
+/// telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif, frames/<camera>_<n>.png, arrays/<name>.npy
+/// of every array output (array_recorder.h), what the scene records (map_recorder.h) and, after a failure,
+/// failed.snapshot. Not thread-safe; draws on the calling thread.
 class Recorder {
  public:
   /// Makes the directory and writes what is known at the start; a `folder` that was taken before is used in its place.
@@ -58,9 +50,13 @@ class Recorder {
   /// summary says so.
   /// @throws FileError for that file, unless the run had failed before.
   void finish(const std::string& status, const std::string& message = "");
-  RunProgress progress() const;
-  /// What a camera of the scene sees now, for whoever asks; counts as no frame. @throws Error when nothing can be
-  /// drawn, InputError for a name that is no camera's.
+  /// Returns the text of summary.json as it would be now. The state's hash costs a pass over the state; without it
+  /// `state_hash` is null.
+  std::string summary(bool with_hash) const;
+  /// Returns how the run stands: its times and the number of pictures so far.
+  const RunStatus& status() const;
+  /// Returns what a camera of the scene sees now; the picture is not written and not counted. @throws Error when
+  /// nothing can be drawn, InputError for a name that is no camera's.
   render::Image draw(const std::string& camera);
 
  private:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 cmake_minimum_required(VERSION 3.25)
-# cmake -DPROJECT=headers|minimal -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
+# cmake -DPROJECT=headers|embedded -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
 set(work ${BINARY_DIR}/install-test/${PROJECT})
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -21,7 +21,7 @@ if(count LESS 15)
   message(FATAL_ERROR "only ${count} headers were installed")
 endif()
 
-# A foreign project: one source a header, or a copy of examples/minimal.
+# A foreign project: one source a header, or a copy of examples/embedded.
 if(PROJECT STREQUAL "headers")
   set(sources "")
   foreach(header IN LISTS headers)
@@ -38,10 +38,13 @@ endif()
 run(${CMAKE_COMMAND} -S ${work}/source -B ${work}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${work}/build -j 2)
-if(PROJECT STREQUAL "minimal")
-  run(${work}/build/minimal)
-  if(NOT output MATCHES "boom")
-    message(FATAL_ERROR "the example did not say where the boom is:\n${output}")
+if(PROJECT STREQUAL "embedded")
+  run(${CMAKE_COMMAND} -E env NAVVY_DATA_DIR=${prefix}/share/navvy ${work}/build/embedded ${work}/out)
+  if(NOT output MATCHES "after the reset")
+    message(FATAL_ERROR "the example did not report the heights:\n${output}")
+  endif()
+  if(NOT EXISTS ${work}/out/summary.json OR NOT EXISTS ${work}/out/telemetry.csv)
+    message(FATAL_ERROR "the example did not record its run")
   endif()
   message("${output}")
 endif()

@@ -40,9 +40,10 @@ const std::map<std::string, Names>& arrows() {
       {"sensor", {"sim", "geometry"}},
       {"planner", {"sim", "heightfield", "control"}},
       {"record", {"session", "planner", "sensor", "render"}},
-      {"cli", {"record", "lab", "bench", "scene_io"}},
-      {"python", {"record", "lab", "bench", "scene_io"}},
-      {"link", {"record", "lab", "bench", "scene_io"}},
+      {"run", {"session", "record", "sensor", "planner"}},
+      {"link", {"run", "scene_io"}},
+      {"cli", {"link", "lab", "bench", "scene_io"}},
+      {"python", {"link", "lab", "bench", "scene_io"}},
   };
   return table;
 }
@@ -155,7 +156,7 @@ std::vector<std::string> check(const SourceFile& file) {
 /// Clients of a world: they see it through handles, channels and samplers.
 const Names& clients() {
   static const Names table = {"src/record",  "src/session", "src/control", "src/cli", "src/sensor",
-                              "src/planner", "src/python",  "src/link",    "examples"};
+                              "src/planner", "src/run",     "src/python", "src/link", "examples"};
   return table;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/control_stdio.h"
+#include "link/control_stdio.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 #include "core/error.h"
 #include "sim/timing.h"
 
-namespace navvy::cli {
+namespace navvy::link {
 
 using nlohmann::json;
 
@@ -27,7 +27,8 @@ constexpr std::size_t kLongestName = 1000;
 constexpr std::string_view kSeverity = "error: ";
 constexpr int kPatience = 100;  // between two looks at `stop` [ms]
 
-/// Brackets and braces that are open at once, strings apart; counted before the parser, which builds them all.
+/// Brackets and braces that are open at once, strings apart; counted before the parser, which
+/// builds them all.
 int nesting(const std::string& line) {
   int depth = 0, deepest = 0;
   bool text = false;
@@ -46,14 +47,16 @@ int nesting(const std::string& line) {
 }
 
 InputError fault(const std::string& element, const std::string& value, const std::string& rule) {
-  return InputError(Fault{Fault::Severity::kError, "", 0, element, value, rule,
-                          R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
+  return InputError(
+      Fault{Fault::Severity::kError, "", 0, element, value, rule,
+            R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
 }
 
 /// A line as the object it must be.
 json parsed(const std::string& line) {
   if (nesting(line) > ControlStdio::kDeepestNesting)
-    throw fault("line", shown(line), "must nest at most " + std::to_string(ControlStdio::kDeepestNesting) + " deep");
+    throw fault("line", shown(line),
+                "must nest at most " + std::to_string(ControlStdio::kDeepestNesting) + " deep");
   // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
   json in = json::parse(line, nullptr, false);
   if (!in.is_object()) throw fault("line", shown(line), "must be one JSON object");
@@ -61,20 +64,23 @@ json parsed(const std::string& line) {
 }
 
 /// One line of text; bytes that are no UTF-8 are replaced.
-std::string line_of(const json& out) { return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"; }
+std::string line_of(const json& out) {
+  return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace
 
-/// The base step was made to divide the period; after a snapshot with another base step exchanges take the nearest
-/// step.
-ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk)
+/// The base step was made to divide the period; after a snapshot with another base step exchanges
+/// take the nearest step.
+ControlStdio::ControlStdio(run::Simulation& simulation, double rate, std::function<bool()> stop,
+                           ControlServices services)
     : stop_(std::move(stop)),
-      session_(session),
-      world_(session.world()),
+      simulation_(simulation),
       rate_(rate),
-      requests_(session, rate, std::move(desk)) {}
+      requests_(simulation, rate, services) {}
 
-/// The next line without its end. Every byte is looked at once, whatever the pieces that it comes in.
+/// The next line without its end. Every byte is looked at once, whatever the pieces that it comes
+/// in.
 ControlStdio::Read ControlStdio::read_line(std::string& line) {
   // Not through std::cin: a signal that comes just before a blocking read would be lost in it.
   for (;;) {
@@ -122,7 +128,8 @@ bool ControlStdio::say(const std::string& line) {
     if (stop_()) return false;
     if (ready <= 0) continue;
     // A ready pipe takes so much without blocking.
-    const ssize_t put = write(STDOUT_FILENO, line.data() + at, std::min<std::size_t>(line.size() - at, PIPE_BUF));
+    const ssize_t put =
+        write(STDOUT_FILENO, line.data() + at, std::min<std::size_t>(line.size() - at, PIPE_BUF));
     if (put < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (put < 0) {
       gone_ = "the controller closed standard output";
@@ -135,16 +142,15 @@ bool ControlStdio::say(const std::string& line) {
 
 bool ControlStdio::say_outputs() {
   json out;
-  out["time"] = world_.time();
+  out["time"] = simulation_.time();
   json& values = out["outputs"];
-  for (std::size_t i = 0; i < world_.outputs().size(); ++i)
-    values[world_.outputs()[i].name] = world_.get(static_cast<int>(i));
+  for (std::size_t i = 0; i < simulation_.outputs().size(); ++i)
+    values[simulation_.outputs()[i].name] = simulation_.get(static_cast<int>(i));
   return say(line_of(out));
 }
 
 bool ControlStdio::answer(const json& request) {
   const json said = requests_.answer(request);
-  moved_ = moved_ || requests_.moved();
   if (!say(line_of(said))) return false;
   // Inputs that follow belong to the state as it is now.
   return !requests_.moved() || say_outputs();
@@ -152,7 +158,7 @@ bool ControlStdio::answer(const json& request) {
 
 /// Outputs first, then inputs: the controller answers what it has just been told.
 bool ControlStdio::exchange() {
-  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return true;
+  if (!sim::sample_due(simulation_.world().steps(), simulation_.world().dt(), rate_)) return true;
   if (!say_outputs()) return false;
   // Lock step: simulated time stands still until a usable answer is there.
   for (;;) {
@@ -182,22 +188,25 @@ bool ControlStdio::exchange() {
 bool ControlStdio::obey(const json& in) {
   // A misspelt key would otherwise be an input that never arrives.
   for (const auto& [key, value] : in.items())
-    if (key != "inputs" && key != "end") throw fault(key, shown(value), "must be 'inputs' or 'end', or a request");
-  if (in.contains("end") && !in["end"].is_boolean()) throw fault("end", shown(in["end"]), "must be true or false");
+    if (key != "inputs" && key != "end")
+      throw fault(key, shown(value), "must be 'inputs' or 'end', or a request");
+  if (in.contains("end") && !in["end"].is_boolean())
+    throw fault("end", shown(in["end"]), "must be true or false");
   std::vector<std::pair<int, double>> inputs;
   if (in.contains("inputs")) {
-    if (!in["inputs"].is_object()) throw fault("inputs", shown(in["inputs"]), "must be an object of names and numbers");
+    if (!in["inputs"].is_object())
+      throw fault("inputs", shown(in["inputs"]), "must be an object of names and numbers");
     for (const auto& [name, value] : in["inputs"].items()) {
       // No channel's name is so long, and looking for the nearest one costs time.
       if (name.size() > kLongestName) throw fault(shown(name), shown(value), "is no input");
       if (!value.is_number() || !std::isfinite(value.get<double>()))
         throw fault(shown(name), shown(value), "must be a number");
       // By name each time: controllers send few inputs, and the map is fast.
-      inputs.emplace_back(world_.input(name), value.get<double>());
+      inputs.emplace_back(simulation_.input(name), value.get<double>());
     }
   }
-  for (const auto& [input, value] : inputs) session_.set(input, value);
+  for (const auto& [input, value] : inputs) simulation_.set(input, value);
   return !in.value("end", false);
 }
 
-}  // namespace navvy::cli
+}  // namespace navvy::link

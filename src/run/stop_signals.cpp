@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stop_signals.h"
+#include "run/stop_signals.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -8,44 +8,31 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <utility>
 
-#include "cli/exit_code.h"
 #include "device/kernel_cache.h"
 #include "record/last_words.h"
 
-namespace navvy::cli {
+namespace navvy::run {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// The first and the second are told apart from one that came twice: `timeout` and other wrappers signal a process and
-// then its group.
+// Signals that are closer count as one: `timeout` and other wrappers signal a process and then its
+// group.
 constexpr int kTwice = 500;  // [ms]
 
 std::atomic<int> signals{0}, last{0};
 int wake[2] = {-1, -1};
 sigset_t before;
 
-[[noreturn]] void leave(bool again) {
-  record::leave_last_words("interrupted",
-                           again ? "stopped from outside a second time: what was not written by then is missing"
-                                 : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
-                                   "not answer; results are those of the last checkpoint");
-  std::fputs(again ? "interrupted: by a second signal, nothing more is waited for\n"
-                   : "interrupted: the OpenCL driver is busy and is not waited for\n",
-             stderr);
-  device::abandon_kernel_cache();
-  _exit(kInterrupted);
-}
-
 }  // namespace
 
-// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which delete what they
-// are writing before they pass the signal on, and the build then fails as if the kernels were wrong. Blocked here,
-// before any other thread is there to inherit it, the signals wait for the one thread that asks for them.
-StopSignals::StopSignals() {
+// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which
+// delete what they are writing before they pass the signal on, and the build then fails as if the
+// kernels were wrong. Blocked here, before any other thread is there to inherit it, the signals
+// wait for the one thread that asks for them.
+StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
   signals = last = 0;
   if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
   sigset_t wanted;
@@ -67,7 +54,8 @@ StopSignals::~StopSignals() {
   const char byte = 0;
   if (::write(wake[1], &byte, 1) < 0) over_ = true;  // the thread looks up by itself
   watcher_.join();
-  // The second of two at once may still be on its way, and would end the process by itself before its status is told.
+  // The second of two at once may still be on its way, and would end the process by itself before
+  // its status is told.
   if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
 }
@@ -75,9 +63,21 @@ StopSignals::~StopSignals() {
 bool StopSignals::asked() { return signals > 0; }
 
 std::string StopSignals::name() {
-  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}})
+  for (const auto& [signal, name] :
+       {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}})
     if (last == signal) return name;
   return "";
+}
+
+void StopSignals::leave(bool again) {
+  record::leave_last_words(
+      "interrupted", again ? "stopped by a second signal: what was not written by then is missing"
+                           : "stopped by a signal while the OpenCL driver was busy: it compiles "
+                             "kernels or does not answer; results "
+                             "are those of the last checkpoint");
+  device::abandon_kernel_cache();
+  leave_(again ? "a second signal came: the run does not wait any longer"
+               : "the OpenCL driver is busy: the run does not wait for it");
 }
 
 void StopSignals::watch() {
@@ -102,4 +102,4 @@ void StopSignals::watch() {
   }
 }
 
-}  // namespace navvy::cli
+}  // namespace navvy::run

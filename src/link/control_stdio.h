@@ -7,31 +7,31 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <utility>
 
-#include "cli/control_requests.h"
+#include "link/control_requests.h"
 
-namespace navvy::cli {
+namespace navvy::link {
 
-/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line {"inputs": {name:
-/// value}} (only the inputs that change; the first one of a machine takes it from its program). {"end": true} ends the
-/// run.
+/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line
+/// {"inputs": {name: value}} (only the inputs that change; the first one of a machine takes it from
+/// its program). {"end": true} ends the run.
 ///
-/// Any number of requests may come before that line (control_requests.h); each is answered by one line. After one that
-/// puts the session into another state the outputs are printed again.
+/// Any number of requests may come before that line (control_requests.h); each is answered by one
+/// line. After one that puts the session into another state the outputs are printed again.
 ///
-/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...}; simulated time stands still
-/// until one comes that can be used. A controller that goes away, closing either stream, ends the run too.
+/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...};
+/// simulated time stands still until one comes that can be used. A controller that goes away,
+/// closing either stream, ends the run too.
 class ControlStdio {
  public:
   /// @param stop asked while it waits for its controller: true ends the wait
-  ControlStdio(session::Session& session, double rate, std::function<bool()> stop, ControlDesk desk = {});
-  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone, or `stop` said so.
+  ControlStdio(run::Simulation& simulation, double rate, std::function<bool()> stop,
+               ControlServices services = {});
+  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone,
+  /// or `stop` said so.
   bool exchange();
   /// How the controller went away without {"end": true}; empty while it is there.
   const std::string& gone() const { return gone_; }
-  /// Whether the session was put into another state (reset, load) since this was asked last.
-  bool take_moved() { return std::exchange(moved_, false); }
 
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20;  ///< [bytes]
   static constexpr int kDeepestNesting = 8;                          ///< a line needs 2
@@ -52,12 +52,10 @@ class ControlStdio {
   bool skipping_ = false;    ///< within a line that is too long
   bool ended_ = false;       ///< nothing more will come
   std::string gone_;
-  bool moved_ = false;  ///< since `take_moved`
-  session::Session& session_;
-  const sim::World& world_;
+  run::Simulation& simulation_;
   double rate_;  ///< of exchanges [1/s]
   ControlRequests requests_;
   std::uint64_t lines_ = 0;
 };
 
-}  // namespace navvy::cli
+}  // namespace navvy::link
