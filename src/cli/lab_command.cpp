@@ -26,6 +26,7 @@
 #include "lab/sweep.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 
 namespace navvy::cli {
 namespace {
@@ -120,20 +121,6 @@ std::string did_you_mean(const std::vector<std::string>& names, const std::strin
   return "did you mean '" + nearest_name(names, wanted) + "'?";
 }
 
-/// The shipped soil of this name. @throws InputError naming the nearest.
-scene::Soil shipped_soil(const std::string& name) {
-  const std::string directory = scene_io::find_data("terrain/soils");
-  std::vector<std::string> names;
-  if (!directory.empty())
-    for (const scene::Soil& soil : scene_io::load_soils(directory)) {
-      if (soil.name == name) return soil;
-      names.push_back(soil.name);
-    }
-  // Without the data there is nothing to be near to: say how to find it.
-  throw refused("--soil", name, "a soil that `navvy soils` lists",
-                names.empty() ? "set NAVVY_DATA_DIR" : did_you_mean(names, name));
-}
-
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& setting) {
   const auto [name, text] = scene_io::parse_setting(setting);
@@ -161,7 +148,7 @@ double given(const LabOptions& options, const std::string& name) {
 
 /// The rig's soil, or a shipped one, changed as the options say; later kinds of option win over earlier ones.
 scene::Soil chosen_soil(const LabOptions& options, scene::Soil soil) {
-  if (!options.soil.empty()) soil = shipped_soil(options.soil);
+  if (!options.soil.empty()) soil = scene_io::shipped_soil(options.soil, "--soil");
   // An angle of repose first: a phi given beside it wins.
   const double cohesion_before = soil.cohesion, residual_before = soil.residual_cohesion;
   const double repose = given(options, "--repose-deg"), cohesion = given(options, "--cohesion-pa");

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,35 +18,10 @@
 #include "core/math.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 
 namespace navvy::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// The first comment of a file that is no licence line, on one line: what its author says of it.
-std::string first_comment(const std::string& path) {
-  std::ifstream in(path);
-  std::string text(4096, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 4)) {
-    const std::size_t end = text.find("-->", at);
-    if (end == std::string::npos) break;
-    std::string comment = text.substr(at + 4, end - at - 4);
-    if (comment.find("SPDX") != std::string::npos) continue;
-    // Blanks and line ends become single blanks.
-    std::string out;
-    for (const char c : comment) {
-      const bool blank = c == ' ' || c == '\n' || c == '\r' || c == '\t';
-      if (blank && (out.empty() || out.back() == ' ')) continue;
-      out += blank ? ' ' : c;
-    }
-    while (!out.empty() && out.back() == ' ') out.pop_back();
-    return out;
-  }
-  return "";
-}
 
 int list(const std::map<std::string, std::string>& files, const char* what) {
   if (files.empty())
@@ -57,27 +30,14 @@ int list(const std::map<std::string, std::string>& files, const char* what) {
   std::size_t width = 0;
   for (const auto& [name, path] : files) width = std::max(width, name.size());
   for (const auto& [name, path] : files)
-    std::printf("%-*s  %s\n", static_cast<int>(width), name.c_str(), first_comment(path).c_str());
+    std::printf("%-*s  %s\n", static_cast<int>(width), name.c_str(), scene_io::description_of(path).c_str());
   return kOk;
 }
 
 int scenes() { return list(shipped_scenes(), "scenes"); }
 
-/// Files of the shipped machines by name.
-std::map<std::string, std::string> all_machines() {
-  std::map<std::string, std::string> files;
-  std::error_code ignored;
-  for (const std::string& directory : scene_io::data_directories())
-    for (const auto& entry : fs::directory_iterator(directory + "/vehicles", ignored)) {
-      const std::string model = (entry.path() / "model.sdf").string();
-      // The first data directory that has it, as model://NAME finds it.
-      if (fs::exists(model, ignored)) files.emplace(entry.path().filename().string(), model);
-    }
-  return files;
-}
-
 int machines() {
-  const int code = list(all_machines(), "machines");
+  const int code = list(scene_io::shipped_machines(), "machines");
   std::printf("Put one into a scene by <include><uri>model://NAME</uri></include> (scenarios/README.md).\n");
   return code;
 }
@@ -125,7 +85,7 @@ void tell_drive(const scene::Drive& drive) {
 
 /// What it weighs, what moves, what it takes up and what drives it.
 int one_machine(const std::string& name) {
-  const std::map<std::string, std::string> files = all_machines();
+  const std::map<std::string, std::string> files = scene_io::shipped_machines();
   const auto found = files.find(name);
   if (found == files.end()) {
     std::vector<std::string> names;
@@ -137,7 +97,7 @@ int one_machine(const std::string& name) {
   const scene::Machine machine = scene_io::load_machine(found->second);
   double mass = 0;
   for (const scene::Link& link : machine.links) mass += link.mass;
-  std::printf("%s\n  %s\n  file: %s\n  mass: %.0f kg%s\n", name.c_str(), first_comment(found->second).c_str(),
+  std::printf("%s\n  %s\n  file: %s\n  mass: %.0f kg%s\n", name.c_str(), scene_io::description_of(found->second).c_str(),
               found->second.c_str(), mass,
               machine.kinematic    ? "; moved by its joints' positions, without dynamics"
               : machine.fixed_base ? "; its base is fixed"
@@ -171,20 +131,11 @@ int one_machine(const std::string& name) {
   return kOk;
 }
 
-std::vector<scene::Soil> all_soils() {
-  // The first data directory that has them, as a scene would find them.
-  const std::string directory = scene_io::find_data("terrain/soils");
-  if (directory.empty())
-    throw InputError(Fault{Fault::Severity::kError, "terrain/soils", 0, "", "", "the shipped soils were not found",
-                           "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
-  return scene_io::load_soils(directory);
-}
-
 int soils() {
   std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg", "c kPa", "c_r kPa",
               "E MPa", "source");
   // In units that people use for soil; the files have SI with the unit in each name.
-  for (const scene::Soil& soil : all_soils())
+  for (const scene::Soil& soil : scene_io::shipped_soils())
     std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(), soil.bank_density / 1000,
                 soil.swell, degrees(soil.friction_angle), soil.cohesion / 1000, soil.residual_cohesion / 1000,
                 soil.young_modulus / 1e6, soil.source.c_str());
@@ -192,26 +143,20 @@ int soils() {
   return kOk;
 }
 
-/// Every value under its name in scene files, which ends in its unit: lines that can be copied into a scene.
+/// Prints every value of a soil under its name in scene files, ready to be copied into a scene.
 int one_soil(const std::string& name) {
-  std::vector<std::string> names;
-  for (const scene::Soil& soil : all_soils()) {
-    names.push_back(soil.name);
-    if (soil.name != name) continue;
-    std::printf("%s\n  source: %s\n", soil.name.c_str(), soil.source.c_str());
-    for (const scene::SoilValue& value : scene::soil_values())
-      std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low, value.high);
-    std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]), static_cast<double>(soil.color[1]),
-                static_cast<double>(soil.color[2]));
-    std::printf("  young_modulus_pa is %s; %.2f times the steps of 1 MPa\n",
-                soil.young_modulus == scene::default_stiffness(soil.cohesion) ? "the default of its cohesion"
-                                                                              : "its own, not 200 x its cohesion",
-                std::sqrt(soil.young_modulus / 1e6));
-    if (const auto soft = scene::too_soft(soil)) std::printf("  %s\n", soft->text().c_str());
-    return kOk;
-  }
-  throw InputError(
-      Fault{Fault::Severity::kError, "", 0, "soils", name, "no such shipped soil", suggestion(name, names)});
+  const scene::Soil soil = scene_io::shipped_soil(name, "soils");
+  std::printf("%s\n  source: %s\n", soil.name.c_str(), soil.source.c_str());
+  for (const scene::SoilValue& value : scene::soil_values())
+    std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low, value.high);
+  std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]), static_cast<double>(soil.color[1]),
+              static_cast<double>(soil.color[2]));
+  std::printf("  young_modulus_pa is %s; %.2f times the steps of 1 MPa\n",
+              soil.young_modulus == scene::default_stiffness(soil.cohesion) ? "the default of its cohesion"
+                                                                            : "its own, not 200 x its cohesion",
+              std::sqrt(soil.young_modulus / 1e6));
+  if (const auto soft = scene::too_soft(soil)) std::printf("  %s\n", soft->text().c_str());
+  return kOk;
 }
 
 }  // namespace
